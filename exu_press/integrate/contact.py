@@ -7,35 +7,46 @@ import numpy as np
 
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import SWITCHED, Task
+from exu_press.integrate.start import forces
 
 __all__ = ["Gaps", "Settling", "fit_data"]
 
 CLOSED = -1e-300
 """A gap that is closed, m, and by which nothing is deformed."""
 
+FELT = 1e-6
+"""Part of all forces that more than rounding makes."""
+
 LATE = 10
 """Steps for which switches are expected not to settle after one in which they have not."""
 
 
-def fit_data(task: Task) -> None:
-    """Let data variables fit the start, where contact or friction would never give up a guess.
+def fit_data(task: Task) -> bool:
+    """Let data variables fit the start; return whether contacts push otherwise than Exudyn assumed.
 
-    Most contacts of Exudyn's compare with what the last iteration found: they mend a wrong guess in
-    the first step, and tell by it the speed with which surfaces meet. Some, as of convex rolls,
-    compare with the step's start alone, so that a first step with another gap than the guessed one
-    would never settle, however short: they deny what they have found themselves.
+    Exudyn's accelerations at the start are those of no contact. Surfaces that are pressed together,
+    as in a preloaded bearing, would push from the second step on: a jump that no step is short
+    enough for.
+
+    Without such forces most contacts compare with what the last iteration found: they mend a wrong
+    guess in the first step, and tell by it the speed with which surfaces meet. Some, as of convex
+    rolls, compare with the step's start alone, so that a first step with another gap than the
+    guessed one would never settle, however short: they deny what they have found themselves.
     """
     data, where = task.problem.data, exu.ConfigurationType
     guess = np.array(data.GetDataCoordinates(where.Current))
     if not len(guess):
-        return
-    mbs = task.problem.mbs
+        return False
+    mbs, assumed = task.problem.mbs, forces(task)
     for _ in range(2):
         denied = task.solver.PostNewton(mbs, mbs.sys["simulationSettings"])
-    if denied > SWITCHED:
+    pushing = forces(task)
+    otherwise = bool(np.linalg.norm(pushing - assumed) > FELT * np.linalg.norm(pushing))
+    if otherwise or denied > SWITCHED:
         data.SetDataCoordinates(data.GetDataCoordinates(where.Current), where.StartOfStep)
     else:
         data.SetDataCoordinates(guess, where.Current)
+    return otherwise
 
 
 class Settling:
@@ -52,7 +63,10 @@ class Settling:
         """Take a task."""
         self._iteration: Any = task.solver.it
         self._ignored, self._most = task.unsettled, task.iterations
+        self._switches: Any = task.switches if task.problem.switching else None
+        self._no_shorter, self._shorter = task.no_shorter, True  # whether steps may be shortened
         self._late = 0  # steps to come in which it is expected
+        self.switched = 0
 
     @property
     def _last(self) -> bool:
@@ -64,11 +78,15 @@ class Settling:
         """Return whether switches do not settle, in this step or of late."""
         return self._late > 0 or self._last
 
-    def judged(self, accepted: bool) -> None:
-        """Be told whether an iteration's step is accepted; Exudyn would take the last one anyway.
+    def judged(self, accepted: bool, step: float) -> None:
+        """Be told whether an iteration's step (s) is accepted.
 
-        That is no longer the last one where it counts one less.
+        Exudyn would take the last one anyway. That is no longer the last one where it counts one
+        less.
         """
+        shorter = not accepted or step > self._no_shorter
+        if shorter != self._shorter and self._switches is not None:
+            self._shorter = self._switches.useRecommendedStepSize = shorter
         if self._last:
             self._late = LATE
             if not accepted:
@@ -76,9 +94,13 @@ class Settling:
 
     def accept(self) -> None:
         """Be told that Exudyn has taken the step."""
+        if self._switches is None:
+            return
+        iterations = self._iteration.discontinuousIteration
+        if iterations > 1:
+            self.switched += 1
         if self._late:
-            switched = self._iteration.discontinuousIteration > 2
-            self._late = LATE if switched else self._late - 1
+            self._late = LATE if iterations > 2 else self._late - 1
 
 
 class Gaps:

@@ -28,6 +28,15 @@ EXUDYN_ENDS = 1e-10
 """Before its end, at most how early Exudyn ends a run, s."""
 
 
+RESTLESS = 0.1
+"""Part of the steps with a switch, above which switches decide about the steps."""
+
+CALMER = (
+    "less stiffness, more damping, or friction that is regularised over a wider zone of speeds "
+    "(frictionProportionalZone, dryFrictionProportionalZone)"
+)
+"""What makes contacts and friction of Exudyn's switch less."""
+
 ARRIVED = "arrived"
 """A watch's word for a run that has reached its aim: it is completed."""
 
@@ -158,7 +167,7 @@ def how_it_ended(
     if monitor.over_budget:
         return SolverStatus.TOO_MANY_STEPS, (
             f"{monitor.max_steps} steps were used up {where}, {gone:.1%} of the run; try "
-            f"{advice.budget()}{advice.cause()}"
+            f"{advice.budget()}{advice.cause()}{_restless(monitor)}"
         )
     for joint, ratio in _spent_films(problem):
         return SolverStatus.FILM_BROKE_DOWN, (
@@ -198,12 +207,19 @@ def _what_is_wrong(task: Task, monitor: Monitor, advice: Advice, time: float) ->
         return f"nothing holds the coordinates without mass ({', '.join(names)})"
     if problem.switching and task.solver.it.discontinuousIteration > 1:
         return (
-            "contacts or friction of Exudyn's switch to and fro in steps of any size; try less "
-            "stiffness, more damping, friction that is regularised over a wider zone of speeds "
-            "(dryFrictionProportionalZone), or settings.timeIntegration.discontinuous."
-            "ignoreMaxIterations = True, with which steps are taken as such switches leave them"
+            f"contacts or friction of Exudyn's switch to and fro in steps of any size; try {CALMER}"
+            ", or settings.timeIntegration.discontinuous.ignoreMaxIterations = True, with which "
+            "steps are taken as such switches leave them"
         )
     return ""
+
+
+def _restless(monitor: Monitor) -> str:
+    """Return that contacts or friction of Exudyn's switch all the time, if they do."""
+    part = monitor.switched_steps / max(monitor.steps, 1)
+    if part < RESTLESS:
+        return ""
+    return f"; contacts or friction of Exudyn's switched in {part:.0%} of the steps: {CALMER}"
 
 
 def _redundancy(task: Task, monitor: Monitor, advice: Advice) -> str:

@@ -171,7 +171,8 @@ class Monitor:
             resting = not self._accelerations.any()  # or Exudyn's sparse solver found none
             found = start_without_mass(task, self.constraints) if resting else None
             fitted = fit_start(task, self.constraints) or found
-            fit_data(task)
+            if fit_data(task):
+                fitted = fit_start(task, self.constraints, pushed=True)
             if fitted is not None:
                 self._step_change.start_from(*fitted)
                 self._estimate.start = fitted[0].tolist()
@@ -186,6 +187,11 @@ class Monitor:
     def first_jump(self) -> float:
         """Return by how much speeds jump in a first step that no size makes good, m/s, or 0.0."""
         return 0.0 if self.steps else self._estimate.change_of_speed()
+
+    @property
+    def switched_steps(self) -> int:
+        """Accepted steps within which contacts or friction of Exudyn's have switched."""
+        return self._settling.switched
 
     def _before_step(self, mbs: exu.MainSystem, end: float) -> bool:
         """Return whether to go on."""
@@ -228,12 +234,13 @@ class Monitor:
 
     def _after_newton(self, mbs: exu.MainSystem, end: float) -> list[float]:
         """Return [0, -1] to accept the step, or [2, step] to have it repeated."""
-        ours = self._judged(end - self._time)
-        self._settling.judged(ours is ACCEPTED)
+        step = end - self._time
+        ours = self._judged(step)
+        self._settling.judged(ours is ACCEPTED, step)
         if not self._users[2]:
             return ours
-        error, step = self._users[2](mbs, end)
-        steps = [size for size in (ours[1], step) if size > 0.0]
+        error, theirs = self._users[2](mbs, end)
+        steps = [size for size in (ours[1], theirs) if size > 0.0]
         return [max(ours[0], error), min(steps, default=-1.0)]
 
     def _judged(self, step: float) -> list[float]:

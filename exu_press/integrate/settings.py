@@ -150,11 +150,14 @@ class Task:
         largest: step, s.
         usual: size of the longest steps of such a motion, s.
         smallest: step, s.
+        no_shorter: up to which a step cannot be shorter, s: it is told as a difference of two
+            times, whose last digits are rounded.
         first: step, s.
         impacts: whether bodies may strike each other, in clearance joints or Exudyn's contacts.
         every_jacobian: whether each step gets a fresh one: impacts change it all the time, and in
             small systems it costs little.
         spectral_radius: at infinity, of generalized-alpha.
+        switches: Exudyn's settings of iterations on them.
         iterations: on switches, that a step is given at most.
         unsettled: whether a step counts whose switches have not settled by then.
     """
@@ -188,12 +191,14 @@ class Task:
             usual = of_film if problem.lubricated else FIRST_STEP * largest
             self.first = max(integration.initialStepSize or usual, self.smallest)
         self.first = min(self.first, largest)
+        latest = max(abs(self.start), abs(self.end))
+        self.no_shorter = self.smallest * (1.0 + SAME) + 2.0 * math.ulp(latest)
         self.impacts = problem.joints is not None or problem.switching
         costly = len(problem.reference) >= LARGE or problem.forces_in_python
         self.every_jacobian = self.fixed or self.impacts or not costly
-        discontinuous = settings.timeIntegration.discontinuous
-        self.iterations = discontinuous.maxIterations if problem.switching else 1
-        ignored = problem.switching and discontinuous.ignoreMaxIterations
+        self.switches = integration.discontinuous
+        self.iterations = self.switches.maxIterations if problem.switching else 1
+        ignored = problem.switching and self.switches.ignoreMaxIterations
         self.unsettled = ignored and not self.fixed
         stir = tuning.rounding / (1.0 - min(self.spectral_radius, LARGEST_RADIUS)) ** 2
         self.absolute = absolute

@@ -10,7 +10,7 @@ from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.linear import Equations
 
-__all__ = ["fit_jump", "fit_start", "start_rates", "start_without_mass"]
+__all__ = ["fit_jump", "fit_start", "forces", "start_rates", "start_without_mass"]
 
 LOOK_AHEAD = 0.01
 """Time ahead of the start at which constraints are evaluated, over the largest step; motions are
@@ -24,6 +24,9 @@ FITS = 1e-14, 1e-6, 1e-6
 are moved: differences are rounded. Forces of constraints go as violations over the square of a
 step: on a ton, 1e-13 m are 20 kN in a step of 0.1 us."""
 
+ROUNDED = 4e-15
+"""Violations that are rounding, over the length, in the sum of those of a few instants."""
+
 DEFORMS = 1e-8
 """Violation at the start, over the length, from which bodies are not to be deformed to fit: less
 is rounding, and makes speeds of micrometres a second."""
@@ -35,14 +38,21 @@ MASSLESS = 1e-12
 """Over the largest mass, up to which a coordinate has none."""
 
 
+def forces(task: Task) -> Array:
+    """Return the forces on the coordinates in the current state, without those of constraints."""
+    task.solver.ComputeODE2RHS(task.problem.mbs)
+    return np.array(task.solver.GetSystemResidual())[: len(task.problem.current.positions)]
+
+
 class _Start:
     """The current state at a time, s, and its constraints there and soon after."""
 
     def __init__(self, task: Task, constraints: Constraints, time: float) -> None:
+        self._task, self._constraints = task, constraints
         self._data, self._current = task.problem.data, task.problem.current
-        self._constraints = constraints
         self._solver, self._mbs = task.solver, task.problem.mbs
         self._start, self._ahead = time, LOOK_AHEAD * task.largest
+        self.length = task.problem.length or 1.0
         self.q = np.array(self._current.positions)
         self.v = np.array(self._current.velocities)
         self.a = np.array(self._current.accelerations)
@@ -76,19 +86,24 @@ class _Start:
         second = (2.0 * now - 5.0 * one + 4.0 * two - three) / (h * h)
         return first, second, (three - 3.0 * two + 3.0 * one - now) / (h * h * h)
 
-    def fitted(self, vector: Array, missing: Callable[[Array], Array], fits: float) -> Array:
+    def fitted(self, vector: Array, missing: Callable[[Array], Array], order: int) -> Array:
         """Return the nearest vector, in the kinetic norm, with which nothing is missing.
+
+        A relative change by FITS is rounding, and one that rounded differences make; so is one that
+        does not shrink.
 
         Args:
             vector: velocities or accelerations; itself where it fits.
             missing: of them: what the constraints' rates are off by.
-            fits: relative change that is rounding; so is one that does not shrink.
+            order: of the rates.
         """
-        last = math.inf
+        last, fits = math.inf, FITS[order]
+        rounded = np.full(len(self.held), ROUNDED * self.length / self._ahead**order)
+        least = self._norm(self.undone(rounded))
         for _ in range(START_ITERATIONS):
             change = self.undone(missing(vector))
             size = self._norm(change)
-            if size <= fits * self._norm(vector - change) or size > SHRINKS * last:
+            if size <= max(least, fits * self._norm(vector - change)) or size > SHRINKS * last:
                 break
             vector, last = vector - change, size
         return vector
@@ -121,17 +136,18 @@ class _Start:
     def pushed(self) -> Array:
         """Return the accelerations of the forces in the state, if constraints stood still."""
         self.put()
-        self._solver.ComputeODE2RHS(self._mbs)
-        forces = np.array(self._solver.GetSystemResidual())[: len(self.q)]
-        return self._solved(forces, np.zeros(len(self.held)))
+        return self._solved(forces(self._task), np.zeros(len(self.held)))
 
-    def fit_rates(self, *, moved: bool) -> Array:
+    def fit_rates(self, *, pushed: bool) -> Array:
         """Let velocities and accelerations fit; return what of their rate constraints prescribe.
 
+        Accelerations that fit are left alone: differences tell them to fewer digits.
+
         Args:
-            moved: whether springs and contacts push otherwise than by the given accelerations.
+            pushed: whether forces are others than the given accelerations belong to.
         """
-        held, accelerations, self.a = self.held, self.a, np.zeros_like(self.a)
+        held, velocities, accelerations = self.held, self.v, self.a
+        self.a = np.zeros_like(accelerations)
 
         def of_velocities(velocities: Array) -> Array:
             self.v = velocities
@@ -142,28 +158,43 @@ class _Start:
             first, second, _ = self.rates()
             return np.where(held, second, first)
 
-        self.v = self.fitted(self.v, of_velocities, FITS[1])
-        self.a = self.fitted(self.pushed() if moved else accelerations, of_accelerations, FITS[2])
+        self.v = self.fitted(velocities, of_velocities, 1)
+        pushed = pushed or self.v is not velocities
+        if pushed or self._driven():
+            given = self.pushed() if pushed else accelerations
+            self.a = self.fitted(given, of_accelerations, 2)
+        else:
+            self.a = accelerations
         _, second, third = self.rates()
         rate = -self.undone(np.where(held, third, second))
         self.put()
         return rate
 
-    def _solved(self, forces: Array, violated: Array, matrix: Array | None = None) -> Array:
+    def _driven(self) -> bool:
+        """Return whether constraints change while nothing moves, as prescribed motions do."""
+        now, driven = self.violated(), False
+        for i in range(1, 4):
+            self._data.SetTime(self._start + i * self._ahead)
+            driven = driven or bool((self._constraints.violated() != now).any())
+        return driven
+
+    def _solved(self, pushing: Array, violated: Array, matrix: Array | None = None) -> Array:
         """Return the change that forces and violations ask for."""
         matrix = self._matrix if matrix is None else matrix
         right = np.zeros(len(matrix))
-        right[: len(forces) + len(violated)] = np.concatenate([forces, violated])
+        right[: len(pushing) + len(violated)] = np.concatenate([pushing, violated])
         try:
-            return np.asarray(Equations(matrix).solve(right)[: len(forces)])
+            return np.asarray(Equations(matrix).solve(right)[: len(pushing)])
         except np.linalg.LinAlgError:  # coordinates without mass, as of a beam's cross-sections
-            return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0][: len(forces)])
+            return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0][: len(pushing)])
 
     def _norm(self, vector: Array) -> float:
         return float(np.sqrt(abs(vector @ self._mass @ vector)))
 
 
-def fit_start(task: Task, constraints: Constraints) -> tuple[Array, Array] | None:
+def fit_start(
+    task: Task, constraints: Constraints, *, pushed: bool = False
+) -> tuple[Array, Array] | None:
     """Let the start fit the constraints, as near to what it was as can be.
 
     Exudyn computes accelerations at the start, but for constraints that stand still: where an
@@ -178,13 +209,21 @@ def fit_start(task: Task, constraints: Constraints) -> tuple[Array, Array] | Non
 
     The solver has computed the mass matrix of the state.
 
+    Args:
+        task: to be solved.
+        constraints: of the system.
+        pushed: whether forces are others than Exudyn computed accelerations from.
+
     Returns:
-        The accelerations, and what of their rate the constraints prescribe; None without any.
+        The accelerations, and what of their rate the constraints prescribe; None where there is
+        nothing to fit.
     """
-    if not constraints.count or not task.problem.nodes:
+    if not task.problem.nodes:
         return None
+    if not constraints.count:
+        return _accelerated(task) if pushed else None
     start = _Start(task, constraints, task.start)
-    length, last, deforms = task.problem.length or 1.0, math.inf, False
+    length, last, deforms = start.length, math.inf, False
     for i in range(START_ITERATIONS):
         violated = np.where(start.held, start.violated(), 0.0)
         size = float(np.abs(violated).max())
@@ -198,7 +237,15 @@ def fit_start(task: Task, constraints: Constraints) -> tuple[Array, Array] | Non
         deforms = deforms or (task.problem.joints is None and size > DEFORMS * length)
         matrix = start.stiffened(task.largest) if deforms else None
         start.q = start.q - start.undone(violated, matrix)
-    return start.a, start.fit_rates(moved=last < math.inf)
+    rate = start.fit_rates(pushed=pushed or last < math.inf)
+    return start.a, rate
+
+
+def _accelerated(task: Task) -> tuple[Array, Array]:
+    """Set accelerations of the forces without constraints; return them, and that none are given."""
+    accelerations, mass = task.problem.current.accelerations, task.solver.GetSystemMassMatrix()
+    accelerations[:] = np.linalg.lstsq(mass, forces(task), rcond=MASSLESS)[0]
+    return np.array(accelerations), np.zeros_like(accelerations)
 
 
 def fit_jump(task: Task, constraints: Constraints, end: float) -> tuple[Array, Array, Array]:
@@ -220,7 +267,7 @@ def fit_jump(task: Task, constraints: Constraints, end: float) -> tuple[Array, A
     """
     start = _Start(task, constraints, end)
     tried, start.v = start.v, np.array(task.problem.start.velocities)
-    rate = start.fit_rates(moved=True)
+    rate = start.fit_rates(pushed=True)
     task.problem.current.velocities[:] = tried
     return start.v, start.a, rate
 
@@ -252,7 +299,7 @@ class _WithoutMass:
 
     def __init__(self, task: Task, constraints: Constraints) -> None:
         """Find coordinates without mass; the solver has computed the mass matrix of the state."""
-        self._solver, self._mbs, self._current = task.solver, task.problem.mbs, task.problem.current
+        self._task, self._current = task, task.problem.current
         self._mass = mass = np.array(task.solver.GetSystemMassMatrix())
         size = len(mass)
         held = constraints.directions() if constraints.count else np.zeros((0, size))
@@ -264,20 +311,15 @@ class _WithoutMass:
 
     def balance(self) -> Array:
         """Change the velocities of the current state so; return the others' accelerations."""
-        velocities, free, forces = self._current.velocities, self.free, self._forces()
-        size, slopes = np.abs(velocities).max() or 1.0, []
+        task, velocities, free = self._task, self._current.velocities, self.free
+        size, slopes, pushing = np.abs(velocities).max() or 1.0, [], forces(task)
         for direction in free:
             velocities += size * direction
-            slopes.append(free @ (self._forces() - forces) / size)
+            slopes.append(free @ (forces(task) - pushing) / size)
             velocities -= size * direction
-        velocities -= np.linalg.lstsq(np.array(slopes).T, free @ forces, rcond=MASSLESS)[0] @ free
-        found: Array = np.linalg.lstsq(self._mass, self._forces(), rcond=MASSLESS)[0]
+        velocities -= np.linalg.lstsq(np.array(slopes).T, free @ pushing, rcond=MASSLESS)[0] @ free
+        found: Array = np.linalg.lstsq(self._mass, forces(task), rcond=MASSLESS)[0]
         return found
-
-    def _forces(self) -> Array:
-        """Return the forces on the coordinates, without constraints."""
-        self._solver.ComputeODE2RHS(self._mbs)
-        return np.array(self._solver.GetSystemResidual())[: len(self._mass)]
 
 
 def start_without_mass(task: Task, constraints: Constraints) -> tuple[Array, Array] | None:

@@ -45,9 +45,7 @@ class StepControl:
         self._estimate, self._next_corner = estimate, next_corner
         self._next_sample = next_sample
         self._end, self._smallest, self._largest = task.end, task.smallest, task.largest
-        # a step is told as a difference of two times, whose last digits are rounded
-        latest = max(abs(task.start), abs(task.end))
-        self._no_shorter = task.smallest * (1.0 + SAME) + 2.0 * math.ulp(latest)
+        self._no_shorter = task.no_shorter
         self._step = self._first = task.first
         self._asked = 0.0  # what Exudyn is to try, s; shorter than the step, up to a corner
 

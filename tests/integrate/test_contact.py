@@ -9,10 +9,10 @@ from exu_press import SolverStatus, solve_dynamic
 
 SPEED = 10.0  # m/s, of every ball
 RESTITUTION = 0.7
-RADIUS = 0.1  # m
+RADIUS, MASS = 0.1, 1.6  # m, kg
 
 
-def balls(*gaps):
+def balls(*gaps, speed=SPEED, stiffness=1e6, rotations=exu.NodeType.RotationEulerParameters):
     """Balls of 1.6 kg that fly down to fixed ones, from these gaps (m); all gaps are guessed."""
     mbs = exu.SystemContainer().AddSystem()
     nodes = []
@@ -20,8 +20,9 @@ def balls(*gaps):
         still = mbs.AddNode(items.NodePointGround(referenceCoordinates=[i, -2.0 * RADIUS, 0.0]))
         ball = mbs.CreateRigidBody(
             referencePosition=[i, gap, 0.0],
-            initialVelocity=[0.0, -SPEED, 0.0],
-            inertia=items.InertiaSphere(1.6, RADIUS),
+            initialVelocity=[0.0, -speed, 0.0],
+            inertia=items.InertiaSphere(MASS, RADIUS),
+            nodeType=rotations,
         )
         nodes.append(mbs.GetObject(ball)["nodeNumber"])
         ends = [
@@ -36,8 +37,8 @@ def balls(*gaps):
                 markerNumbers=ends,
                 nodeNumber=data,
                 spheresRadii=[RADIUS, RADIUS],
-                contactStiffness=1e6,
-                impactModel=2,
+                contactStiffness=stiffness,
+                impactModel=2 if speed else 0,
                 restitutionCoefficient=RESTITUTION,
             )
         )
@@ -63,7 +64,7 @@ def test_a_ball_does_not_pass_a_contact_that_closes_exactly_where_a_step_ends():
 
 def test_guesses_that_exudyn_mends_itself_are_left_alone():
     """By the change it tells with which speed surfaces meet; one ball touches to the last digit."""
-    mbs, _ = balls(-1e-3, 0.0)
+    mbs, _ = balls(0.5, 0.0)
     started = []
 
     def look(mbs, time):
@@ -75,6 +76,37 @@ def test_guesses_that_exudyn_mends_itself_are_left_alone():
     settings.timeIntegration.endTime, settings.solution.file.write = 1e-3, False
     assert solve_dynamic(mbs, settings).status is SolverStatus.COMPLETED
     assert list(started[0][0::4]) == [0.1, 0.1]
+
+
+@pytest.mark.parametrize(
+    "rotations", [exu.NodeType.RotationEulerParameters, exu.NodeType.RotationRxyz]
+)
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-5])
+def test_surfaces_that_are_pressed_together_push_from_the_start(rotations, tolerance):
+    """Exudyn's first step has no force, and no step is short enough for what follows at 1e-5."""
+    depth, stiffness = 1e-4, 1e9
+    mbs, (node,) = balls(-depth, speed=0.0, stiffness=stiffness, rotations=rotations)
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime, settings.solution.file.write = 1e-3, False
+    outcome = solve_dynamic(mbs, settings, tolerance=tolerance)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    velocity = mbs.GetNodeOutput(node, exu.OutputVariableType.Velocity)[1]
+    expected = depth * (stiffness / MASS) ** 0.5
+    assert velocity == pytest.approx(expected, rel=3.0 * tolerance)
+
+
+@pytest.mark.parametrize(("stiffness", "tolerance"), [(1e7, 1e-5), (1e9, 1e-2), (1e10, 1e-3)])
+def test_a_stiff_contact_opens_within_the_smallest_step(stiffness, tolerance):
+    """Its force changes there by more than Exudyn leaves; it asked for steps that are too short."""
+    for gap in (0.0123, 0.034, 0.0777):
+        mbs, (node,) = balls(gap, stiffness=stiffness)
+        settings = exu.SimulationSettings()
+        settings.timeIntegration.endTime, settings.solution.file.write = 0.01, False
+        outcome = solve_dynamic(mbs, settings, tolerance=tolerance)
+        assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+        velocity = mbs.GetNodeOutput(node, exu.OutputVariableType.Velocity)[1]
+        assert velocity == pytest.approx(RESTITUTION * SPEED, rel=tolerance + 1e-4)  # of its law
+        assert settings.timeIntegration.discontinuous.useRecommendedStepSize
 
 
 def rolling(ignored=True):
@@ -126,3 +158,11 @@ def test_a_run_that_is_not_to_ignore_it_names_what_would():
     assert outcome.status is SolverStatus.NOT_CONVERGED
     assert "dryFrictionProportionalZone" in outcome.reason
     assert "ignoreMaxIterations = True" in outcome.reason
+
+
+def test_a_run_that_switches_all_the_time_says_so():
+    mbs, _, settings = rolling()
+    with pytest.warns(UserWarning, match="too many steps"):
+        outcome = solve_dynamic(mbs, settings, tolerance=1e-5, max_steps=3000)
+    assert "of Exudyn's switched in" in outcome.reason
+    assert "frictionProportionalZone" in outcome.reason

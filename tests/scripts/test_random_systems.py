@@ -8,6 +8,7 @@ import pytest
 
 from exu_press import SolverStatus, solve_dynamic
 from random_systems import KINDS, main
+from running import run
 
 
 @pytest.mark.filterwarnings("ignore:settings.timeIntegration")
@@ -27,3 +28,10 @@ def test_each_kind_ends(number, tmp_path, monkeypatch, capsys):
     (script,) = tmp_path.rglob(f"*_{number:03d}.py")
     runpy.run_path(str(script))
     assert outcomes[0].status is SolverStatus.COMPLETED
+
+
+def test_stated_errors_of_sensors_are_compared_with_true_ones(tmp_path):
+    told = run("sensor_errors.py", tmp_path, "--seeds", "342", "344", quick=False)
+    counts = [line.split() for line in told.splitlines()[1:]]
+    assert [words[0] for words in counts] == ["worst", "peak:"]
+    assert all(0 < int(words[-7]) <= int(words[-5]) for words in counts)

@@ -5,10 +5,10 @@ import sys
 
 import exudyn as exu
 import pytest
+from running import run
 
 from exu_press import SolverStatus, solve_dynamic
 from random_systems import KINDS, main
-from running import run
 
 
 @pytest.mark.filterwarnings("ignore:settings.timeIntegration")

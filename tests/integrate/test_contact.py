@@ -62,9 +62,15 @@ def test_a_ball_does_not_pass_a_contact_that_closes_exactly_where_a_step_ends():
     assert rebound(0.5) == pytest.approx([RESTITUTION * SPEED], rel=2e-3)
 
 
-def test_guesses_that_exudyn_mends_itself_are_left_alone():
-    """By the change it tells with which speed surfaces meet; one ball touches to the last digit."""
-    mbs, _ = balls(0.5, 0.0)
+@pytest.mark.parametrize(
+    ("gaps", "told"), [([0.5, 0.0], [0.1, 0.1]), ([-1e-3], [pytest.approx(-1e-3)])]
+)
+def test_guesses_that_exudyn_mends_itself_are_left_alone(gaps, told):
+    """By the change it tells with which speed surfaces meet; one ball touches to the last digit.
+
+    One that is pressed in has its gap, as it pushes.
+    """
+    mbs, _ = balls(*gaps)
     started = []
 
     def look(mbs, time):
@@ -75,7 +81,7 @@ def test_guesses_that_exudyn_mends_itself_are_left_alone():
     settings = exu.SimulationSettings()
     settings.timeIntegration.endTime, settings.solution.file.write = 1e-3, False
     assert solve_dynamic(mbs, settings).status is SolverStatus.COMPLETED
-    assert list(started[0][0::4]) == [0.1, 0.1]
+    assert list(started[0][0::4]) == told
 
 
 @pytest.mark.parametrize(

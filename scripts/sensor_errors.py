@@ -14,13 +14,11 @@ import exudyn.utilities as items
 import numpy as np
 
 from exu_press import solve_dynamic
+from exudyn_models.table import CLEAR
 from random_systems import settings_of, system
 
 TOLERANCE, FINE, NEARLY_AS_FINE = 1e-3, 4e-6, 1e-5
 STEPS, ROWS, BUDGET = 100, 500, 200_000
-CLEAR = 10.0
-"""Times the references' difference, from which on an error is known."""
-
 NOTHING = 1e-6
 """Of the largest value, below which an error is none."""
 
@@ -70,7 +68,7 @@ def run(seed, tolerance, errors=False):
 
 
 def pairs(seed):
-    """Yield true and stated errors of all values: those of rows, then those of peaks."""
+    """Yield true and stated errors of each sensor's values: those of rows and those of peaks."""
     outcome, rows = run(seed, TOLERANCE, errors=True)
     if outcome.error is None or outcome.error.reason:
         return
@@ -80,11 +78,12 @@ def pairs(seed):
     error = outcome.error
     stated = zip(error.sensors, error.peaks, strict=True)
     for ours, fine, other, said in zip(rows, *(r for _, r in references), stated, strict=True):
-        size = np.abs(fine).max(axis=0)
+        size, both = np.abs(fine).max(axis=0), []
         for found, measure in zip(said, (worst_row, peak), strict=True):
             true, own = measure(ours, fine), measure(other, fine)
-            known = (true > CLEAR * own) & (true > NOTHING * size)
-            yield true[known], found[known]
+            known = (own <= CLEAR * true) & (true > NOTHING * size)
+            both.append((true[known], found[known]))
+        yield both
 
 
 def worst_row(one, other):
@@ -103,7 +102,7 @@ def main():
     warnings.simplefilter("ignore")
     found = [pair for seed in range(*parser.parse_args().seeds) for pair in pairs(seed)]
     print("of sensors in systems by chance; stated over true: median; least of 99, of 95 %")
-    for name, chosen in (("worst row", found[::2]), ("peak", found[1::2])):
+    for name, chosen in zip(("worst row", "peak"), zip(*found, strict=True), strict=True):
         true, stated = (np.concatenate(part) for part in zip(*chosen, strict=True))
         ratio = stated / true
         least = np.percentile(ratio, [50, 1, 5])

@@ -23,10 +23,8 @@ __all__ = ["ARRIVED", "Advice", "how_it_ended"]
 SPENT = 1e-3
 """Film thickness over clearance at which a run that gets no further has lost its film."""
 
-
 EXUDYN_ENDS = 1e-10
 """Before its end, at most how early Exudyn ends a run, s."""
-
 
 RESTLESS = 0.1
 """Part of the steps with a switch, above which switches decide about the steps."""

@@ -44,6 +44,12 @@ def forces(task: Task) -> Array:
     return np.array(task.solver.GetSystemResidual())[: len(task.problem.current.positions)]
 
 
+def _accelerations(task: Task) -> Array:
+    """Return the accelerations of these forces, zero where there is no mass."""
+    mass = task.solver.GetSystemMassMatrix()
+    return np.asarray(np.linalg.lstsq(mass, forces(task), rcond=MASSLESS)[0])
+
+
 class _Start:
     """The current state at a time, s, and its constraints there and soon after."""
 
@@ -172,11 +178,12 @@ class _Start:
 
     def _driven(self) -> bool:
         """Return whether constraints change while nothing moves, as prescribed motions do."""
-        now, driven = self.violated(), False
+        now = self.violated()
         for i in range(1, 4):
             self._data.SetTime(self._start + i * self._ahead)
-            driven = driven or bool((self._constraints.violated() != now).any())
-        return driven
+            if (self._constraints.violated() != now).any():
+                return True
+        return False
 
     def _solved(self, pushing: Array, violated: Array, matrix: Array | None = None) -> Array:
         """Return the change that forces and violations ask for."""
@@ -221,7 +228,11 @@ def fit_start(
     if not task.problem.nodes:
         return None
     if not constraints.count:
-        return _accelerated(task) if pushed else None
+        if not pushed:
+            return None
+        accelerations = task.problem.current.accelerations
+        accelerations[:] = _accelerations(task)
+        return np.array(accelerations), np.zeros_like(accelerations)
     start = _Start(task, constraints, task.start)
     length, last, deforms = start.length, math.inf, False
     for i in range(START_ITERATIONS):
@@ -239,13 +250,6 @@ def fit_start(
         start.q = start.q - start.undone(violated, matrix)
     rate = start.fit_rates(pushed=pushed or last < math.inf)
     return start.a, rate
-
-
-def _accelerated(task: Task) -> tuple[Array, Array]:
-    """Set accelerations of the forces without constraints; return them, and that none are given."""
-    accelerations, mass = task.problem.current.accelerations, task.solver.GetSystemMassMatrix()
-    accelerations[:] = np.linalg.lstsq(mass, forces(task), rcond=MASSLESS)[0]
-    return np.array(accelerations), np.zeros_like(accelerations)
 
 
 def fit_jump(task: Task, constraints: Constraints, end: float) -> tuple[Array, Array, Array]:
@@ -300,7 +304,7 @@ class _WithoutMass:
     def __init__(self, task: Task, constraints: Constraints) -> None:
         """Find coordinates without mass; the solver has computed the mass matrix of the state."""
         self._task, self._current = task, task.problem.current
-        self._mass = mass = np.array(task.solver.GetSystemMassMatrix())
+        mass = np.array(task.solver.GetSystemMassMatrix())
         size = len(mass)
         held = constraints.directions() if constraints.count else np.zeros((0, size))
         scaled = np.zeros((size, held.shape[1]))  # places along cables have none
@@ -318,8 +322,7 @@ class _WithoutMass:
             slopes.append(free @ (forces(task) - pushing) / size)
             velocities -= size * direction
         velocities -= np.linalg.lstsq(np.array(slopes).T, free @ pushing, rcond=MASSLESS)[0] @ free
-        found: Array = np.linalg.lstsq(self._mass, forces(task), rcond=MASSLESS)[0]
-        return found
+        return _accelerations(task)
 
 
 def start_without_mass(task: Task, constraints: Constraints) -> tuple[Array, Array] | None:

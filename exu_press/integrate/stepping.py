@@ -48,6 +48,9 @@ class StepControl:
         self._no_shorter = task.no_shorter
         self._step = self._first = task.first
         self._asked = 0.0  # what Exudyn is to try, s; shorter than the step, up to a corner
+        self._forces_jump = task.problem.joints is None  # or steep joints, which need small steps
+        # the step that failed last, s, its change of speeds, m/s, and what is left of it, s
+        self._failed, self._change, self._left = math.inf, 0.0, 0.0
 
     def restart(self) -> None:
         """Go on as at the start, where the motion is about to change."""
@@ -62,15 +65,30 @@ class StepControl:
         error = self._estimate(step)
         if error > 1.0 and step <= self._no_shorter:
             error = min(error, self._estimate.of_jump(step))
+            if self._forces_jump and self._changes_with(step):
+                error = min(error, 1.0)
         self.error = error
         self.at_smallest = error > 1.0 and step <= self._no_shorter
         if error <= 1.0:
             return 0.0
+        self._failed = self._left = step
+        self._change = self._estimate.change_of_speed()
         self._step = self._asked = step * self._controller.repeated(error)
         return self._step
 
+    def _changes_with(self, step: float) -> bool:
+        """Return whether a jump in a step (s) changes speeds by less than in the longer one before.
+
+        So does that of a force, with the step, however slow the motion is that it meets. What
+        changes speeds by as much in any step is a blow, or a constraint that jumps.
+        """
+        allowed = self._change * math.sqrt(step / self._failed)
+        # what failed before lies behind: it had another jump
+        return self._left >= -self._smallest and self._estimate.change_of_speed() < allowed
+
     def accept(self, step: float) -> None:
         """Take the step last tried as done; choose the size of those to come."""
+        self._left -= step
         shortened = step < (1.0 - SAME) * self._asked  # by Exudyn
         self._estimate.accept(shortened)
         if shortened and step >= 0.5 * self._step:  # else by a contact that it ends on

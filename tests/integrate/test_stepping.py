@@ -131,7 +131,8 @@ def test_the_command_exits_with_3_and_does_not_speak_of_a_stop(tmp_path, capsys)
 def task(**changes):
     usual = {"largest": 1e-3, "smallest": 1e-9, "first": 1e-3, "start": 0.0, "end": 1.0}
     usual["no_shorter"] = 1.001e-9
-    return SimpleNamespace(**{**usual, "impacts": True, "tuning": SolverTuning(), **changes})
+    usual |= {"impacts": True, "problem": SimpleNamespace(joints=None), "tuning": SolverTuning()}
+    return SimpleNamespace(**{**usual, **changes})
 
 
 def test_fixed_steps_return_to_their_grid_after_a_halved_one():
@@ -156,6 +157,43 @@ class Estimate:
 
     def accept(self, shortened):
         pass
+
+    def change_of_speed(self):
+        return 0.0
+
+
+class Jump(Estimate):
+    """Of a jump that lies in every step, and is too much for the smallest one."""
+
+    def __init__(self, change):
+        self.change, self.step = change, 0.0
+
+    def __call__(self, step):
+        self.step = step
+        return 1e3
+
+    def of_jump(self, step):
+        return 1e2
+
+    def change_of_speed(self):
+        return self.change(self.step)
+
+
+@PATCHED
+@pytest.mark.parametrize(
+    ("change", "accepted"), [(lambda h: 1e6 * h, True), (lambda h: 0.1, False)]
+)
+def test_the_smallest_step_is_good_enough_for_a_force_that_jumps(change, accepted):
+    """It changes speeds with the step; what changes them by as much in any step is a blow."""
+    control = StepControl(task(), Jump(change), lambda time: math.inf, lambda time: math.inf)
+    step, tries = control.next_step(0.0), 0
+    while step > 1e-9 and (shorter := control.shorter(step)):
+        step, tries = max(shorter, 1e-9), tries + 1
+    assert tries > 3
+    assert (control.shorter(1e-9) == 0.0) is accepted
+    assert control.at_smallest is not accepted
+    control.accept(1e-3)  # beyond the steps that failed
+    assert control.shorter(1e-9) > 0.0, "theirs was another jump"
 
 
 def steps(good, corner=math.inf, period=math.inf, **changes):

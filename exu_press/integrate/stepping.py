@@ -48,7 +48,6 @@ class StepControl:
         self._no_shorter = task.no_shorter
         self._step = self._first = task.first
         self._asked = 0.0  # what Exudyn is to try, s; shorter than the step, up to a corner
-        self._forces_jump = task.problem.joints is None  # or steep joints, which need small steps
         # the step that failed last, s, its change of speeds, m/s, and what is left of it, s
         self._failed, self._change, self._left = math.inf, 0.0, 0.0
 
@@ -65,7 +64,7 @@ class StepControl:
         error = self._estimate(step)
         if error > 1.0 and step <= self._no_shorter:
             error = min(error, self._estimate.of_jump(step))
-            if self._forces_jump and self._changes_with(step):
+            if self._changes_with(step):
                 error = min(error, 1.0)
         self.error = error
         self.at_smallest = error > 1.0 and step <= self._no_shorter
@@ -191,8 +190,9 @@ class Resolution:
     an error that an earlier impact left may have grown by then. How far a figure is off its stated
     error says (see `exu_press.verification`).
 
-    Loads and prescribed motions of other systems may jump themselves, and steps end on that within
-    what the tolerance leaves: a jump that changes no speed by a tenth of it is none of the step's.
+    Loads and prescribed motions may jump themselves, and steps end on that within what the
+    tolerance leaves: a jump that changes no speed by a tenth of it is none of the step's; with
+    clearance joints, whose largest forces may be those of slight impacts, by a hundredth.
     In an equilibrium, and in a press that stands, rounded forces come and go, and move nothing.
     Joints bear weights as well: where all inertia forces are smaller, as what is left of the start
     in a press that stands, a jump is judged against the largest weight.
@@ -202,7 +202,7 @@ class Resolution:
         """Follow a task."""
         self._scales = task.scales
         self._radius = task.spectral_radius  # by which a ring decays from step to step
-        self._least = 0.1 * task.tolerance if task.problem.joints is None else 0.0
+        self._least = (0.1 if task.problem.joints is None else 0.01) * task.tolerance
         self._before: list[float] = []
         # A stiff film that starts from rest makes the accelerations ring; that is no impact.
         self._started: list[float] = []

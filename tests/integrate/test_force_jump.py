@@ -6,7 +6,10 @@ import exudyn as exu
 import exudyn.utilities as items
 import pytest
 
-from exu_press import SolverStatus, solve_dynamic
+from exu_press import SolverStatus, add_dry_revolute, add_lubricated_revolute, solve_dynamic
+from exu_press.laws.contact import hertz, step_damping
+from exu_press.laws.film import finite
+from exu_press.laws.friction import no_friction
 
 FORCE, JUMPS_AT = 100.0, 0.5  # N, s
 FREQUENCY, DAMPING = 1e4, 0.05  # rad/s, of the critical one
@@ -44,15 +47,43 @@ def hit(how, speed, stiffness):
     return mbs
 
 
-def speeds(mbs, tolerance):
-    """All of them, m/s, in a second."""
+def pendulum(bearing, torque):
+    """Ten kilograms that hang and creep, until a torque sets in."""
+    mbs = exu.SystemContainer().AddSystem()
+    ground = mbs.AddObject(items.ObjectGround())
+    creeping = {"initialVelocities": [0.5e-4, 0.0, 1e-4]}
+    node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[0.0, -0.5, 0.0], **creeping))
+    body = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=10.0, inertia=10.0 / 12.0))
+    mass = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body))
+    mbs.AddLoad(items.LoadMassProportional(markerNumber=mass, loadVector=[0.0, -9.81, 0.0]))
+    ends = (body, (0.0, 0.5)), (ground, (0.0, 0.0))
+    size = {"radius": 0.02, "clearance": 5e-5}
+    if bearing == "lubricated":
+        add_lubricated_revolute(mbs, *ends, **size, length=0.03, viscosity=0.1, law=finite(0.75))
+    else:
+        contact = step_damping(hertz(2.5e10), 2.5e6, 1e-5)
+        add_dry_revolute(mbs, *ends, **size, contact=contact, friction=no_friction())
+    turned = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=2))
+    mbs.AddLoad(
+        items.LoadCoordinate(
+            markerNumber=turned,
+            load=torque,
+            loadUserFunction=lambda mbs, time, load: load if time >= JUMPS_AT else 0.0,
+        )
+    )
+    mbs.Assemble()
+    return mbs
+
+
+def speeds(mbs, tolerance, end=1.0, coordinate=0):
+    """All of them, m/s."""
     settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime, settings.solution.file.write = 1.0, False
+    settings.timeIntegration.endTime, settings.solution.file.write = end, False
     settings.timeIntegration.numberOfSteps = 100
     found = []
 
     def watch(time):
-        found.append(float(mbs.systemData.GetODE2Coordinates_t()[0]))
+        found.append(float(mbs.systemData.GetODE2Coordinates_t()[coordinate]))
         return ""
 
     outcome = solve_dynamic(mbs, settings, tolerance=tolerance, watch=watch)
@@ -77,3 +108,13 @@ def test_a_stiff_spring_answers_a_force_that_jumps(how):
     largest = FORCE / of_waves * decay * math.sin(phase)
     found = max(speeds(hit(how, 1e-4, FREQUENCY**2), 1e-3))
     assert found == pytest.approx(largest, rel=2e-2)  # steps of a twentieth of a period
+
+
+@pytest.mark.parametrize("bearing", ["dry", "lubricated"])
+@pytest.mark.parametrize("torque", [1e2, 1e4])
+def test_a_slow_pendulum_in_its_bearing_follows_a_torque_that_jumps(bearing, torque):
+    """By less than a tenth of a radian; nor is the jump an impact that steps do not resolve."""
+    inertia = 10.0 / 12.0 + 10.0 * 0.25
+    time = math.sqrt(0.2 * inertia / torque)
+    found = speeds(pendulum(bearing, torque), 1e-3, end=JUMPS_AT + time, coordinate=2)
+    assert found[-1] == pytest.approx(torque / inertia * time, rel=3e-2)  # less its weight

@@ -9,13 +9,16 @@ from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import SWITCHED, Task
 from exu_press.integrate.start import forces
 
-__all__ = ["Gaps", "Settling", "fit_data"]
+__all__ = ["Gaps", "Settling", "fit_data", "moving_force"]
 
 CLOSED = -1e-300
 """A gap that is closed, m, and by which nothing is deformed."""
 
 FELT = 1e-6
 """Part of all forces that more than rounding makes."""
+
+PART = 0.05
+"""Of the largest force at the start, up to which a switch may be left to the next step."""
 
 LATE = 10
 """Steps for which switches are expected not to settle after one in which they have not."""
@@ -49,6 +52,20 @@ def fit_data(task: Task) -> bool:
     return otherwise
 
 
+def moving_force(task: Task) -> float:
+    """Return the largest force that moves a point at the start, N.
+
+    Mass times acceleration, and momentum over a hundredth of the run: what flies needs none yet.
+    """
+    problem, duration = task.problem, task.end - task.start
+    task.solver.ComputeMassMatrix(problem.mbs)
+    masses = np.diag(task.solver.GetSystemMassMatrix())
+    state = problem.current
+    moving = masses * (np.abs(state.accelerations) + 100.0 / duration * np.abs(state.velocities))
+    points = [moving[node.start : node.start + node.displacements] for node in problem.nodes]
+    return max((float(part.max(initial=0.0)) for part in points), default=0.0)
+
+
 class Settling:
     """Switches that do not settle in the iterations which the settings give a step.
 
@@ -67,6 +84,18 @@ class Settling:
         self._no_shorter, self._shorter = task.no_shorter, True  # whether steps may be shortened
         self._late = 0  # steps to come in which it is expected
         self.switched = 0
+
+    def sees(self, force: float) -> bool:
+        """Return whether switches of such forces, N, are seen; else let the next run see them.
+
+        Exudyn iterates on a contact that has opened or closed where its force is off by more than
+        so many newtons, whatever its size: a ball of a gram was held by half a newton.
+        """
+        least = PART * force
+        if self._switches is None or not 0.0 < least < self._switches.iterationTolerance:
+            return True
+        self._switches.iterationTolerance = least
+        return False
 
     @property
     def _last(self) -> bool:

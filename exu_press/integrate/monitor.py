@@ -13,7 +13,7 @@ import exudyn as exu
 import numpy as np
 
 from exu_press.integrate.constraints import Constraints
-from exu_press.integrate.contact import Gaps, Settling, fit_data
+from exu_press.integrate.contact import Gaps, Settling, fit_data, moving_force
 from exu_press.integrate.controller import Controller
 from exu_press.integrate.error import StepError
 from exu_press.integrate.modal_mass import ModalMass
@@ -61,6 +61,7 @@ class Monitor:
         without_mass: whether Exudyn found no accelerations to start with, as coordinates have no
             mass.
         far_off: why the start is too far off its constraints to be fitted, or nothing.
+        again: whether the run is to begin again, with settings that its start asks for.
     """
 
     def __init__(
@@ -92,7 +93,7 @@ class Monitor:
         """
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
-        self.go_on, self.without_mass, self.far_off = True, False, ""
+        self.go_on, self.without_mass, self.far_off, self.again = True, False, "", False
         # velocities, accelerations and their rate, which have jumped in the step last tried
         self._jump: tuple[Array, Array, Array] | None = None
         self._jumped = False  # in the last accepted step
@@ -293,6 +294,11 @@ class Monitor:
                 self.far_off = self.constraints.far_off()
                 if self.far_off:
                     return False
+            self.again = self._task.problem.switching and not self._settling.sees(
+                moving_force(self._task)
+            )
+            if self.again:
+                return False
             self._begin()
         else:
             self.steps += 1

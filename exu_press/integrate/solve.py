@@ -188,6 +188,8 @@ def _run(
             if monitor.without_mass:
                 settings.timeIntegration.generalizedAlpha.computeInitialAccelerations = False
                 solved = solver.SolveSystem(mbs, settings)
+            if monitor.again:
+                solved = solver.SolveSystem(mbs, settings)
             if not solved:
                 failure = solver.GetErrorString()
         except exu.ExudynError as error:

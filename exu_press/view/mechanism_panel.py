@@ -139,16 +139,18 @@ def _draw_labels(
 ) -> dict[str, tuple[Line2D, Point]]:
     """Name the bodies at the right, each once; return by body the line to it and where it begins.
 
-    The other end follows the body from frame to frame.
+    The other end follows the body from frame to frame. One that leaves the picture is named at its
+    edge.
     """
-    panel = axes.get_window_extent()
-    drawn = max(np.ptp(axes.get_ylim()), np.ptp(axes.get_xlim()) * panel.height / panel.width)
+    panel, edges = axes.get_window_extent(), axes.get_ylim()
+    drawn = max(np.ptp(edges), np.ptp(axes.get_xlim()) * panel.height / panel.width)
     named = {
         body.name: cut(joint_in_words(body.name.removesuffix("_right")).lower(), NAME)
         for body in mechanism.bodies
         if not body.name.endswith("_left")
     }
-    heights = spread([float(places[name][:, 1].mean()) for name in named], LINE * drawn)
+    means = np.array([places[name][:, 1].mean() for name in named])
+    heights = spread(np.clip(means, min(edges), max(edges)), LINE * drawn)
     leaders: dict[str, tuple[Line2D, Point]] = {}
     for (name, words), y in zip(named.items(), heights, strict=True):
         axes.text(right + 0.12 * unit, y, words, fontsize=8.5, va="center")

@@ -33,6 +33,20 @@ def test_no_label_is_clipped_and_no_names_of_bodies_overlap(runs, animation, nam
         assert not one.overlaps(two)
 
 
+def test_a_body_that_leaves_the_picture_is_named_at_its_edge(runs, animation):
+    """Matplotlib could not draw a text that is 1e92 pixels off."""
+    run = runs["press"]
+    channel = run.channels["body_position"]
+    places = np.array(channel.values)
+    places[0, :, 1] = 1e90
+    moved = {"body_position": dataclasses.replace(channel, values=places)}
+    flown = dataclasses.replace(run, channels={**run.channels, **moved})
+    picture = animation(flown, instants(flown, frames=5))
+    Painter(picture, 100.0)
+    axes = picture.figure.axes[0]
+    assert all(abs(text.get_position()[1]) < 1e3 for text in axes.texts)
+
+
 def test_frames_differ_where_something_moves_alone(runs, animation):
     picture = animation(runs["press"], instants(runs["press"], frames=5))
     painter = Painter(picture, 50.0)

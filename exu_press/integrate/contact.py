@@ -9,7 +9,7 @@ from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import SWITCHED, Task
 from exu_press.integrate.start import forces
 
-__all__ = ["Gaps", "Settling", "fit_data", "moving_force"]
+__all__ = ["Gaps", "Settling", "fit_data"]
 
 CLOSED = -1e-300
 """A gap that is closed, m, and by which nothing is deformed."""
@@ -52,7 +52,7 @@ def fit_data(task: Task) -> bool:
     return otherwise
 
 
-def moving_force(task: Task) -> float:
+def _moving_force(task: Task) -> float:
     """Return the largest force that moves a point at the start, N.
 
     Mass times acceleration, and momentum over a hundredth of the run: what flies needs none yet.
@@ -78,6 +78,7 @@ class Settling:
 
     def __init__(self, task: Task) -> None:
         """Take a task."""
+        self._task = task
         self._iteration: Any = task.solver.it
         self._ignored, self._most = task.unsettled, task.iterations
         self._switches: Any = task.switches if task.problem.switching else None
@@ -85,17 +86,19 @@ class Settling:
         self._late = 0  # steps to come in which it is expected
         self.switched = 0
 
-    def sees(self, force: float) -> bool:
-        """Return whether switches of such forces, N, are seen; else let the next run see them.
+    def begins_again(self) -> bool:
+        """Return whether the run is to begin again, as its start's forces ask for another limit.
 
         Exudyn iterates on a contact that has opened or closed where its force is off by more than
         so many newtons, whatever its size: a ball of a gram was held by half a newton.
         """
-        least = PART * force
-        if self._switches is None or not 0.0 < least < self._switches.iterationTolerance:
-            return True
+        if self._switches is None:
+            return False
+        least = PART * _moving_force(self._task)
+        if not 0.0 < least < self._switches.iterationTolerance:
+            return False
         self._switches.iterationTolerance = least
-        return False
+        return True
 
     @property
     def _last(self) -> bool:

@@ -13,7 +13,7 @@ import exudyn as exu
 import numpy as np
 
 from exu_press.integrate.constraints import Constraints
-from exu_press.integrate.contact import Gaps, Settling, fit_data, moving_force
+from exu_press.integrate.contact import Gaps, Settling, fit_data
 from exu_press.integrate.controller import Controller
 from exu_press.integrate.error import StepError
 from exu_press.integrate.modal_mass import ModalMass
@@ -294,9 +294,7 @@ class Monitor:
                 self.far_off = self.constraints.far_off()
                 if self.far_off:
                     return False
-            self.again = self._task.problem.switching and not self._settling.sees(
-                moving_force(self._task)
-            )
+            self.again = self._settling.begins_again()
             if self.again:
                 return False
             self._begin()

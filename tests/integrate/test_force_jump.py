@@ -15,6 +15,11 @@ FORCE, JUMPS_AT = 100.0, 0.5  # N, s
 FREQUENCY, DAMPING = 1e4, 0.05  # rad/s, of the critical one
 
 
+def sets_in(mbs, time, load):
+    """Return a load's value over time."""
+    return load if time >= JUMPS_AT else 0.0
+
+
 def hit(how, speed, stiffness):
     """A kilogram at a speed (m/s), free or on a spring (N/m), until a force sets in."""
     mbs = exu.SystemContainer().AddSystem()
@@ -27,13 +32,8 @@ def hit(how, speed, stiffness):
     spring = {"stiffness": stiffness, "damping": 2.0 * DAMPING * math.sqrt(stiffness)}
     mbs.AddObject(items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, **spring))
     if how == "load":
-        mbs.AddLoad(
-            items.LoadCoordinate(
-                markerNumber=ends[1],
-                load=FORCE,
-                loadUserFunction=lambda mbs, time, load: load if time >= JUMPS_AT else 0.0,
-            )
-        )
+        force = {"load": FORCE, "loadUserFunction": sets_in}
+        mbs.AddLoad(items.LoadCoordinate(markerNumber=ends[1], **force))
     else:
         load = mbs.AddLoad(items.LoadCoordinate(markerNumber=ends[1], load=0.0))
 
@@ -64,13 +64,8 @@ def pendulum(bearing, torque):
         contact = step_damping(hertz(2.5e10), 2.5e6, 1e-5)
         add_dry_revolute(mbs, *ends, **size, contact=contact, friction=no_friction())
     turned = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=2))
-    mbs.AddLoad(
-        items.LoadCoordinate(
-            markerNumber=turned,
-            load=torque,
-            loadUserFunction=lambda mbs, time, load: load if time >= JUMPS_AT else 0.0,
-        )
-    )
+    moment = {"load": torque, "loadUserFunction": sets_in}
+    mbs.AddLoad(items.LoadCoordinate(markerNumber=turned, **moment))
     mbs.Assemble()
     return mbs
 

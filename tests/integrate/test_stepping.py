@@ -131,8 +131,7 @@ def test_the_command_exits_with_3_and_does_not_speak_of_a_stop(tmp_path, capsys)
 def task(**changes):
     usual = {"largest": 1e-3, "smallest": 1e-9, "first": 1e-3, "start": 0.0, "end": 1.0}
     usual["no_shorter"] = 1.001e-9
-    usual |= {"impacts": True, "problem": SimpleNamespace(joints=None), "tuning": SolverTuning()}
-    return SimpleNamespace(**{**usual, **changes})
+    return SimpleNamespace(**{**usual, "impacts": True, "tuning": SolverTuning(), **changes})
 
 
 def test_fixed_steps_return_to_their_grid_after_a_halved_one():

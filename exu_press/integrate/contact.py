@@ -5,9 +5,9 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exu_press.integrate.forces import forces
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import SWITCHED, Task
-from exu_press.integrate.start import forces
 
 __all__ = ["Gaps", "Settling", "fit_data"]
 

@@ -9,11 +9,10 @@ import warnings
 from collections.abc import Iterator
 from typing import Any
 
-import numpy as np
-
+from exu_press.integrate.forces import differing, without_solution
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.outcome import Outcome, SolverStatus
-from exu_press.integrate.problem import Node, Problem
+from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import Task
 from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint
@@ -165,7 +164,7 @@ def how_it_ended(
     if monitor.over_budget:
         return SolverStatus.TOO_MANY_STEPS, (
             f"{monitor.max_steps} steps were used up {where}, {gone:.1%} of the run; try "
-            f"{advice.budget()}{advice.cause()}{_restless(monitor)}"
+            f"{advice.budget()}{_cause(task, advice)}{_restless(monitor)}"
         )
     for joint, ratio in _spent_films(problem):
         return SolverStatus.FILM_BROKE_DOWN, (
@@ -174,7 +173,9 @@ def how_it_ended(
         )
     busiest = _busiest_joint(problem, advice)
     if not monitor.control.error <= 1.0:
-        cure = _redundancy(task, monitor, advice) or f"try {advice.smallest()}{advice.cause()}"
+        cure = (
+            _redundancy(task, monitor, advice) or f"try {advice.smallest()}{_cause(task, advice)}"
+        )
         return SolverStatus.STEP_TOO_SMALL, (
             f"the tolerance needs a step below {smallest:.2g} s {where}{busiest}"
             f"{_unfit_start(monitor)}; {cure}"
@@ -189,12 +190,19 @@ def how_it_ended(
     )
 
 
+def _cause(task: Task, advice: Advice) -> str:
+    """Return what explains why a run does not get on, or nothing."""
+    found = differing(task)
+    return f" ({found})" if found else advice.cause()
+
+
 def _what_is_wrong(task: Task, monitor: Monitor, advice: Advice, time: float) -> str:
     """Return what of a system keeps Newton's method from converging after a time, s, or nothing."""
     problem = task.problem
     if problem.joints is None:  # whose films may have forces beyond all numbers
-        for node in _without_forces(task, time):
-            return f"the force on {node.name} is no number there; check loads and user functions"
+        found = differing(task) or without_solution(task, time)
+        if found:
+            return found
     redundancy = _redundancy(task, monitor, advice)
     if redundancy:
         return redundancy
@@ -237,22 +245,6 @@ def _unfit_start(monitor: Monitor) -> str:
         f", as its first step changes a speed by {jump:.2g} m/s: the start does not fit what "
         "constraints and functions ask for right after it"
     )
-
-
-def _without_forces(task: Task, time: float) -> Iterator[Node]:
-    """Yield the nodes whose forces are no numbers right after a time, s."""
-    problem, solver = task.problem, task.solver
-    current, start = problem.current, problem.start
-    tried = np.array(current.positions), np.array(current.velocities)
-    current.positions[:], current.velocities[:] = start.positions, start.velocities
-    problem.data.SetTime(time + task.smallest)
-    solver.ComputeODE2RHS(problem.mbs)
-    forces = np.array(solver.GetSystemResidual())[: len(current.positions)]
-    problem.data.SetTime(time)
-    current.positions[:], current.velocities[:] = tried
-    for node in problem.nodes:
-        if not np.isfinite(forces[node.start : node.start + node.size]).all():
-            yield node
 
 
 def _spent_films(problem: Problem) -> Iterator[tuple[ClearanceJoint, float]]:

@@ -16,6 +16,7 @@ from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.contact import Gaps, Settling, fit_data
 from exu_press.integrate.controller import Controller
 from exu_press.integrate.error import StepError
+from exu_press.integrate.forces import differing
 from exu_press.integrate.modal_mass import ModalMass
 from exu_press.integrate.output import OutputGrid
 from exu_press.integrate.places import Places
@@ -60,7 +61,7 @@ class Monitor:
         stalled: why the motion that was watched came to its end, or nothing.
         without_mass: whether Exudyn found no accelerations to start with, as coordinates have no
             mass.
-        far_off: why the start is too far off its constraints to be fitted, or nothing.
+        refused: what of the start allows no run by tolerance, or nothing.
         again: whether the run is to begin again, with settings that its start asks for.
     """
 
@@ -93,7 +94,7 @@ class Monitor:
         """
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
-        self.go_on, self.without_mass, self.far_off, self.again = True, False, "", False
+        self.go_on, self.without_mass, self.refused, self.again = True, False, "", False
         # velocities, accelerations and their rate, which have jumped in the step last tried
         self._jump: tuple[Array, Array, Array] | None = None
         self._jumped = False  # in the last accepted step
@@ -290,9 +291,10 @@ class Monitor:
             if not np.isfinite(self._accelerations).all():
                 self.without_mass = True
                 return False
-            if self.constraints.count and not self._task.fixed:
-                self.far_off = self.constraints.far_off()
-                if self.far_off:
+            if not self._task.fixed:
+                far_off = self.constraints.far_off() if self.constraints.count else ""
+                self.refused = far_off or differing(self._task)
+                if self.refused:
                     return False
             self.again = self._settling.begins_again()
             if self.again:

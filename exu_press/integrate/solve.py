@@ -107,8 +107,9 @@ def solve_dynamic(
     Raises:
         InputError: the system is not assembled, there is nothing to solve, the settings ask for
             what has no error estimate, a joint starts with a film's surfaces in touch or a
-            contact deeper than its laws hold, the start is far off a constraint, or errors are
-            asked for where this process cannot be copied; the system is left as it was.
+            contact deeper than its laws hold, the start is far off a constraint, a force is
+            another one when it is asked for again, or errors are asked for where this process
+            cannot be copied; the system is left as it was.
         exudyn.ExudynError: a user function failed.
     """
     refuse_unusable(settings, tolerance, sample)
@@ -169,7 +170,7 @@ def _run(
     """Return how a task ended that a monitor watches.
 
     Raises:
-        InputError: the start is far off a constraint.
+        InputError: the start is far off a constraint, or a force differs when asked for again.
     """
     problem, solver, failure = task.problem, task.solver, ""
     mbs = problem.mbs
@@ -199,8 +200,8 @@ def _run(
     wall_time = clock.perf_counter() - begun
     reached = problem.data.GetTime()
     progress.update(reached - task.start)
-    if monitor.far_off:
-        raise InputError(monitor.far_off)
+    if monitor.refused:
+        raise InputError(monitor.refused)
     status, reason = how_it_ended(task, monitor, words, time=reached, failure=failure)
     return Outcome(
         status=status,

@@ -6,11 +6,12 @@ from collections.abc import Callable
 import numpy as np
 
 from exu_press.integrate.constraints import Constraints
+from exu_press.integrate.forces import forces
 from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.linear import Equations
 
-__all__ = ["fit_jump", "fit_start", "forces", "start_rates", "start_without_mass"]
+__all__ = ["fit_jump", "fit_start", "start_rates", "start_without_mass"]
 
 LOOK_AHEAD = 0.01
 """Time ahead of the start at which constraints are evaluated, over the largest step; motions are
@@ -36,12 +37,6 @@ SHRINKS = 0.5
 
 MASSLESS = 1e-12
 """Over the largest mass, up to which a coordinate has none."""
-
-
-def forces(task: Task) -> Array:
-    """Return the forces on the coordinates in the current state, without those of constraints."""
-    task.solver.ComputeODE2RHS(task.problem.mbs)
-    return np.array(task.solver.GetSystemResidual())[: len(task.problem.current.positions)]
 
 
 def _accelerations(task: Task) -> Array:

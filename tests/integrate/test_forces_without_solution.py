@@ -1,0 +1,84 @@
+"""Forces for which no step has a solution, and what a run says of them."""
+
+import itertools
+import random
+
+import exudyn as exu
+import exudyn.utilities as items
+import numpy as np
+import pytest
+
+from exu_press import InputError, SolverStatus, solve_dynamic
+
+STIFFNESS, FRICTION = 1e3, 10.0  # N/m, N
+
+
+def on_a_spring(force, tolerance=1e-3, time=1.0):
+    """Run a kilogram on a spring, 0.1 m off, with a force (time, speed) of the user's own."""
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[0.1]))
+    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
+        for number in (mbs.AddNode(items.NodePointGround()), node)
+    ]
+
+    def spring(mbs, t, number, u, v, k, d, offset):
+        return STIFFNESS * u + force(t, v)
+
+    mbs.AddObject(
+        items.ObjectConnectorCoordinateSpringDamper(
+            markerNumbers=ends, springForceUserFunction=spring
+        )
+    )
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime = time
+    settings.timeIntegration.numberOfSteps = 200
+    settings.solution.file.write = False
+    return solve_dynamic(mbs, settings, tolerance=tolerance, max_steps=2000)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
+def test_friction_that_jumps_is_named_where_it_sticks(tolerance):
+    """No speed balances it there: Newton's method fails in steps of any size."""
+    with pytest.warns(UserWarning, match=r"force on node0 jumps .* sign\(v\)"):
+        outcome = on_a_spring(lambda t, v: FRICTION * np.sign(v), tolerance)
+    assert outcome.status == SolverStatus.NOT_CONVERGED
+    assert outcome.end_time == pytest.approx(5.0 * np.pi / STIFFNESS**0.5, abs=1e-3)  # half swings
+    assert "smaller tolerance" not in outcome.reason
+
+
+def test_it_is_named_where_it_sticks_at_once():
+    with pytest.warns(UserWarning, match="jumps"):
+        outcome = on_a_spring(lambda t, v: 200.0 * np.sign(v))
+    assert outcome.status == SolverStatus.NOT_CONVERGED
+    assert outcome.end_time == 0.0
+
+
+@pytest.mark.parametrize("zone", [1e-2, 1e-6])
+def test_the_cure_that_is_named_helps(zone):
+    outcome = on_a_spring(lambda t, v: FRICTION * np.tanh(v / zone))
+    assert outcome.status == SolverStatus.COMPLETED
+
+
+def sum_of_speeds():
+    """A controller that counts its calls for steps."""
+    sums = itertools.accumulate(itertools.repeat(1.0))
+    return lambda t, v: next(sums)
+
+
+@pytest.mark.parametrize(
+    "force", [lambda t, v: random.Random().random(), sum_of_speeds()], ids=["random", "counts"]
+)
+def test_a_force_that_differs_in_the_same_state_is_refused(force):
+    with pytest.raises(InputError, match=r"force on node0 is another one .*pre-step function"):
+        on_a_spring(force)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
+def test_one_that_differs_later_is_named(tolerance):
+    numbers = random.Random(0)
+    with pytest.warns(UserWarning, match="force on node0 is another one"):
+        outcome = on_a_spring(lambda t, v: 5.0 * (t > 0.1) * numbers.random(), tolerance)
+    assert outcome.status != SolverStatus.COMPLETED

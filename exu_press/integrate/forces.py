@@ -19,7 +19,7 @@ DIFFERS = 1e-6
 """Part of the largest force above which another one, or a difference, is not its rounding."""
 
 JUMPS = 0.5
-"""Over the force itself, its change within what the smallest step moves, above which it jumps."""
+"""Change of a force by what the smallest step moves, over the force, above which it jumps."""
 
 
 def forces(task: Task) -> Array:

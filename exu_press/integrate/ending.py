@@ -9,7 +9,7 @@ import warnings
 from collections.abc import Iterator
 from typing import Any
 
-from exu_press.integrate.forces import differing, without_solution
+from exu_press.integrate.forces import without_solution
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.outcome import Outcome, SolverStatus
 from exu_press.integrate.problem import Problem
@@ -164,7 +164,7 @@ def how_it_ended(
     if monitor.over_budget:
         return SolverStatus.TOO_MANY_STEPS, (
             f"{monitor.max_steps} steps were used up {where}, {gone:.1%} of the run; try "
-            f"{advice.budget()}{_cause(task, advice)}{_restless(monitor)}"
+            f"{advice.budget()}{_cause(task, advice, time)}{_restless(monitor)}"
         )
     for joint, ratio in _spent_films(problem):
         return SolverStatus.FILM_BROKE_DOWN, (
@@ -174,7 +174,8 @@ def how_it_ended(
     busiest = _busiest_joint(problem, advice)
     if not monitor.control.error <= 1.0:
         cure = (
-            _redundancy(task, monitor, advice) or f"try {advice.smallest()}{_cause(task, advice)}"
+            _redundancy(task, monitor, advice)
+            or f"try {advice.smallest()}{_cause(task, advice, time)}"
         )
         return SolverStatus.STEP_TOO_SMALL, (
             f"the tolerance needs a step below {smallest:.2g} s {where}{busiest}"
@@ -190,22 +191,18 @@ def how_it_ended(
     )
 
 
-def _cause(task: Task, advice: Advice) -> str:
-    """Return what explains why a run does not get on, or nothing."""
-    found = differing(task)
+def _cause(task: Task, advice: Advice, time: float) -> str:
+    """Return what explains why a run does not get on after a time, s, or nothing."""
+    found = without_solution(task, time)
     return f" ({found})" if found else advice.cause()
 
 
 def _what_is_wrong(task: Task, monitor: Monitor, advice: Advice, time: float) -> str:
     """Return what of a system keeps Newton's method from converging after a time, s, or nothing."""
     problem = task.problem
-    if problem.joints is None:  # whose films may have forces beyond all numbers
-        found = differing(task) or without_solution(task, time)
-        if found:
-            return found
-    redundancy = _redundancy(task, monitor, advice)
-    if redundancy:
-        return redundancy
+    found = without_solution(task, time) or _redundancy(task, monitor, advice)
+    if found:
+        return found
     if monitor.without_mass and not monitor.steps:
         names = (
             n.name for n, m in zip(problem.nodes, task.scales.masses, strict=True) if m == math.inf

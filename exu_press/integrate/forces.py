@@ -18,8 +18,11 @@ __all__ = ["differing", "forces", "without_solution"]
 DIFFERS = 1e-6
 """Part of the largest force above which another one, or a difference, is not its rounding."""
 
-JUMPS = 0.5
-"""Change of a force by what the smallest step moves, over the force, above which it jumps."""
+JUMPS = 0.25
+"""Change of a force that jumps, over the largest within a step; sign(0) = 0 halves that of sign."""
+
+HALVINGS = 20
+"""Of the motion of a step, after which what changes smoothly no longer does."""
 
 
 def forces(task: Task) -> Array:
@@ -44,27 +47,49 @@ def differing(task: Task) -> str:
 
 def without_solution(task: Task, time: float) -> str:
     """Return which force lets no step begin after a time, s, however short, and why; or nothing."""
-    problem, step = task.problem, task.smallest
-    current, start = problem.current, problem.start
-    tried = np.array(current.positions), np.array(current.velocities)
-    problem.data.SetTime(time + step)
+    problem = task.problem
+    if problem.joints is not None:  # whose films may have forces beyond all numbers
+        return ""
+    current = problem.current
+    state = np.array(current.positions), np.array(current.velocities)
+    try:
+        return differing(task) or _unbalanced(task, time)
+    finally:
+        problem.data.SetTime(time)
+        current.positions[:], current.velocities[:] = state
 
-    def moved(positions: Array | float, velocities: Array | float) -> Array:
-        current.positions[:] = start.positions + positions
-        current.velocities[:] = start.velocities + velocities
+
+def _unbalanced(task: Task, time: float) -> str:
+    """Return which force is no number, or jumps within the motion of a step; or nothing.
+
+    The jump is looked for by halving the motion, from the step back to the step ahead.
+    """
+    problem, step = task.problem, max(task.smallest, task.solver.it.currentStepSize)
+    current, start = problem.current, problem.start
+    problem.data.SetTime(time + task.smallest)
+
+    def moved(steps: float) -> Array:
+        current.positions[:] = start.positions + steps * way
+        current.velocities[:] = start.velocities + steps * pushed
         return forces(task)
 
-    here = moved(0.0, 0.0)
-    known, masses = np.isfinite(here), np.diag(task.solver.GetSystemMassMatrix())
-    pushed = step * np.divide(here, masses, out=np.zeros_like(here), where=known & (masses > 0.0))
-    way = step * np.array(start.velocities)
-    ahead, behind = moved(way, pushed), moved(-way, -pushed)
-    problem.data.SetTime(time)
-    current.positions[:], current.velocities[:] = tried
-    for node in _of(task, ~known):
+    way = pushed = np.zeros_like(start.velocities)
+    here, masses = moved(0.0), np.diag(task.solver.GetSystemMassMatrix())
+    for node in _of(task, ~np.isfinite(here)):
         return f"the force on {node.name} is no number there; check loads and user functions"
-    felt = np.abs(here) > DIFFERS * np.abs(here).max(initial=0.0)
+    mobility = np.divide(1.0, masses, out=np.zeros_like(here), where=masses > 0.0)
+    way, pushed = step * np.array(start.velocities), step * here * mobility
+    (low, behind), (high, ahead) = ((steps, moved(steps)) for steps in (-1.0, 1.0))
     largest = np.maximum(np.abs(ahead), np.abs(behind))
+    felt = largest > DIFFERS * largest.max(initial=0.0)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        between = moved(middle)
+        below, above = (np.linalg.norm((f - between) * mobility) for f in (behind, ahead))
+        if below > above:
+            high, ahead = middle, between
+        else:
+            low, behind = middle, between
     for node in _of(task, felt & (np.abs(ahead - behind) > JUMPS * largest)):
         return (
             f"the force on {node.name} jumps there with its motion, so that none holds the "

@@ -56,6 +56,31 @@ def test_it_is_named_where_it_sticks_at_once():
     assert outcome.end_time == 0.0
 
 
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
+def test_it_is_named_where_steps_are_used_up_on_it(tolerance):
+    """Newton's method converges now and then in a joint in space, as rounding has it."""
+    mbs = exu.SystemContainer().AddSystem()
+    ground = mbs.CreateGround()
+    rod = mbs.CreateRigidBody(
+        inertia=items.InertiaCuboid(1000.0, [0.3, 0.05, 0.08]),
+        referencePosition=[0.15, 0.0, 0.0],
+        gravity=[0.0, -9.81, 0.0],
+    )
+    hinge = {"bodyNumbers": [ground, rod], "position": [0.0] * 3, "axis": [0.0, 0.0, 1.0]}
+    mbs.CreateRevoluteJoint(**hinge, useGlobalFrame=True)
+    mbs.CreateTorsionalSpringDamper(
+        **hinge, springTorqueUserFunction=lambda mbs, t, i, angle, w, k, d, offset: np.sign(w)
+    )
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime = 2.0
+    settings.timeIntegration.numberOfSteps = 200
+    settings.solution.file.write = False
+    with pytest.warns(UserWarning, match=r"used up .* force on node0 jumps"):
+        outcome = solve_dynamic(mbs, settings, tolerance=tolerance, max_steps=1500)
+    assert outcome.end_time == pytest.approx(0.547, abs=0.005)  # it sticks
+
+
 @pytest.mark.parametrize("zone", [1e-2, 1e-6])
 def test_the_cure_that_is_named_helps(zone):
     outcome = on_a_spring(lambda t, v: FRICTION * np.tanh(v / zone))

@@ -5,7 +5,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
-from exu_press.integrate.forces import forces
+from exu_press.integrate.forces import FELT, forces
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.settings import SWITCHED, Task
 
@@ -13,9 +13,6 @@ __all__ = ["Gaps", "Settling", "fit_data"]
 
 CLOSED = -1e-300
 """A gap that is closed, m, and by which nothing is deformed."""
-
-FELT = 1e-6
-"""Part of all forces that more than rounding makes."""
 
 PART = 0.05
 """Of the largest force at the start, up to which a switch may be left to the next step."""

@@ -15,8 +15,8 @@ from exu_press.numerics.arrays import Array
 
 __all__ = ["differing", "forces", "without_solution"]
 
-DIFFERS = 1e-6
-"""Part of the largest force above which another one, or a difference, is not its rounding."""
+FELT = 1e-6
+"""Part of forces that more than rounding makes."""
 
 JUMPS = 0.25
 """Change of a force that jumps, over the largest within a step; sign(0) = 0 halves that of sign."""
@@ -35,7 +35,7 @@ def differing(task: Task) -> str:
     """Return which force in the current state is another one when asked for again, or nothing."""
     first, again = forces(task), forces(task)
     with np.errstate(invalid="ignore"):  # of forces beyond all numbers
-        changed = np.abs(again - first) > DIFFERS * np.abs(first).max(initial=0.0)
+        changed = np.abs(again - first) > FELT * np.abs(first).max(initial=0.0)
     for node in _of(task, changed):
         return (
             f"the force on {node.name} is another one each time that it is asked for in the same "
@@ -81,7 +81,7 @@ def _unbalanced(task: Task, time: float) -> str:
     way, pushed = step * np.array(start.velocities), step * here * mobility
     (low, behind), (high, ahead) = ((steps, moved(steps)) for steps in (-1.0, 1.0))
     largest = np.maximum(np.abs(ahead), np.abs(behind))
-    felt = largest > DIFFERS * largest.max(initial=0.0)
+    felt = largest > FELT * largest.max(initial=0.0)
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         between = moved(middle)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import SolverStatus, solve_dynamic
+from exudyn_examples.other import mass_1d
 
 SPEED = 10.0  # m/s, of every ball
 RESTITUTION = 0.7
@@ -118,12 +119,7 @@ def test_a_stiff_contact_opens_within_the_smallest_step(stiffness, tolerance):
 def swing_between_stops(mass):
     """Velocity after 1.5 s of a mass that swings against a stop, with forces that go with it."""
     mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[0.1]))
-    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=mass))
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
-        for number in (mbs.AddNode(items.NodePointGround()), node)
-    ]
+    ends = mass_1d(mbs, mass, place=0.1)
     spring = {"stiffness": 400.0 * mass, "damping": mass}
     mbs.AddObject(items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, **spring))
     data = items.NodeGenericData(initialCoordinates=[0.0] * 3, numberOfDataCoordinates=3)

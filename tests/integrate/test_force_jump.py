@@ -10,6 +10,7 @@ from exu_press import SolverStatus, add_dry_revolute, add_lubricated_revolute, s
 from exu_press.laws.contact import hertz, step_damping
 from exu_press.laws.film import finite
 from exu_press.laws.friction import no_friction
+from exudyn_examples.other import mass_1d
 
 FORCE, JUMPS_AT = 100.0, 0.5  # N, s
 FREQUENCY, DAMPING = 1e4, 0.05  # rad/s, of the critical one
@@ -23,12 +24,7 @@ def sets_in(mbs, time, load):
 def hit(how, speed, stiffness):
     """A kilogram at a speed (m/s), free or on a spring (N/m), until a force sets in."""
     mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[speed]))
-    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
-        for number in (mbs.AddNode(items.NodePointGround()), node)
-    ]
+    ends = mass_1d(mbs, 1.0, velocity=speed)
     spring = {"stiffness": stiffness, "damping": 2.0 * DAMPING * math.sqrt(stiffness)}
     mbs.AddObject(items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, **spring))
     if how == "load":

@@ -9,19 +9,24 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, SolverStatus, solve_dynamic
+from exudyn_examples.other import mass_1d
 
 STIFFNESS, FRICTION = 1e3, 10.0  # N/m, N
+CALLS = itertools.count()
 
 
-def on_a_spring(force, tolerance=1e-3, time=1.0):
+def run(mbs, end, tolerance, most):
+    """Return how a run to an end (s) with so many steps at most went."""
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.endTime, settings.solution.file.write = end, False
+    settings.timeIntegration.numberOfSteps = 200
+    return solve_dynamic(mbs, settings, tolerance=tolerance, max_steps=most)
+
+
+def on_a_spring(force, tolerance=1e-3):
     """Run a kilogram on a spring, 0.1 m off, with a force (time, speed) of the user's own."""
     mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[0.1]))
-    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
-        for number in (mbs.AddNode(items.NodePointGround()), node)
-    ]
+    ends = mass_1d(mbs, 1.0, place=0.1)
 
     def spring(mbs, t, number, u, v, k, d, offset):
         return STIFFNESS * u + force(t, v)
@@ -32,11 +37,7 @@ def on_a_spring(force, tolerance=1e-3, time=1.0):
         )
     )
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = time
-    settings.timeIntegration.numberOfSteps = 200
-    settings.solution.file.write = False
-    return solve_dynamic(mbs, settings, tolerance=tolerance, max_steps=2000)
+    return run(mbs, 1.0, tolerance, 2000)
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
@@ -72,12 +73,8 @@ def test_it_is_named_where_steps_are_used_up_on_it(tolerance):
         **hinge, springTorqueUserFunction=lambda mbs, t, i, angle, w, k, d, offset: np.sign(w)
     )
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = 2.0
-    settings.timeIntegration.numberOfSteps = 200
-    settings.solution.file.write = False
     with pytest.warns(UserWarning, match=r"used up .* force on node0 jumps"):
-        outcome = solve_dynamic(mbs, settings, tolerance=tolerance, max_steps=1500)
+        outcome = run(mbs, 2.0, tolerance, 1500)
     assert outcome.end_time == pytest.approx(0.547, abs=0.005)  # it sticks
 
 
@@ -87,14 +84,10 @@ def test_the_cure_that_is_named_helps(zone):
     assert outcome.status == SolverStatus.COMPLETED
 
 
-def sum_of_speeds():
-    """A controller that counts its calls for steps."""
-    sums = itertools.accumulate(itertools.repeat(1.0))
-    return lambda t, v: next(sums)
-
-
 @pytest.mark.parametrize(
-    "force", [lambda t, v: random.Random().random(), sum_of_speeds()], ids=["random", "counts"]
+    "force",
+    [lambda t, v: random.Random().random(), lambda t, v: next(CALLS)],
+    ids=["random", "counts"],
 )
 def test_a_force_that_differs_in_the_same_state_is_refused(force):
     with pytest.raises(InputError, match=r"force on node0 is another one .*pre-step function"):

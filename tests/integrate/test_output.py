@@ -7,6 +7,7 @@ import pytest
 
 from exu_press import SolverStatus, solve_dynamic
 from exu_press.integrate.output import within
+from exudyn_examples.other import mass_1d
 
 OMEGA = 7.0  # 1/s
 
@@ -14,19 +15,12 @@ OMEGA = 7.0  # 1/s
 def spring():
     """A mass on a spring at a metre, x = cos(omega t), and its sensor."""
     mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[1.0]))
-    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
-        for number in (mbs.AddNode(items.NodePointGround()), node)
-    ]
+    ends = mass_1d(mbs, 1.0, place=1.0)
     mbs.AddObject(
         items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, stiffness=OMEGA**2)
     )
     sensors = [
-        mbs.AddSensor(
-            items.SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=kind)
-        )
+        mbs.AddSensor(items.SensorNode(nodeNumber=0, storeInternal=True, outputVariableType=kind))
         for kind in (exu.OutputVariableType.Coordinates, exu.OutputVariableType.Coordinates_t)
     ]
     mbs.Assemble()

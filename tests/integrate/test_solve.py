@@ -925,12 +925,7 @@ def test_vibrations_below_an_absolute_tolerance_are_not_followed():
         mbs = exu.SystemContainer().AddSystem()
         falling = mbs.AddNode(items.NodePoint(initialVelocities=[0.0, -1.0, 0.0]))
         mbs.AddObject(items.ObjectMassPoint(nodeNumber=falling, mass=1.0))
-        node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[5e-3]))
-        mbs.AddObject(items.ObjectMass1D(mass=1.0, nodeNumber=node))
-        ends = [
-            mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
-            for number in (mbs.AddNode(items.NodePointGround()), node)
-        ]
+        ends = mass_1d(mbs, 1.0, velocity=5e-3)
         stiffness = (2.0 * np.pi * 300.0) ** 2
         mbs.AddObject(
             items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, stiffness=stiffness)

@@ -45,6 +45,10 @@ BRIEF = 1.0
 TIMINGS = 5
 """Of a brief run, of which the least counts."""
 
+ALONE = {"MPLBACKEND": "Agg", "OPENBLAS_NUM_THREADS": "1"}
+"""There may be no screen; and NumPy's other threads spin while they wait for work, in the tenth of
+a second behind an import, which doubled the processor time of what was solved meanwhile."""
+
 SLOWER = 10.0
 """Times the user's own processor time: what a run with a tolerance may take more than the limit."""
 
@@ -81,7 +85,7 @@ def once(script, variant, file, limit):
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
-        env={**os.environ, "PYTHONPATH": paths, "MPLBACKEND": "Agg"},  # there may be no screen
+        env={**os.environ, **ALONE, "PYTHONPATH": paths},
         text=True,
         errors="replace",
         start_new_session=True,

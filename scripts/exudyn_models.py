@@ -31,6 +31,7 @@ from pathlib import Path
 
 import numpy as np
 
+from exu_press.parallel.child import ONE_THREAD
 from exudyn_models.table import ENDED, Model, table
 
 FOLDERS = "main/pythonDev/Examples", "main/pythonDev/TestModels"
@@ -44,10 +45,6 @@ BRIEF = 1.0
 
 TIMINGS = 5
 """Of a brief run, of which the least counts."""
-
-ALONE = {"MPLBACKEND": "Agg", "OPENBLAS_NUM_THREADS": "1"}
-"""There may be no screen; and NumPy's other threads spin while they wait for work, in the tenth of
-a second behind an import, which doubled the processor time of what was solved meanwhile."""
 
 SLOWER = 10.0
 """Times the user's own processor time: what a run with a tolerance may take more than the limit."""
@@ -85,7 +82,9 @@ def once(script, variant, file, limit):
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
-        env={**os.environ, **ALONE, "PYTHONPATH": paths},
+        # NumPy's other threads spin while they wait, a tenth of a second behind an import, which
+        # doubled the processor time of what was solved meanwhile; and there may be no screen
+        env={**os.environ, **ONE_THREAD, "PYTHONPATH": paths, "MPLBACKEND": "Agg"},
         text=True,
         errors="replace",
         start_new_session=True,

@@ -47,6 +47,7 @@ MODULES = [
     "integrate/start",
     "integrate/step_change",
     "integrate/stepping",
+    "integrate/velocity_jump",
     "joints/ends",
     "joints/user_force",
     "joints/interface",

@@ -238,7 +238,7 @@ class StepError:
 
     def start_again(self, accelerations: list[float]) -> None:
         """Be told of the accelerations with which the step under way begins anew, as the first."""
-        self._bodies = self._from(accelerations)
+        self._bodies, self._envelope = self._from(accelerations), Envelope()
 
     def _relative(self, speed: float) -> float:
         """Return an error of a speed (m/s) over what the run may have of it."""

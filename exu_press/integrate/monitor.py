@@ -26,6 +26,7 @@ from exu_press.integrate.settings import Task
 from exu_press.integrate.start import fit_jump, fit_start, start_rates, start_without_mass
 from exu_press.integrate.step_change import StepChange
 from exu_press.integrate.stepping import FixedSteps, Resolution, StepControl
+from exu_press.integrate.velocity_jump import VelocityJumps
 from exu_press.joints import ClearanceJoint
 from exu_press.numerics.arrays import Array
 from exu_press.terminal.progress import Progress
@@ -97,8 +98,6 @@ class Monitor:
         self.go_on, self.without_mass, self.refused, self.again = True, False, "", False
         # velocities, accelerations and their rate, which have jumped in the step last tried
         self._jump: tuple[Array, Array, Array] | None = None
-        self._jumped = False  # in the last accepted step
-        self._remembers = task.problem.joints is not None  # do forces remember the motion
         self.stalled, self._watch = "", watch
         self.max_steps = max_steps
         self._task, self._progress = task, progress
@@ -118,6 +117,7 @@ class Monitor:
         period = (task.largest if sample is None else sample) if samples else 0.0
         self._sampling = Sampling(task, self.constraints, period)
         self._event = Event(task, event)
+        self._velocity_jumps = VelocityJumps(task, self.constraints)
 
         corner = next_corner or _never
         self.control: StepControl | FixedSteps = (
@@ -172,9 +172,10 @@ class Monitor:
         if not task.fixed:  # within a fixed step, motions may change by less than rounding
             resting = not self._accelerations.any()  # or Exudyn's sparse solver found none
             found = start_without_mass(task, self.constraints) if resting else None
-            fitted = fit_start(task, self.constraints) or found
+            ahead = self._velocity_jumps.ahead(task.start)
+            fitted = fit_start(task, self.constraints, ahead) or found
             if fit_data(task):
-                fitted = fit_start(task, self.constraints, pushed=True)
+                fitted = fit_start(task, self.constraints, ahead, pushed=True)
             if fitted is not None:
                 self._step_change.start_from(*fitted)
                 self._estimate.start = fitted[0].tolist()
@@ -250,32 +251,29 @@ class Monitor:
             return ACCEPTED
         if self._step_change.start_over(step):
             return [2.0, step]
+        begin, self._jump = self._time, None
         shorter = self.control.shorter(step)
-        self._jump = None
-        if self.control.at_smallest and (self._jumped or self._jumps(step)):
-            self.control.error = 1.0  # as much as a step may have
-            return ACCEPTED
-        shorter = shorter or self._event.shorter(step, self._time + step)
+        before_jump = self._velocity_jumps.shorter(begin, step, failed=shorter > 0.0)
+        if before_jump > 0.0:
+            return [2.0, before_jump]
+        if self._velocity_jumps.crossed:
+            self._jump = self._jumped(step)
+        if shorter > 0.0 and (self._jump is not None or self.control.of_force):
+            self.control.error, shorter = 1.0, 0.0  # as much as a step may have
+        shorter = shorter or self._event.shorter(step, begin + step)
         return [2.0, shorter] if shorter > 0.0 else ACCEPTED
 
-    def _jumps(self, step: float) -> bool:
-        """Return whether the velocity of a prescribed motion jumps in the step (s) just tried.
+    def _jumped(self, step: float) -> tuple[Array, Array, Array] | None:
+        """Return the motion behind a short step (s) in which a prescribed velocity jumps.
 
-        As where the offset of a user function turns a corner: no step is small enough there, nor
-        may be the next one, in which dampers without mass answer. An offset that jumps itself moves
-        bodies by more than their velocities do.
+        Nothing where bodies have moved by more than their velocities do: the offset itself jumps.
         """
-        if self._remembers or not (self.steps and self.constraints.count):
-            return False
-        problem, scales = self._task.problem, self._task.scales
-        before, after = problem.start, problem.current
-        jump = fit_jump(self._task, self.constraints, self._time + step)
-        speeds = scales.norm(jump[0].tolist()) + scales.norm(before.velocities.tolist())
-        changed = scales.norm((jump[0] - before.velocities).tolist())
-        moved = scales.norm((after.positions - before.positions).tolist())
-        if changed > self._task.tolerance * scales.speed and moved <= step * speeds:
-            self._jump = jump
-        return self._jump is not None
+        problem, norm = self._task.problem, self._task.scales.norm
+        before, after, end = problem.start, problem.current, self._time + step
+        jump = fit_jump(self._task, self.constraints, end, self._velocity_jumps.ahead(end))
+        moved = norm((after.positions - before.positions).tolist())
+        speeds = norm(jump[0].tolist()) + norm(before.velocities.tolist())
+        return jump if moved <= step * speeds else None
 
     def _start_again(self, accelerations: Array, rate: Array) -> None:
         """Go on as from a start, with these accelerations and the rate prescribed to them."""
@@ -303,7 +301,6 @@ class Monitor:
         else:
             self.steps += 1
             step = end - self._time
-            self._jumped = self._jump is not None
             if self._jump is not None:
                 current = self._task.problem.current
                 current.velocities[:], current.accelerations[:], _ = self._jump

@@ -11,11 +11,10 @@ from exu_press.integrate.settings import Task
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.linear import Equations
 
-__all__ = ["fit_jump", "fit_start", "start_rates", "start_without_mass"]
+__all__ = ["LOOK_AHEAD", "fit_jump", "fit_start", "start_rates", "start_without_mass"]
 
 LOOK_AHEAD = 0.01
-"""Time ahead of the start at which constraints are evaluated, over the largest step; motions are
-smooth in it."""
+"""Time between the instants at which constraints are asked at the start, over the largest step."""
 
 START_ITERATIONS = 10
 """Iterations of Newton's method to positions that fit the constraints."""
@@ -48,11 +47,11 @@ def _accelerations(task: Task) -> Array:
 class _Start:
     """The current state at a time, s, and its constraints there and soon after."""
 
-    def __init__(self, task: Task, constraints: Constraints, time: float) -> None:
+    def __init__(self, task: Task, constraints: Constraints, time: float, ahead: float) -> None:
         self._task, self._constraints = task, constraints
         self._data, self._current = task.problem.data, task.problem.current
         self._solver, self._mbs = task.solver, task.problem.mbs
-        self._start, self._ahead = time, LOOK_AHEAD * task.largest
+        self._start, self._ahead = time, ahead
         self.length = task.problem.length or 1.0
         self.q = np.array(self._current.positions)
         self.v = np.array(self._current.velocities)
@@ -195,7 +194,7 @@ class _Start:
 
 
 def fit_start(
-    task: Task, constraints: Constraints, *, pushed: bool = False
+    task: Task, constraints: Constraints, ahead: float, *, pushed: bool = False
 ) -> tuple[Array, Array] | None:
     """Let the start fit the constraints, as near to what it was as can be.
 
@@ -214,6 +213,7 @@ def fit_start(
     Args:
         task: to be solved.
         constraints: of the system.
+        ahead: time between these instants, s.
         pushed: whether forces are others than Exudyn computed accelerations from.
 
     Returns:
@@ -228,7 +228,7 @@ def fit_start(
         accelerations = task.problem.current.accelerations
         accelerations[:] = _accelerations(task)
         return np.array(accelerations), np.zeros_like(accelerations)
-    start = _Start(task, constraints, task.start)
+    start = _Start(task, constraints, task.start, ahead)
     length, last, deforms = start.length, math.inf, False
     for i in range(START_ITERATIONS):
         violated = np.where(start.held, start.violated(), 0.0)
@@ -247,8 +247,10 @@ def fit_start(
     return start.a, rate
 
 
-def fit_jump(task: Task, constraints: Constraints, end: float) -> tuple[Array, Array, Array]:
-    """Return the motion after a step within which the velocity of a prescribed motion jumps.
+def fit_jump(
+    task: Task, constraints: Constraints, end: float, ahead: float
+) -> tuple[Array, Array, Array]:
+    """Return the motion after a short step, in which the velocity of a prescribed motion jumps.
 
     The constraints' impulses change velocities by the least, in the kinetic norm: all else acts for
     no time.
@@ -257,6 +259,7 @@ def fit_jump(task: Task, constraints: Constraints, end: float) -> tuple[Array, A
         task: to be solved; its current state ends the step.
         constraints: of the system.
         end: of the step, s.
+        ahead: time between the instants at which constraints are asked, s.
 
     Returns:
         Velocities and accelerations, and the prescribed rate of these.
@@ -264,7 +267,7 @@ def fit_jump(task: Task, constraints: Constraints, end: float) -> tuple[Array, A
     Source: F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996: M times
     the jump of velocities is the constraints' directions times their impulses.
     """
-    start = _Start(task, constraints, end)
+    start = _Start(task, constraints, end, ahead)
     tried, start.v = start.v, np.array(task.problem.start.velocities)
     rate = start.fit_rates(pushed=True)
     task.problem.current.velocities[:] = tried

@@ -20,7 +20,7 @@ class StepControl:
 
     Attributes:
         error: of the last try.
-        at_smallest: whether it was too large in a step that cannot be shorter.
+        of_force: whether that is too large, in a step that cannot be shorter, as a force jumps.
     """
 
     def __init__(
@@ -40,7 +40,7 @@ class StepControl:
             next_sample: time -> the next one of a grid on which steps end, s, or infinity.
             controller: changes steps for their errors; `LimitedGrowth` unless given.
         """
-        self.error, self.at_smallest = 0.0, False
+        self.error, self.of_force = 0.0, False
         self._controller = controller or LimitedGrowth(task.tuning, impacts=task.impacts)
         self._estimate, self._next_corner = estimate, next_corner
         self._next_sample = next_sample
@@ -64,12 +64,10 @@ class StepControl:
         error = self._estimate(step)
         if error > 1.0 and step <= self._no_shorter:
             error = min(error, self._estimate.of_jump(step))
-            if self._changes_with(step):
-                error = min(error, 1.0)
         self.error = error
-        self.at_smallest = error > 1.0 and step <= self._no_shorter
         if error <= 1.0:
             return 0.0
+        self.of_force = step <= self._no_shorter and self._changes_with(step)
         self._failed = self._left = step
         self._change = self._estimate.change_of_speed()
         self._step = self._asked = step * self._controller.repeated(error)
@@ -124,12 +122,12 @@ class FixedSteps:
 
     Attributes:
         error: none that is known.
-        at_smallest: never: no step is too long.
+        of_force: never.
     """
 
     def __init__(self, task: Task) -> None:
         """Take the steps of a task."""
-        self.error, self.at_smallest = 0.0, False
+        self.error, self.of_force = 0.0, False
         self._step, self._start = task.largest, task.start
         self._size = self._next = task.first
 

@@ -189,10 +189,11 @@ def test_the_smallest_step_is_good_enough_for_a_force_that_jumps(change, accepte
     while step > 1e-9 and (shorter := control.shorter(step)):
         step, tries = max(shorter, 1e-9), tries + 1
     assert tries > 3
-    assert (control.shorter(1e-9) == 0.0) is accepted
-    assert control.at_smallest is not accepted
+    assert control.shorter(1e-9) > 0.0
+    assert control.of_force is accepted
     control.accept(1e-3)  # beyond the steps that failed
-    assert control.shorter(1e-9) > 0.0, "theirs was another jump"
+    assert control.shorter(1e-9) > 0.0
+    assert not control.of_force, "theirs was another jump"
 
 
 def steps(good, corner=math.inf, period=math.inf, **changes):

@@ -1,0 +1,252 @@
+"""Prescribed motions whose velocities jump: steps end there, and the motion begins anew."""
+
+import exudyn as exu
+import exudyn.utilities as items
+import numpy as np
+import pytest
+
+from exu_press import SolverStatus, solve_dynamic
+from exudyn_examples.flexible import cables, hold
+from exudyn_examples.planar import bar, pin
+
+
+def settings(end, smallest=1e-8):
+    chosen = exu.SimulationSettings()
+    chosen.timeIntegration.endTime, chosen.timeIntegration.numberOfSteps = end, 100
+    chosen.timeIntegration.minimumStepSize = smallest
+    chosen.timeIntegration.generalizedAlpha.spectralRadius = 0.8
+    chosen.solution.file.write = False
+    return chosen
+
+
+def pulled(offset):
+    """A mass of 2 kg on a spring of 400 N/m, whose other end a function of time moves."""
+    mbs = exu.SystemContainer().AddSystem()
+    nodes = [
+        mbs.AddNode(items.NodePointGround()),
+        mbs.AddNode(items.NodePoint2D()),
+        mbs.AddNode(items.NodePoint2D(referenceCoordinates=[1.0, 0.0])),
+    ]
+    for node, mass in zip(nodes[1:], (1.0, 2.0), strict=True):
+        mbs.AddObject(items.ObjectMassPoint2D(nodeNumber=node, mass=mass))
+        hold(mbs, node, (1,))
+    fixed, end, body = (
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0)) for node in nodes
+    )
+    spring = items.ObjectConnectorCoordinateSpringDamper
+    mbs.AddObject(spring(markerNumbers=[end, body], stiffness=400.0))
+    mbs.AddObject(
+        items.ObjectConnectorCoordinate(
+            markerNumbers=[fixed, end],
+            offsetUserFunction=lambda mbs, time, item, given: offset(time),
+        )
+    )
+    mbs.Assemble()
+    return mbs, nodes[1:]
+
+
+def test_a_cable_goes_on_after_the_velocity_of_its_end_jumps():
+    """A cable's end is given another speed at once; until then it rests."""
+    mbs = exu.SystemContainer().AddSystem()
+    nodes, _ = cables(mbs, 2.1e8)
+    hold(mbs, nodes[0], (0,))
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
+        for node, coordinate in ((mbs.AddNode(items.NodePointGround()), 0), (nodes[0], 1))
+    ]
+
+    def push(mbs, time, item, offset):
+        return max(0.0, time - 0.01)
+
+    mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends, offsetUserFunction=push))
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(0.0101), tolerance=1e-2, max_steps=5000)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert mbs.GetNodeOutput(nodes[0], exu.OutputVariableType.Velocity)[1] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
+def test_the_velocity_of_a_prescribed_motion_may_jump(tolerance):
+    """A ramp from 0.3 to 0.7 s; its corners are no load's, and steps end on them.
+
+    Each corner is an impulse on what is prescribed, and none on the mass behind the spring.
+    """
+    mbs, (end, body) = pulled(lambda time: min(max(0.0, time - 0.3), 0.4))
+    velocity = exu.OutputVariableType.Velocity
+    sensors = [
+        mbs.AddSensor(
+            items.SensorNode(nodeNumber=node, outputVariableType=velocity, storeInternal=True)
+        )
+        for node in (end, body)
+    ]
+    mbs.Assemble()
+    chosen = settings(1.0)
+    chosen.solution.sensors.writePeriod = 0.03125
+    outcome = solve_dynamic(mbs, chosen, tolerance=tolerance)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    times = mbs.GetSensorStoredData(sensors[0])[:, 0]
+    rate = np.sqrt(400.0 / 2.0)  # rad/s
+    ends = ((times > 0.3) & (times < 0.7)).astype(float)
+    bodies = sum(
+        sign * np.where(times > corner, 1.0 - np.cos(rate * (times - corner)), 0.0)
+        for sign, corner in ((1.0, 0.3), (-1.0, 0.7))
+    )
+    for sensor, expected in zip(sensors, (ends, bodies), strict=True):
+        found = mbs.GetSensorStoredData(sensor)[:, 1]
+        assert found == pytest.approx(expected, abs=3.5 * tolerance)
+
+
+@pytest.mark.parametrize("behind", [1e-8, 1e-7, 1e-6, 1e-5])
+def test_a_corner_right_behind_a_step(behind):
+    """A step up to the corner, s, leaves the motion as it was; the system is linear."""
+
+    def swing(time):
+        return 0.1 * np.sin(3.0 * time)
+
+    ends, velocities = [], []
+    mbs, _ = pulled(swing)
+    outcome = solve_dynamic(mbs, settings(1.0), watch=lambda time: ends.append(time) or "")
+    velocities.append(mbs.systemData.GetODE2Coordinates_t()[2])
+    corner = min(ends, key=lambda time: abs(time - 0.5)) + behind
+    mbs, _ = pulled(lambda time: swing(time) + max(0.0, time - corner))
+    told = solve_dynamic(mbs, settings(1.0))
+    velocities.append(mbs.systemData.GetODE2Coordinates_t()[2])
+    assert told.steps < 1.5 * outcome.steps + 150, "no step answers to a corner ahead"
+    expected = 1.0 - np.cos(np.sqrt(200.0) * (1.0 - corner))
+    assert velocities[1] - velocities[0] == pytest.approx(expected, abs=4e-3)
+
+
+def test_a_prescribed_place_that_jumps_is_thought_of():
+    mbs, _ = pulled(lambda time: 0.1 if time > 0.01 else 0.0)
+    outcome = solve_dynamic(mbs, settings(0.02), tolerance=1e-4, max_steps=3000)
+    assert outcome.status is SolverStatus.STEP_TOO_SMALL, outcome.reason
+    assert outcome.end_time == pytest.approx(0.01) and "offset that jumps" in outcome.reason
+    assert outcome.steps < 150
+
+
+RATE = np.sqrt(400.0 / 2.0)  # rad/s, of the mass behind its spring
+
+
+def follows(velocity, corner, tolerance):
+    """Whether the mass answers at 1 s to a ramp from a corner on (s), in some tolerances."""
+    expected = 1.0 - np.cos(RATE * (1.0 - corner))
+    return velocity == pytest.approx(expected, abs=3.5 * tolerance)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+def test_a_velocity_may_jump_anywhere(tolerance):
+    """Steps near a corner are no smaller than it takes to end before and behind it."""
+    undisturbed = 100 if tolerance == 1e-2 else 180
+    for corner in np.arange(0.3, 0.7, 0.007):
+        mbs, (_, body) = pulled(lambda time, corner=corner: max(0.0, time - corner))
+        outcome = solve_dynamic(mbs, settings(1.0), tolerance=tolerance)
+        assert outcome.status is SolverStatus.COMPLETED, (corner, outcome.reason)
+        assert outcome.steps + outcome.rejected_steps < undisturbed + 60, corner
+        velocity = mbs.GetNodeOutput(body, exu.OutputVariableType.Velocity)[0]
+        assert follows(velocity, corner, tolerance), corner
+
+
+@pytest.mark.parametrize("smallest", [1e-12, 1e-10, 1e-6, 1e-4])
+@pytest.mark.parametrize("start", [0.0, 1e3, 1e5])
+def test_a_velocity_may_jump_at_any_time_for_any_smallest_step(smallest, start):
+    """Times of 1e5 s are rounded to 1e-11 s."""
+    if smallest < 1e-15 * start:
+        pytest.skip("the smallest step is rounding")
+    mbs, (_, body) = pulled(lambda time: max(0.0, time - start - 0.6))
+    chosen = settings(start + 1.0, smallest)
+    chosen.timeIntegration.startTime = start
+    outcome = solve_dynamic(mbs, chosen)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert follows(mbs.GetNodeOutput(body, exu.OutputVariableType.Velocity)[0], 0.6, 1e-3)
+
+
+@pytest.mark.parametrize("width", [1e-4, 3e-7, 1e-7, 3e-8, 1e-8, 1e-9])
+def test_a_corner_may_be_rounded(width):
+    """Within some smallest steps or less it is as good as sharp."""
+
+    def rounded(time):
+        begun = time - 0.5 + 0.37 * width
+        return 0.5 * max(begun, 0.0) ** 2 / width if begun < width else begun - 0.5 * width
+
+    mbs, (_, body) = pulled(rounded)
+    outcome = solve_dynamic(mbs, settings(1.0))
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert follows(mbs.GetNodeOutput(body, exu.OutputVariableType.Velocity)[0], 0.5, 1e-3)
+
+
+@pytest.mark.parametrize("apart", [1e-8, 1e-6, 1e-4])
+def test_corners_may_be_close_to_each_other(apart):
+    """A ramp is over as soon as it has begun: hardly anything has moved."""
+    mbs, (end, body) = pulled(lambda time: max(0.0, time - 0.35) - max(0.0, time - 0.35 - apart))
+    outcome = solve_dynamic(mbs, settings(1.0))
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert outcome.steps < 300
+    velocity = exu.OutputVariableType.Velocity
+    assert mbs.GetNodeOutput(end, velocity)[0] == pytest.approx(0.0, abs=1e-6)
+    # the spring was longer by the whole way from then on
+    expected = apart * RATE * np.sin(RATE * 0.65)
+    assert mbs.GetNodeOutput(body, velocity)[0] == pytest.approx(expected, abs=2e-2 * apart * RATE)
+
+
+def test_a_motion_may_be_given_by_a_table():
+    """Between its points a table is a line: each of them is a corner."""
+    grid = np.linspace(0.0, 1.0, 101)
+    places = 0.05 * np.sin(4.0 * np.pi * grid)
+    velocities = []
+    for motion in (
+        lambda time: float(np.interp(time, grid, places)),
+        lambda time: 0.05 * np.sin(4.0 * np.pi * time),
+    ):
+        mbs, (_, body) = pulled(motion)
+        outcome = solve_dynamic(mbs, settings(1.0))
+        assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+        velocities.append(mbs.GetNodeOutput(body, exu.OutputVariableType.Velocity)[0])
+    # chords are up to (h^2 / 8) of the second derivative short of the sine
+    assert velocities[0] == pytest.approx(velocities[1], abs=5e-3)
+
+
+def rocking(motion):
+    """Two arms in a row, with a spring between; a function of time turns the first."""
+    mbs = exu.SystemContainer().AddSystem()
+    ground = mbs.AddObject(items.ObjectGround())
+    arm, half, node = bar(mbs, (0.0, 0.0), (1.0, 0.0), 2.0)
+    other, its_half, its_node = bar(mbs, (1.0, 0.0), (2.0, 0.0), 1.0)
+    pin(mbs, ground, (0.0, 0.0), arm, (-half, 0.0))
+    pin(mbs, arm, (half, 0.0), other, (-its_half, 0.0))
+    still = mbs.AddNode(items.NodePointGround())
+    fixed, angle, its_angle = (
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=coordinate))
+        for number, coordinate in ((still, 0), (node, 2), (its_node, 2))
+    )
+    spring = items.ObjectConnectorCoordinateSpringDamper
+    mbs.AddObject(spring(markerNumbers=[angle, its_angle], stiffness=3e3, damping=5.0))
+    mbs.AddObject(
+        items.ObjectConnectorCoordinate(
+            markerNumbers=[fixed, angle],
+            offsetUserFunction=lambda mbs, time, item, given: motion(time),
+        )
+    )
+    mbs.Assemble()
+    return mbs
+
+
+@pytest.mark.parametrize(
+    ("rate", "height", "tolerance", "most"),
+    [
+        (6.95, 1.3e-4, 1e-3, 2600),
+        (16.05, 5.6e-5, 1e-3, 2600),
+        (27.4, 0.11, 1e-2, 1900),
+    ],
+)
+def test_velocities_that_jump_again_and_again_leave_nothing_ringing(rate, height, tolerance, most):
+    """Also those that a step has room for in part."""
+    mbs = rocking(lambda time: height * abs(np.sin(rate * time)))
+    outcome = solve_dynamic(mbs, settings(1.0), tolerance=tolerance, max_steps=most)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+
+
+def test_a_place_that_jumps_with_its_velocity_stops_the_run():
+    mbs, _ = pulled(lambda time: 0.1 + time if time > 0.35 else 0.0)
+    outcome = solve_dynamic(mbs, settings(1.0))
+    assert outcome.status is SolverStatus.STEP_TOO_SMALL
+    assert outcome.end_time == pytest.approx(0.35) and "offset that jumps" in outcome.reason

@@ -280,7 +280,10 @@ class Monitor:
         self.control.start_again()
         self._step_change.start_from(accelerations, rate)
         self._newton.start_again()
-        self._estimate.start_again(accelerations.tolist())
+        now = accelerations.tolist()
+        self._estimate.start_again(now)
+        if self.resolution is not None:
+            self.resolution.begin(now)
 
     def _after_step(self, mbs: exu.MainSystem, end: float) -> bool:
         if self._output.writing:
@@ -316,7 +319,7 @@ class Monitor:
             self._newton.stepped(step)
             if self._jump is not None:
                 self._start_again(*self._jump[1:])
-            if self.resolution is not None:
+            elif self.resolution is not None:
                 self.resolution.stepped(end, step, self._accelerations.tolist())
         self.stalled = self._watch(end)
         step = self.control.next_step(end)

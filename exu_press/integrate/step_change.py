@@ -121,6 +121,7 @@ class StepChange:
         """
         self._given = accelerations.tolist(), rate.tolist()
         self._start, self._leaves = None, 0.0
+        self._mean = None
 
     def before_try(self, start: float, step: float) -> None:
         """Shift the state from which Exudyn is about to try a step (s) from a start (s)."""

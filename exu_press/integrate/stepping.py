@@ -201,8 +201,8 @@ class Resolution:
         self._scales = task.scales
         self._radius = task.spectral_radius  # by which a ring decays from step to step
         self._least = (0.1 if task.problem.joints is None else 0.01) * task.tolerance
-        self._before: list[float] = []
         # A stiff film that starts from rest makes the accelerations ring; that is no impact.
+        self._before: list[float] = []
         self._started: list[float] = []
         self._ring = 1.0
         self._largest = 0.0
@@ -211,8 +211,8 @@ class Resolution:
         self._jumps: list[tuple[float, float, float, int, float]] = []
 
     def begin(self, accelerations: list[float]) -> None:
-        """Be told of all coordinates' accelerations at the start."""
-        self._before = accelerations
+        """Be told of all coordinates' accelerations where the motion begins, or begins anew."""
+        self._before, self._started, self._ring = accelerations, [], 1.0
 
     def stepped(self, time: float, step: float, accelerations: list[float]) -> None:
         """Be told of an accepted step (s), and where it ends (s)."""

@@ -38,8 +38,7 @@ class VelocityJumps:
     def __init__(self, task: Task, constraints: Constraints) -> None:
         """Look at the constraints of a task."""
         problem = task.problem
-        # forces of clearance joints remember where they were asked
-        self._sought = problem.untold_rates and problem.joints is None
+        self._sought = problem.untold_rates
         self._constraints, self._data, self._smallest = constraints, problem.data, task.smallest
         self._length, self._positions = problem.length or 1.0, problem.current.positions
         self._ahead = LOOK_AHEAD * task.largest

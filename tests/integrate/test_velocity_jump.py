@@ -5,7 +5,10 @@ import exudyn.utilities as items
 import numpy as np
 import pytest
 
-from exu_press import SolverStatus, solve_dynamic
+from exu_press import SolverStatus, add_dry_revolute, add_lubricated_revolute, solve_dynamic
+from exu_press.laws.contact import hertz, step_damping
+from exu_press.laws.film import finite
+from exu_press.laws.friction import no_friction
 from exudyn_examples.flexible import cables, hold
 from exudyn_examples.planar import bar, pin
 
@@ -250,3 +253,65 @@ def test_a_place_that_jumps_with_its_velocity_stops_the_run():
     outcome = solve_dynamic(mbs, settings(1.0))
     assert outcome.status is SolverStatus.STEP_TOO_SMALL
     assert outcome.end_time == pytest.approx(0.35) and "offset that jumps" in outcome.reason
+
+
+def cranked(joint, motion):
+    """A slider-crank with a clearance at the crank pin; a function of time turns the crank."""
+    mbs = exu.SystemContainer().AddSystem()
+    ground = mbs.AddObject(items.ObjectGround())
+    crank, half, node = bar(mbs, (0.0, 0.0), (0.2, 0.0), 5.0)
+    rod, its_half, _ = bar(mbs, (0.2, 0.0), (1.0, 0.0), 10.0)
+    pin(mbs, ground, (0.0, 0.0), crank, (-half, 0.0))
+    ends = (crank, (half, 0.0)), (rod, (-its_half, 0.0))
+    size = {"radius": 0.02, "clearance": 5e-5}
+    if joint == "dry":
+        contact = step_damping(hertz(2.5e10), 2.5e6, 1e-5)
+        add_dry_revolute(mbs, *ends, **size, contact=contact, friction=no_friction())
+    else:
+        add_lubricated_revolute(mbs, *ends, **size, length=0.03, viscosity=0.1, law=finite(0.75))
+    slider = mbs.AddNode(items.NodePoint2D(referenceCoordinates=[1.0, 0.0]))
+    body = mbs.AddObject(items.ObjectMassPoint2D(nodeNumber=slider, mass=20.0))
+    wrist = [
+        mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=rod, localPosition=[its_half, 0.0, 0.0])),
+        mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=body)),
+    ]
+    mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=wrist))
+    hold(mbs, slider, (1,))
+    still = mbs.AddNode(items.NodePointGround())
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=coordinate))
+        for number, coordinate in ((still, 0), (node, 2))
+    ]
+    mbs.AddObject(
+        items.ObjectConnectorCoordinate(
+            markerNumbers=ends,
+            offsetUserFunction=lambda mbs, time, item, given: motion(time),
+        )
+    )
+    mbs.Assemble()
+    return mbs, slider
+
+
+SPEED, STARTS = 30.0, 0.05  # rad/s, s
+
+
+@pytest.mark.parametrize(("joint", "allowed"), [("dry", 0.02), ("lubricated", 2e-3)])
+def test_a_crank_with_a_clearance_may_start_at_once(joint, allowed):
+    """The slider follows the crank, but for the clearance."""
+    velocity = exu.OutputVariableType.Velocity
+    mbs, slider = cranked(joint, lambda time: SPEED * max(0.0, time - STARTS))
+    outcome = solve_dynamic(mbs, settings(0.2))
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    angle = SPEED * (0.2 - STARTS)
+    sine, across = 0.2 * np.sin(angle), np.sqrt(0.8**2 - (0.2 * np.sin(angle)) ** 2)
+    expected = -SPEED * sine * (1.0 + 0.2 * np.cos(angle) / across)
+    assert mbs.GetNodeOutput(slider, velocity)[0] == pytest.approx(expected, abs=allowed)
+
+
+@pytest.mark.parametrize("joint", ["dry", "lubricated"])
+def test_a_crank_with_a_clearance_may_follow_a_table(joint):
+    grid = np.linspace(0.0, 0.1, 21)
+    angles = SPEED * grid + 0.05 * np.sin(SPEED * grid)
+    mbs, _ = cranked(joint, lambda time: float(np.interp(time, grid, angles)))
+    outcome = solve_dynamic(mbs, settings(0.1))
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason

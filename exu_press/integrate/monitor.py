@@ -266,14 +266,18 @@ class Monitor:
     def _jumped(self, step: float) -> tuple[Array, Array, Array] | None:
         """Return the motion behind a short step (s) in which a prescribed velocity jumps.
 
-        Nothing where bodies have moved by more than their velocities do: the offset itself jumps.
+        Nothing where it changes by less than matters, or where bodies have moved by more than their
+        velocities do: the offset itself jumps.
         """
-        problem, norm = self._task.problem, self._task.scales.norm
-        before, after, end = problem.start, problem.current, self._time + step
-        jump = fit_jump(self._task, self.constraints, end, self._velocity_jumps.ahead(end))
-        moved = norm((after.positions - before.positions).tolist())
-        speeds = norm(jump[0].tolist()) + norm(before.velocities.tolist())
-        return jump if moved <= step * speeds else None
+        problem, scales = self._task.problem, self._task.scales
+        before, end = self._step_change.velocities(), self._time + step
+        ahead = self._velocity_jumps.ahead(end)
+        jump = fit_jump(self._task, self.constraints, before, end, ahead)
+        changed = scales.norm((jump[0] - before).tolist())
+        moved = scales.norm((problem.current.positions - problem.start.positions).tolist())
+        speeds = scales.norm(jump[0].tolist()) + scales.norm(before.tolist())
+        felt = changed > self._task.tolerance * scales.speed
+        return jump if felt and moved <= step * speeds else None
 
     def _start_again(self, accelerations: Array, rate: Array) -> None:
         """Go on as from a start, with these accelerations and the rate prescribed to them."""

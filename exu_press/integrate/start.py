@@ -248,7 +248,7 @@ def fit_start(
 
 
 def fit_jump(
-    task: Task, constraints: Constraints, end: float, ahead: float
+    task: Task, constraints: Constraints, before: Array, end: float, ahead: float
 ) -> tuple[Array, Array, Array]:
     """Return the motion after a short step, in which the velocity of a prescribed motion jumps.
 
@@ -258,6 +258,7 @@ def fit_jump(
     Args:
         task: to be solved; its current state ends the step.
         constraints: of the system.
+        before: velocities at its beginning.
         end: of the step, s.
         ahead: time between the instants at which constraints are asked, s.
 
@@ -268,9 +269,10 @@ def fit_jump(
     the jump of velocities is the constraints' directions times their impulses.
     """
     start = _Start(task, constraints, end, ahead)
-    tried, start.v = start.v, np.array(task.problem.start.velocities)
+    tried, start.v = (start.v, start.a), before
     rate = start.fit_rates(pushed=True)
-    task.problem.current.velocities[:] = tried
+    current = task.problem.current
+    current.velocities[:], current.accelerations[:] = tried
     return start.v, start.a, rate
 
 

@@ -123,6 +123,10 @@ class StepChange:
         self._start, self._leaves = None, 0.0
         self._mean = None
 
+    def velocities(self) -> Array:
+        """Return those with which the step under way begins, before any shift."""
+        return np.array(self._state[1] if self._state else self._at_start.velocities)
+
     def before_try(self, start: float, step: float) -> None:
         """Shift the state from which Exudyn is about to try a step (s) from a start (s)."""
         repeated = start == self._start

@@ -44,6 +44,8 @@ class VelocityJumps:
         self._ahead = LOOK_AHEAD * task.largest
         self._short = SHORT * task.smallest
         self._behind = math.inf  # the jump last found, s
+        # where the step last looked at and the one before begin, and where motion begins anew, s
+        self._begin = self._last = self._anew = task.start
         self.crossed = False
 
     def shorter(self, begin: float, step: float, *, failed: bool) -> float:
@@ -57,10 +59,12 @@ class VelocityJumps:
         self.crossed = False
         if not self._sought:
             return 0.0
-        if not 0.0 < self._behind - begin <= step * (1.0 + SAME):
+        if begin != self._begin:
+            self._last, self._begin = self._begin, begin
+        if self._behind - begin > step * (1.0 + SAME):
             if not failed:
                 return 0.0
-            self._behind = self._found(begin, begin + step)
+            self._behind = self._found(max(self._last, self._anew), begin + step)
         across = self._behind - begin
         if across == math.inf:
             return 0.0
@@ -71,7 +75,7 @@ class VelocityJumps:
         self.crossed = step <= across * (1.0 + SAME)
         if not self.crossed:
             return across
-        self._behind = math.inf
+        self._behind, self._anew = math.inf, begin + step
         return 0.0
 
     def ahead(self, time: float) -> float:

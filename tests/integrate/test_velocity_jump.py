@@ -255,6 +255,48 @@ def test_a_place_that_jumps_with_its_velocity_stops_the_run():
     assert outcome.end_time == pytest.approx(0.35) and "offset that jumps" in outcome.reason
 
 
+def swung(motion):
+    """A bar in space whose joint a function of time turns, and another one at its end."""
+    mbs = exu.SystemContainer().AddSystem()
+    ground = mbs.CreateGround()
+    bars = [
+        mbs.CreateRigidBody(
+            referencePosition=[middle, 0.0, 0.0],
+            inertia=items.InertiaCuboid(1000.0, [1.0, width, width]),
+            gravity=[0.0, 0.0, -9.81],
+        )
+        for middle, width in ((0.5, 0.1), (1.5, 0.05))
+    ]
+    for (one, at), (other, held) in (
+        ((ground, 0.0), (bars[0], {"offsetUserFunction": lambda mbs, time, *others: motion(time)})),
+        ((bars[0], 0.5), (bars[1], {"constrainedAxes": [1, 1, 1, 0, 0, 0]})),
+    ):
+        markers = [
+            mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=body, localPosition=[place, 0.0, 0.0]))
+            for body, place in ((one, at), (other, -0.5))
+        ]
+        mbs.AddObject(items.GenericJoint(markerNumbers=markers, **held))
+    mbs.Assemble()
+    return mbs
+
+
+def test_a_jump_in_the_last_part_of_a_good_step_is_found_by_the_next_one():
+    """So small a part of it lies behind the jump that the step seems good enough."""
+    tolerance = 1e-2
+    for corner in np.arange(0.1, 0.2, 0.0023):
+        found = []
+        for asked in (0.1 * tolerance, tolerance):
+
+            def turned(time, corner=corner):
+                return [0.0] * 5 + [2.0 * max(0.0, time - corner)]
+
+            mbs = swung(turned)
+            outcome = solve_dynamic(mbs, settings(0.5), tolerance=asked)
+            assert outcome.status is SolverStatus.COMPLETED, (corner, outcome.reason)
+            found.append(mbs.systemData.GetODE2Coordinates_t())
+        assert found[1] == pytest.approx(found[0], abs=2.0 * tolerance), corner
+
+
 def cranked(joint, motion):
     """A slider-crank with a clearance at the crank pin; a function of time turns the crank."""
     mbs = exu.SystemContainer().AddSystem()

@@ -26,8 +26,9 @@ class VelocityJumps:
 
     As where the offset of a user function turns a corner. No step across is small enough: its
     accelerations are the jump over the step. So a step that fails is looked at: what constraints
-    prescribe is asked for while nothing moves, and the instant is found by halving the step. The
-    next step ends before it, and one of about the smallest size leads across, behind which the
+    prescribe is asked for while nothing moves, and the instant is found by halving the step. So is
+    the one before: with a jump in its last part a step may have been good enough. The next step
+    ends before the jump, and one of about the smallest size leads across, behind which the
     motion begins anew (`fit_jump`). What changes within the smallest step is a jump as well. An
     offset that jumps itself, and not its velocity alone, is none.
 
@@ -38,7 +39,7 @@ class VelocityJumps:
     def __init__(self, task: Task, constraints: Constraints) -> None:
         """Look at the constraints of a task."""
         problem = task.problem
-        self._sought = problem.untold_rates
+        self._sought = problem.untold_rates and constraints.count > 0
         self._constraints, self._data, self._smallest = constraints, problem.data, task.smallest
         self._length, self._positions = problem.length or 1.0, problem.current.positions
         self._ahead = LOOK_AHEAD * task.largest

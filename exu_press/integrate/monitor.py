@@ -318,21 +318,39 @@ class Monitor:
             self._settling.accept()
             self.control.accept(step)
             self._event.accept()
-            if self._event.passed:
-                self.control.restart()
             self._newton.stepped(step)
             if self._jump is not None:
                 self._start_again(*self._jump[1:])
             elif self.resolution is not None:
                 self.resolution.stepped(end, step, self._accelerations.tolist())
         self.stalled = self._watch(end)
+        anew = self._event.passed
+        if self._users[3]:
+            anew = self._call_after_step(mbs, end) or anew
+        if anew and self.steps and not self._task.fixed:
+            self._begin_anew(end)
         step = self.control.next_step(end)
         self._output.next_step(end + step)
         if step != self._iteration.currentStepSize:  # to set it takes longer than to ask for it
             self._iteration.currentStepSize = step
-        if self._users[3] and not self._users[3](mbs, end):
-            self.go_on = False
         return self.go_on and not self.stalled
+
+    def _call_after_step(self, mbs: exu.MainSystem, end: float) -> bool:
+        """Call the user's own function; return whether it has set velocities, as an impact does."""
+        task, velocities = self._task, self._task.problem.current.velocities
+        before = np.array(velocities)
+        self.go_on = bool(self._users[3](mbs, end)) and self.go_on
+        changed = task.scales.norm((velocities - before).tolist())
+        return changed > task.tolerance * task.scales.speed
+
+    def _begin_anew(self, end: float) -> None:
+        """Go on with the current velocities as from a start; constraints may change them."""
+        task, current = self._task, self._task.problem.current
+        start_rates(task, end)
+        ahead, before = self._velocity_jumps.ahead(end), np.array(current.velocities)
+        jump = fit_jump(task, self.constraints, before, end, ahead)
+        current.velocities[:], current.accelerations[:], rate = jump
+        self._start_again(jump[1], rate)
 
     @contextmanager
     def _catching_interrupts(self) -> Iterator[None]:

@@ -101,9 +101,11 @@ class Event:
             return 0.0
         self._now = now = self._function(self._mbs, end)
         self.passed = now * self._before < 0.0
-        if not self.passed or step <= self._narrow:
+        if not self.passed:
             return 0.0
         part = self._before / (self._before - now)
+        if (1.0 - part) * step <= self._narrow:
+            return 0.0
         return min(part * step + 0.5 * self._narrow, 0.9 * step)
 
     def accept(self) -> None:

@@ -250,16 +250,16 @@ def fit_start(
 def fit_jump(
     task: Task, constraints: Constraints, before: Array, end: float, ahead: float
 ) -> tuple[Array, Array, Array]:
-    """Return the motion after a short step, in which the velocity of a prescribed motion jumps.
+    """Return the motion after a jump of velocities, prescribed or set.
 
     The constraints' impulses change velocities by the least, in the kinetic norm: all else acts for
     no time.
 
     Args:
-        task: to be solved; its current state ends the step.
+        task: to be solved; its current state is where they jump.
         constraints: of the system.
-        before: velocities at its beginning.
-        end: of the step, s.
+        before: velocities, as set, or in front of what is prescribed.
+        end: of the jump, s.
         ahead: time between the instants at which constraints are asked, s.
 
     Returns:
@@ -268,6 +268,9 @@ def fit_jump(
     Source: F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996: M times
     the jump of velocities is the constraints' directions times their impulses.
     """
+    if not constraints.count:
+        accelerations = _accelerations(task)
+        return before, accelerations, np.zeros_like(accelerations)
     start = _Start(task, constraints, end, ahead)
     tried, start.v = (start.v, start.a), before
     rate = start.fit_rates(pushed=True)

@@ -151,7 +151,7 @@ class StepChange:
         if self._task.fixed:
             return False
         assert self._last is not None
-        size = max(1.0, float(np.abs(self._current.positions).max()))
+        size = float(np.abs(self._current.positions).max(initial=1.0))
         error = ratio * ratio * math.ulp(size) / self._last
         return error > ROUNDED * self._task.tolerance * self._task.scales.speed
 

@@ -51,10 +51,6 @@ class StepControl:
         # the step that failed last, s, its change of speeds, m/s, and what is left of it, s
         self._failed, self._change, self._left = math.inf, 0.0, 0.0
 
-    def restart(self) -> None:
-        """Go on as at the start, where the motion is about to change."""
-        self._step = min(self._step, self._first)
-
     def start_again(self) -> None:
         """Go on with the first step's size, as the motion begins anew."""
         self._step = self._first
@@ -130,9 +126,6 @@ class FixedSteps:
         self.error, self.of_force = 0.0, False
         self._step, self._start = task.largest, task.start
         self._size = self._next = task.first
-
-    def restart(self) -> None:
-        """Keep the grid."""
 
     def start_again(self) -> None:
         """Keep the grid."""

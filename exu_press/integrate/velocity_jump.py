@@ -94,7 +94,7 @@ class VelocityJumps:
         now = self._data.GetTime()
         below, above = self._prescribed(begin), self._prescribed(end)
         jump = change = _distance(above, below)
-        length = max(self._length, float(np.abs(self._positions).max()))
+        length = float(np.abs(self._positions).max(initial=self._length))
         rounded = ROUNDED * length / self._short
         while jump > rounded and end - begin > self._smallest * (1.0 + SAME):
             middle = 0.5 * (begin + end)

@@ -338,9 +338,11 @@ class Monitor:
     def _call_after_step(self, mbs: exu.MainSystem, end: float) -> bool:
         """Call the user's own function; return whether it has set velocities, as an impact does."""
         task, velocities = self._task, self._task.problem.current.velocities
-        before = np.array(velocities)
+        before = velocities.tobytes()  # to compare bytes takes a tenth of the time
         self.go_on = bool(self._users[3](mbs, end)) and self.go_on
-        changed = task.scales.norm((velocities - before).tolist())
+        if velocities.tobytes() == before:
+            return False
+        changed = task.scales.norm((velocities - np.frombuffer(before)).tolist())
         return changed > task.tolerance * task.scales.speed
 
     def _begin_anew(self, end: float) -> None:

@@ -194,8 +194,8 @@ class Resolution:
         self._scales = task.scales
         self._radius = task.spectral_radius  # by which a ring decays from step to step
         self._least = (0.1 if task.problem.joints is None else 0.01) * task.tolerance
-        # A stiff film that starts from rest makes the accelerations ring; that is no impact.
         self._before: list[float] = []
+        # A stiff film that starts from rest makes the accelerations ring; that is no impact.
         self._started: list[float] = []
         self._ring = 1.0
         self._largest = 0.0

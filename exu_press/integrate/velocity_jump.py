@@ -45,8 +45,8 @@ class VelocityJumps:
         self._ahead = LOOK_AHEAD * task.largest
         self._short = SHORT * task.smallest
         self._behind = math.inf  # the jump last found, s
-        # where the step last looked at and the one before begin, and where motion begins anew, s
-        self._begin = self._last = self._anew = task.start
+        # where the step last looked at begins, and the one before unless motion begins anew, s
+        self._begin = self._last = task.start
         self.crossed = False
 
     def shorter(self, begin: float, step: float, *, failed: bool) -> float:
@@ -65,7 +65,7 @@ class VelocityJumps:
         if self._behind - begin > step * (1.0 + SAME):
             if not failed:
                 return 0.0
-            self._behind = self._found(max(self._last, self._anew), begin + step)
+            self._behind = self._found(self._last, begin + step)
         across = self._behind - begin
         if across == math.inf:
             return 0.0
@@ -76,7 +76,8 @@ class VelocityJumps:
         self.crossed = step <= across * (1.0 + SAME)
         if not self.crossed:
             return across
-        self._behind, self._anew = math.inf, begin + step
+        self._behind, self._begin = math.inf, begin + step
+        self._last = self._begin
         return 0.0
 
     def ahead(self, time: float) -> float:

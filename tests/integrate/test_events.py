@@ -9,10 +9,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from exu_press import SolverStatus, solve_dynamic
+from exudyn_examples.example import GRAVITY
 from exudyn_examples.other import first_order, mass_1d
 from exudyn_examples.planar import bar, pin
 
-GRAVITY, REBOUND = 9.81, 0.8
+REBOUND = 0.8
 
 
 def settings(end):

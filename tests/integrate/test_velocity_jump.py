@@ -22,30 +22,38 @@ def settings(end, smallest=1e-8):
     return chosen
 
 
+def prescribe(mbs, node, coordinate, motion):
+    """Let a function of time give a coordinate of a node."""
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=index))
+        for number, index in ((mbs.AddNode(items.NodePointGround()), 0), (node, coordinate))
+    ]
+    mbs.AddObject(
+        items.ObjectConnectorCoordinate(
+            markerNumbers=ends,
+            offsetUserFunction=lambda mbs, time, item, given: motion(time),
+        )
+    )
+
+
 def pulled(offset):
     """A mass of 2 kg on a spring of 400 N/m, whose other end a function of time moves."""
     mbs = exu.SystemContainer().AddSystem()
     nodes = [
-        mbs.AddNode(items.NodePointGround()),
         mbs.AddNode(items.NodePoint2D()),
         mbs.AddNode(items.NodePoint2D(referenceCoordinates=[1.0, 0.0])),
     ]
-    for node, mass in zip(nodes[1:], (1.0, 2.0), strict=True):
+    for node, mass in zip(nodes, (1.0, 2.0), strict=True):
         mbs.AddObject(items.ObjectMassPoint2D(nodeNumber=node, mass=mass))
         hold(mbs, node, (1,))
-    fixed, end, body = (
+    ends = [
         mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0)) for node in nodes
-    )
+    ]
     spring = items.ObjectConnectorCoordinateSpringDamper
-    mbs.AddObject(spring(markerNumbers=[end, body], stiffness=400.0))
-    mbs.AddObject(
-        items.ObjectConnectorCoordinate(
-            markerNumbers=[fixed, end],
-            offsetUserFunction=lambda mbs, time, item, given: offset(time),
-        )
-    )
+    mbs.AddObject(spring(markerNumbers=ends, stiffness=400.0))
+    prescribe(mbs, nodes[0], 0, offset)
     mbs.Assemble()
-    return mbs, nodes[1:]
+    return mbs, nodes
 
 
 def test_a_cable_goes_on_after_the_velocity_of_its_end_jumps():
@@ -53,15 +61,7 @@ def test_a_cable_goes_on_after_the_velocity_of_its_end_jumps():
     mbs = exu.SystemContainer().AddSystem()
     nodes, _ = cables(mbs, 2.1e8)
     hold(mbs, nodes[0], (0,))
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
-        for node, coordinate in ((mbs.AddNode(items.NodePointGround()), 0), (nodes[0], 1))
-    ]
-
-    def push(mbs, time, item, offset):
-        return max(0.0, time - 0.01)
-
-    mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends, offsetUserFunction=push))
+    prescribe(mbs, nodes[0], 1, lambda time: max(0.0, time - 0.01))
     mbs.Assemble()
     outcome = solve_dynamic(mbs, settings(0.0101), tolerance=1e-2, max_steps=5000)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
@@ -216,19 +216,13 @@ def rocking(motion):
     other, its_half, its_node = bar(mbs, (1.0, 0.0), (2.0, 0.0), 1.0)
     pin(mbs, ground, (0.0, 0.0), arm, (-half, 0.0))
     pin(mbs, arm, (half, 0.0), other, (-its_half, 0.0))
-    still = mbs.AddNode(items.NodePointGround())
-    fixed, angle, its_angle = (
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=coordinate))
-        for number, coordinate in ((still, 0), (node, 2), (its_node, 2))
-    )
+    angles = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=2))
+        for number in (node, its_node)
+    ]
     spring = items.ObjectConnectorCoordinateSpringDamper
-    mbs.AddObject(spring(markerNumbers=[angle, its_angle], stiffness=3e3, damping=5.0))
-    mbs.AddObject(
-        items.ObjectConnectorCoordinate(
-            markerNumbers=[fixed, angle],
-            offsetUserFunction=lambda mbs, time, item, given: motion(time),
-        )
-    )
+    mbs.AddObject(spring(markerNumbers=angles, stiffness=3e3, damping=5.0))
+    prescribe(mbs, node, 2, motion)
     mbs.Assemble()
     return mbs
 
@@ -319,17 +313,7 @@ def cranked(joint, motion):
     ]
     mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=wrist))
     hold(mbs, slider, (1,))
-    still = mbs.AddNode(items.NodePointGround())
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=coordinate))
-        for number, coordinate in ((still, 0), (node, 2))
-    ]
-    mbs.AddObject(
-        items.ObjectConnectorCoordinate(
-            markerNumbers=ends,
-            offsetUserFunction=lambda mbs, time, item, given: motion(time),
-        )
-    )
+    prescribe(mbs, node, 2, motion)
     mbs.Assemble()
     return mbs, slider
 

@@ -22,6 +22,7 @@ from setuptools import setup
 from setuptools.command.build_ext import build_ext
 
 MODULES = [
+    "integrate/beginnings",
     "integrate/constraints",
     "integrate/contact",
     "integrate/controller",

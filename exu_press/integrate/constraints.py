@@ -26,6 +26,9 @@ __all__ = ["Constraints", "normalised"]
 
 Flags = NDArray[np.bool_]
 
+SWITCH = "activeConnector"
+"""Parameter of an object by which it is switched on or off."""
+
 GIVE = 1e-8
 """Compliance given to constraints, over that of the masses. Where two of them nearly say the same,
 a hundredth of it made 5e-11 m of the last digits of positions, which contacts took for a motion."""
@@ -63,6 +66,9 @@ class Constraints:
         self._untold = problem.untold_rates or bool(self._places)  # Exudyn has none for these
         self._length, self._nearby = problem.length, NEARBY * problem.length
         self._of_velocities: Flags | None = None
+        # objects that may be switched off, and which were on when `switched` was last asked
+        self._switches: list[int] | None = None
+        self._active: list[bool] | None = None
 
     @property
     def count(self) -> int:
@@ -74,6 +80,24 @@ class Constraints:
         if self._of_velocities is None:
             self._of_velocities = np.asarray(self._jacobian(0.0, 1.0).any(axis=1))
         return self._of_velocities
+
+    def switched(self) -> bool:
+        """Return whether some have been switched on or off since this was last asked."""
+        ask, before = self._mbs.GetObjectParameter, self._active
+        if self._switches is None:
+            self._switches = self._with_switches()
+        self._active = [ask(number, SWITCH) for number in self._switches]
+        if before is None or before == self._active:
+            return False
+        self._of_velocities = None
+        return True
+
+    def _with_switches(self) -> list[int]:
+        """Return the numbers of the objects with constraints that may be switched off."""
+        mbs, data = self._mbs, self._data
+        numbers = range(data.NumberOfObjects() if self.count else 0)
+        held = (number for number in numbers if len(data.GetObjectLTGAE(number)))
+        return [number for number in held if SWITCH in mbs.GetObject(number)]
 
     def directions(self) -> Array:
         """Return the rate of each one's violation with the coordinates it holds, (count, n + p).

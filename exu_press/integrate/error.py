@@ -77,7 +77,6 @@ class StepError:
         self._forces_jump = problem.switching_forces
         duration, impacts = task.end - task.start, problem.joints is not None
         self._per_step = ErrorPerStep.of(tolerance, duration, tuning.many_steps, impacts)
-        self._per_body = self._per_step
         self.start: list[float] = []
         self._bodies: BodyError | None = None
         self._curvature: Curvature | None = None
@@ -238,7 +237,11 @@ class StepError:
 
     def start_again(self, accelerations: list[float]) -> None:
         """Be told of the accelerations with which the step under way begins anew, as the first."""
-        self._bodies, self._envelope = self._from(accelerations), Envelope()
+        assert self._bodies is not None
+        self._bodies.start_again(accelerations)
+        self._envelope = Envelope()
+        if self._curvature is not None:
+            self._curvature.start_again()
 
     def _relative(self, speed: float) -> float:
         """Return an error of a speed (m/s) over what the run may have of it."""
@@ -275,13 +278,9 @@ class StepError:
                 if joint.lubricated
             ]
             self.limiting = [0] * len(self._joints)
-        self._per_body = per_step
-        return self._from(self.start or problem.start.accelerations.tolist())
-
-    def _from(self, accelerations: list[float]) -> BodyError:
-        """Return the bodies' errors from these accelerations on."""
-        task, scales, noise, tolerance = self._task, self._scales, self._noise, self._tolerance
-        bodies = BodyError(accelerations, self._per_body, scales, task.tuning, noise, tolerance)
+        accelerations = self.start or problem.start.accelerations.tolist()
+        scales, noise, tolerance = self._scales, self._noise, self._tolerance
+        bodies = BodyError(accelerations, per_step, scales, tuning, noise, tolerance)
         if not (self._joints or self._switching):  # whose accelerations jump
             self._curvature = Curvature(bodies, scales, noise, tolerance, task.absolute)
         return bodies

@@ -29,6 +29,10 @@ class Lasting:
             self._wait -= 1
         return kept
 
+    def drop(self) -> None:
+        """Be told that it is gone: the next step needs another one."""
+        self._step = 0.0
+
     def failed(self) -> None:
         """Be told that it has not served."""
         self._wait = self._pause

@@ -12,8 +12,9 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exu_press.integrate.beginnings import Beginnings
 from exu_press.integrate.constraints import Constraints
-from exu_press.integrate.contact import Gaps, Settling, fit_data
+from exu_press.integrate.contact import Gaps, Settling
 from exu_press.integrate.controller import Controller
 from exu_press.integrate.error import StepError
 from exu_press.integrate.forces import differing
@@ -23,10 +24,9 @@ from exu_press.integrate.places import Places
 from exu_press.integrate.sampling import Event, Sampling
 from exu_press.integrate.scheme import Newton
 from exu_press.integrate.settings import Task
-from exu_press.integrate.start import fit_jump, fit_start, start_rates, start_without_mass
+from exu_press.integrate.start import start_rates
 from exu_press.integrate.step_change import StepChange
 from exu_press.integrate.stepping import FixedSteps, Resolution, StepControl
-from exu_press.integrate.velocity_jump import VelocityJumps
 from exu_press.joints import ClearanceJoint
 from exu_press.numerics.arrays import Array
 from exu_press.terminal.progress import Progress
@@ -96,6 +96,7 @@ class Monitor:
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
         self.go_on, self.without_mass, self.refused, self.again = True, False, "", False
+        self._repeats_anew = False  # whether the motion begins anew with the step to be repeated
         # velocities, accelerations and their rate, which have jumped in the step last tried
         self._jump: tuple[Array, Array, Array] | None = None
         self.stalled, self._watch = "", watch
@@ -117,7 +118,7 @@ class Monitor:
         period = (task.largest if sample is None else sample) if samples else 0.0
         self._sampling = Sampling(task, self.constraints, period)
         self._event = Event(task, event)
-        self._velocity_jumps = VelocityJumps(task, self.constraints)
+        self._beginnings = Beginnings(task, self.constraints)
 
         corner = next_corner or _never
         self.control: StepControl | FixedSteps = (
@@ -170,12 +171,7 @@ class Monitor:
         start_rates(task, task.start)
         task.solver.ComputeMassMatrix(task.problem.mbs)
         if not task.fixed:  # within a fixed step, motions may change by less than rounding
-            resting = not self._accelerations.any()  # or Exudyn's sparse solver found none
-            found = start_without_mass(task, self.constraints) if resting else None
-            ahead = self._velocity_jumps.ahead(task.start)
-            fitted = fit_start(task, self.constraints, ahead) or found
-            if fit_data(task):
-                fitted = fit_start(task, self.constraints, ahead, pushed=True)
+            fitted = self._beginnings.fit_first(self._called_at_start)
             if fitted is not None:
                 self._step_change.start_from(*fitted)
                 self._estimate.start = fitted[0].tolist()
@@ -206,12 +202,28 @@ class Monitor:
                 self._say_if_long(self._why_long)
         self._modal_mass.fit(end - self._time)
         self._places.before_try(0.0)
-        if self._users[0] and not self._sampling.call(self._users[0], mbs, self._time, end):
-            self.go_on = False
+        if self._users[0]:
+            self._call_before_step(end)
+        if self._repeats_anew:
+            self._repeats_anew = False
+            self._start_again(*self._beginnings.fit_anew(self._time))
         self._step_change.before_try(self._time, end - self._time)
         self._places.before_try(end - self._time)
         self.over_budget = self.tries >= self.max_steps
         return self.go_on and not (self.interrupted or self.over_budget)
+
+    def _call_before_step(self, end: float) -> None:
+        """Call the user's own function, if it is due, for a step that ends at `end`, s."""
+        function, mbs = self._users[0], self._task.problem.mbs
+        self.go_on = self._sampling.call(function, mbs, self._time, end) and self.go_on
+
+    def _called_at_start(self) -> bool:
+        """Call a function of the grid; return whether it has switched constraints."""
+        if self._users[0] or self._users[3]:
+            self.constraints.switched()  # from now on it tells
+        if self._sampling.on_grid and self.constraints.count:
+            self._call_before_step(self._task.start)
+        return self._sampling.switched
 
     def _say_if_long(self, why: Callable[[float, ClearanceJoint | None], str]) -> None:
         """Say once, early, how long the run will be, if that is long, and why."""
@@ -253,35 +265,26 @@ class Monitor:
             return [2.0, step]
         begin, self._jump = self._time, None
         shorter = self.control.shorter(step)
-        before_jump = self._velocity_jumps.shorter(begin, step, failed=shorter > 0.0)
+        beginnings = self._beginnings
+        if shorter > 0.0 and (self._users[0] or self._users[3]):
+            called_at, by_far = self._sampling.called_at, shorter < 0.5 * step
+            self._repeats_anew = beginnings.switched(begin, called_at, by_far=by_far)
+            if self._repeats_anew:
+                return [2.0, step]
+        jumps = beginnings.jumps
+        before_jump = jumps.shorter(begin, step, failed=shorter > 0.0)
         if before_jump > 0.0:
             return [2.0, before_jump]
-        if self._velocity_jumps.crossed:
-            self._jump = self._jumped(step)
+        if jumps.crossed:
+            before = self._step_change.velocities()
+            self._jump = beginnings.jumped(step, begin + step, before)
         if shorter > 0.0 and (self._jump is not None or self.control.of_force):
             self.control.error, shorter = 1.0, 0.0  # as much as a step may have
         shorter = shorter or self._event.shorter(step, begin + step)
         return [2.0, shorter] if shorter > 0.0 else ACCEPTED
 
-    def _jumped(self, step: float) -> tuple[Array, Array, Array] | None:
-        """Return the motion behind a short step (s) in which a prescribed velocity jumps.
-
-        Nothing where it changes by less than matters, or where bodies have moved by more than their
-        velocities do: the offset itself jumps.
-        """
-        problem, scales = self._task.problem, self._task.scales
-        before, end = self._step_change.velocities(), self._time + step
-        ahead = self._velocity_jumps.ahead(end)
-        jump = fit_jump(self._task, self.constraints, before, end, ahead)
-        changed = scales.norm((jump[0] - before).tolist())
-        moved = scales.norm((problem.current.positions - problem.start.positions).tolist())
-        speeds = scales.norm(jump[0].tolist()) + scales.norm(before.tolist())
-        felt = changed > self._task.tolerance * scales.speed
-        return jump if felt and moved <= step * speeds else None
-
     def _start_again(self, accelerations: Array, rate: Array) -> None:
         """Go on as from a start, with these accelerations and the rate prescribed to them."""
-        self.control.start_again()
         self._step_change.start_from(accelerations, rate)
         self._newton.start_again()
         now = accelerations.tolist()
@@ -320,6 +323,7 @@ class Monitor:
             self._event.accept()
             self._newton.stepped(step)
             if self._jump is not None:
+                self.control.start_again()
                 self._start_again(*self._jump[1:])
             elif self.resolution is not None:
                 self.resolution.stepped(end, step, self._accelerations.tolist())
@@ -328,7 +332,8 @@ class Monitor:
         if self._users[3]:
             anew = self._call_after_step(mbs, end) or anew
         if anew and self.steps and not self._task.fixed:
-            self._begin_anew(end)
+            self.control.start_again()
+            self._start_again(*self._beginnings.fit_anew(end))
         step = self.control.next_step(end)
         self._output.next_step(end + step)
         if step != self._iteration.currentStepSize:  # to set it takes longer than to ask for it
@@ -344,15 +349,6 @@ class Monitor:
             return False
         changed = task.scales.norm((velocities - np.frombuffer(before)).tolist())
         return changed > task.tolerance * task.scales.speed
-
-    def _begin_anew(self, end: float) -> None:
-        """Go on with the current velocities as from a start; constraints may change them."""
-        task, current = self._task, self._task.problem.current
-        start_rates(task, end)
-        ahead, before = self._velocity_jumps.ahead(end), np.array(current.velocities)
-        jump = fit_jump(task, self.constraints, before, end, ahead)
-        current.velocities[:], current.accelerations[:], rate = jump
-        self._start_again(jump[1], rate)
 
     @contextmanager
     def _catching_interrupts(self) -> Iterator[None]:

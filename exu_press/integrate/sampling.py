@@ -28,6 +28,10 @@ class Sampling:
     steps end on the grid, and the function is called once for each of its intervals, with the
     interval's end. A function that changes what constraints prescribe describes a motion instead of
     a controller: held for several steps it would be a staircase. It is called before every step.
+
+    Attributes:
+        called_at: where the interval begins that was last called for, s.
+        switched: whether the function has switched constraints on or off in a call looked at.
     """
 
     def __init__(self, task: Task, constraints: Constraints, period: float) -> None:
@@ -36,6 +40,7 @@ class Sampling:
         self._task, self._constraints = task, constraints
         self._called = -math.inf  # the end of the interval that was last called for, s
         self._looks = LOOKS if constraints.count else 0
+        self.called_at, self.switched = math.nan, False
         now, before = task.problem.current, task.problem.start
         # what the function may set, where a step starts from, and from where it is repeated
         self._states = [
@@ -44,6 +49,11 @@ class Sampling:
             (now.first_order, before.first_order),
             (now.data, before.data),
         ]
+
+    @property
+    def on_grid(self) -> bool:
+        """Return whether a function is called once a period, and not before every step."""
+        return self._period > 0.0
 
     def next(self, time: float) -> float:
         """Return where the interval that a time (s) begins or lies in has its end, s."""
@@ -58,13 +68,14 @@ class Sampling:
             end = self.next(begin)
             if end == self._called:
                 return True
-            self._called = end
+            self._called, self.called_at = end, begin
         looks = self._looks and self._period > 0.0
         before = self._constraints.violated() if looks else np.empty(0)
         go_on = bool(function(mbs, end))
         if looks:
             self._looks -= 1
-            if not np.array_equal(before, self._constraints.violated()):
+            self.switched = self._constraints.switched()
+            if not (self.switched or np.array_equal(before, self._constraints.violated())):
                 self._period = 0.0
         if self._period > 0.0:  # else it is called for each try anew
             for state, kept in self._states:

@@ -105,6 +105,8 @@ class Newton:
         """Extrapolate from the current accelerations alone, as at a start or where they jumped."""
         self._now = self._accelerations.get()
         self._rate = [0.0 for _ in self._now]
+        if self._jacobian is not None:
+            self._jacobian.drop()
 
     def stepped(self, step: float) -> None:
         """Be told that the current state is the end of an accepted step (s)."""
@@ -216,6 +218,10 @@ class LastingJacobian:
         self._convergence: Any = task.solver.conv
         self._lasting, self._kept = Lasting(), False
 
+    def drop(self) -> None:
+        """Be told that the solver's matrix was another one meanwhile: its factors are gone."""
+        self._lasting.drop()
+
     def begin(self, step: float) -> None:
         """Choose whether the step (s) about to be tried starts with the Jacobian there is."""
         self._kept = self._lasting.serves(step)
@@ -261,6 +267,10 @@ class FlexibleJacobian:
         self._combined: Array = np.zeros((0, 0))
         self._jacobian: Array = np.zeros((0, 0))
         task.solver.SetUserFunctionComputeNewtonJacobian(task.problem.mbs, self._compute)
+
+    def drop(self) -> None:
+        """Be told that the solver's matrix was another one meanwhile: its factors are gone."""
+        self._step = 0.0
 
     def begin(self, step: float) -> None:
         """Choose whether the step (s) about to be tried starts with the Jacobian there is."""

@@ -63,7 +63,7 @@ class _Start:
         """Take masses and constraints' directions of the current state."""
         self._mass = np.array(self._solver.GetSystemMassMatrix())
         self._directions = self._constraints.directions()
-        self._matrix = self._constraints.matrix(self._mass, self._directions)
+        self._equations = Equations(self._constraints.matrix(self._mass, self._directions))
 
     def put(self, time: float = 0.0) -> None:
         """Set the state after a time (s), with the accelerations of the start."""
@@ -181,13 +181,14 @@ class _Start:
 
     def _solved(self, pushing: Array, violated: Array, matrix: Array | None = None) -> Array:
         """Return the change that forces and violations ask for."""
-        matrix = self._matrix if matrix is None else matrix
-        right = np.zeros(len(matrix))
+        equations = self._equations if matrix is None else Equations(matrix)
+        right = np.zeros(len(equations.matrix))
         right[: len(pushing) + len(violated)] = np.concatenate([pushing, violated])
         try:
-            return np.asarray(Equations(matrix).solve(right)[: len(pushing)])
+            return np.asarray(equations.solve(right)[: len(pushing)])
         except np.linalg.LinAlgError:  # coordinates without mass, as of a beam's cross-sections
-            return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0][: len(pushing)])
+            least = np.linalg.lstsq(equations.matrix, right, rcond=None)[0]
+            return np.asarray(least[: len(pushing)])
 
     def _norm(self, vector: Array) -> float:
         return float(np.sqrt(abs(vector @ self._mass @ vector)))
@@ -250,10 +251,10 @@ def fit_start(
 def fit_jump(
     task: Task, constraints: Constraints, before: Array, end: float, ahead: float
 ) -> tuple[Array, Array, Array]:
-    """Return the motion after a jump of velocities, prescribed or set.
+    """Return the motion after a jump of velocities, prescribed or set; let positions fit.
 
     The constraints' impulses change velocities by the least, in the kinetic norm: all else acts for
-    no time.
+    no time. What Newton's method has left of positions would be a jolt in a short step.
 
     Args:
         task: to be solved; its current state is where they jump.
@@ -273,6 +274,7 @@ def fit_jump(
         return before, accelerations, np.zeros_like(accelerations)
     start = _Start(task, constraints, end, ahead)
     tried, start.v = (start.v, start.a), before
+    start.q = start.q - start.undone(np.where(start.held, start.violated(), 0.0))
     rate = start.fit_rates(pushed=True)
     current = task.problem.current
     current.velocities[:], current.accelerations[:] = tried

@@ -23,11 +23,15 @@ INVERSE_FROM = 3
 
 
 class Equations:
-    """Solves equations with one matrix for several right sides."""
+    """Solves equations with one matrix for several right sides.
+
+    Attributes:
+        matrix: (n, n).
+    """
 
     def __init__(self, matrix: Array) -> None:
         """Take the matrix, (n, n)."""
-        self._matrix, self._small = matrix, len(matrix) < SPARSE_FROM
+        self.matrix, self._small = matrix, len(matrix) < SPARSE_FROM
         self._solved = 0
         self._factors: Any = None  # a small one's inverse
 
@@ -40,16 +44,16 @@ class Equations:
         self._solved += 1
         if self._small:
             if self._solved < INVERSE_FROM:
-                return np.asarray(np.linalg.solve(self._matrix, right), dtype=float)
+                return np.asarray(np.linalg.solve(self.matrix, right), dtype=float)
             if self._factors is None:
-                self._factors = np.linalg.inv(self._matrix)
+                self._factors = np.linalg.inv(self.matrix)
             return np.asarray(np.dot(self._factors, right), dtype=float)
         if self._factors is None:
             from scipy.sparse import csc_matrix  # small systems do without
             from scipy.sparse.linalg import splu
 
             try:
-                self._factors = splu(csc_matrix(self._matrix))
+                self._factors = splu(csc_matrix(self.matrix))
             except (RuntimeError, ValueError) as error:  # exactly singular, or no numbers
                 raise np.linalg.LinAlgError(str(error)) from error
         return np.asarray(self._factors.solve(np.ascontiguousarray(right)), dtype=float)
@@ -62,7 +66,7 @@ class Equations:
         Raises:
             numpy.linalg.LinAlgError: the matrix is singular.
         """
-        size = len(self._matrix)
+        size = len(self.matrix)
         if self._small:
             return self.solve(np.eye(size, count, -first)).dot
 

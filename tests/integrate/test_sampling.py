@@ -202,7 +202,8 @@ def test_a_function_that_prescribes_a_motion_is_called_before_every_step():
     mbs.SetPreStepUserFunction(move)
     mbs.Assemble()
     outcome = solve_dynamic(mbs, settings(), max_steps=200)
-    assert len(times) == outcome.steps + outcome.rejected_steps > 10
+    assert times[0] == 0.05, "what it moves is seen by a call for the first period"
+    assert len(times) == 1 + outcome.steps + outcome.rejected_steps > 10
 
 
 def test_a_step_ends_right_behind_an_event():

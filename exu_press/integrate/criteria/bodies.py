@@ -166,6 +166,10 @@ class BodyError:
         self._before, self._rate_before = self._now, self.rate
         self.vibration.accept()
 
+    def start_again(self, accelerations: list[float]) -> None:
+        """Be told of all accelerations with which the next step begins anew, as the first."""
+        self._before, self._rate_before = accelerations, []
+
     def jumped(self) -> None:
         """Be told that accelerations have jumped in the accepted step."""
         self.vibration.forget()

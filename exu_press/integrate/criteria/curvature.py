@@ -62,3 +62,7 @@ class Curvature:
             self._step_before, self._size_before = self._step, self._size
             self._change_before = self._bodies.change if self._bodies.begun else []
             self._most = max(self._most, self._bodies.size())
+
+    def start_again(self) -> None:
+        """Be told that the motion begins anew: what was before it is no part of a curve."""
+        self._change_before, self._common = [], 0.0

@@ -1,0 +1,273 @@
+"""What functions of the user's own switch between two steps: constraints, forces, springs."""
+
+import exudyn as exu
+import exudyn.utilities as items
+import numpy as np
+import pytest
+
+from exu_press import SolverStatus, solve_dynamic
+from exudyn_examples.example import GRAVITY
+from exudyn_examples.planar import bar, pin
+
+SWITCHED_AT = 0.3337  # s
+MASSES, SPEED = (1.0, 2.0), 5.0
+
+
+def settings(steps=100):
+    chosen = exu.SimulationSettings()
+    chosen.timeIntegration.endTime, chosen.timeIntegration.numberOfSteps = 1.0, steps
+    chosen.timeIntegration.generalizedAlpha.spectralRadius = 0.8
+    chosen.solution.file.write, chosen.solution.sensors.writePeriod = False, 0.01
+    return chosen
+
+
+def clutch(function, *, engaged=False):
+    """Two masses on a line, the first of which moves, and what couples their velocities."""
+    mbs = exu.SystemContainer().AddSystem()
+    nodes = [
+        mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[speed]))
+        for speed in (SPEED, 0.0)
+    ]
+    for node, mass in zip(nodes, MASSES, strict=True):
+        mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=mass))
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0)) for node in nodes
+    ]
+    coupling = mbs.AddObject(
+        items.ObjectConnectorCoordinate(
+            markerNumbers=ends, velocityLevel=True, activeConnector=engaged
+        )
+    )
+
+    def engage(mbs, time):
+        mbs.SetObjectParameter(coupling, "activeConnector", time >= SWITCHED_AT)
+        return True
+
+    getattr(mbs, function)(engage)
+    first = mbs.AddSensor(
+        items.SensorNode(
+            nodeNumber=nodes[0],
+            storeInternal=True,
+            outputVariableType=exu.OutputVariableType.Coordinates_t,
+        )
+    )
+    mbs.Assemble()
+    return mbs, first
+
+
+@pytest.mark.parametrize("function", ["SetPreStepUserFunction", "SetPostStepUserFunction"])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
+def test_a_clutch_keeps_the_momentum(function, tolerance):
+    mbs, _ = clutch(function)
+    outcome = solve_dynamic(mbs, settings(), tolerance=tolerance)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    together = MASSES[0] * SPEED / sum(MASSES)
+    found = mbs.systemData.GetODE2Coordinates_t()
+    assert found == pytest.approx([together, together], rel=1e-9)
+
+
+def test_a_constraint_that_is_off_from_the_first_call_on_holds_nothing():
+    """It is not what the start has to fit: the masses have their velocities from then on."""
+    mbs, first = clutch("SetPreStepUserFunction", engaged=True)
+    outcome = solve_dynamic(mbs, settings())
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    time, speed = mbs.GetSensorStoredData(first).T
+    assert speed[time < SWITCHED_AT - 0.01] == pytest.approx(SPEED, rel=1e-9)
+    assert speed[-1] == pytest.approx(MASSES[0] * SPEED / sum(MASSES), rel=1e-9)
+
+
+@pytest.mark.parametrize("slowed", [1e-1, 1e-2, 7e-3, 2e-3])
+def test_a_brake_may_meet_a_slow_motion(slowed):
+    """By so much that a step fails, or by a little more or less than it may miss."""
+    mbs = exu.SystemContainer().AddSystem()
+    nodes = [
+        mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[speed]))
+        for speed in (SPEED, slowed * SPEED)
+    ]
+    for node in nodes:
+        mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+        for node in (mbs.AddNode(items.NodePointGround()), nodes[1])
+    ]
+    brake = items.ObjectConnectorCoordinate(
+        markerNumbers=ends, velocityLevel=True, activeConnector=False
+    )
+    brake = mbs.AddObject(brake)
+
+    def before_step(mbs, time):
+        mbs.SetObjectParameter(brake, "activeConnector", time >= SWITCHED_AT)
+        return True
+
+    mbs.SetPreStepUserFunction(before_step)
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings())
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert mbs.systemData.GetODE2Coordinates_t() == pytest.approx([SPEED, 0.0], abs=1e-3 * SPEED)
+
+
+def test_a_function_that_switches_nothing_costs_nothing():
+    """Where a step fails behind its call, and Newton's matrix is kept from step to step."""
+    tries = []
+    for function in (0, lambda mbs, time: True):
+        mbs = exu.SystemContainer().AddSystem()
+        ground = mbs.AddObject(items.ObjectGround())
+        body, half, node = bar(mbs, (0.0, 0.0), (1.0, 0.0), 1.0)
+        pin(mbs, ground, (0.0, 0.0), body, (-half, 0.0))
+        ends = [
+            mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=coordinate))
+            for number, coordinate in ((mbs.AddNode(items.NodePointGround()), 0), (node, 2))
+        ]
+
+        def stop(mbs, time, item, angle, rate, *others):
+            return 1e5 * min(angle + 0.5, 0.0) + 10.0 * rate * (angle < -0.5)
+
+        spring = items.ObjectConnectorCoordinateSpringDamper
+        mbs.AddObject(spring(markerNumbers=ends, springForceUserFunction=stop))
+        mbs.SetPreStepUserFunction(function)
+        mbs.Assemble()
+        outcome = solve_dynamic(mbs, settings())
+        assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+        tries.append(outcome.steps + outcome.rejected_steps)
+    assert tries[1] < 1.2 * tries[0]
+
+
+def arms():
+    """Two bars of a metre in a row, let go while horizontal; their nodes, joints and bodies."""
+    mbs = exu.SystemContainer().AddSystem()
+    ground, nodes, joints, bodies = mbs.AddObject(items.ObjectGround()), [], [], []
+    before, at = ground, 0.0
+    for number in range(2):
+        body, half, node = bar(mbs, (number, 0.0), (number + 1.0, 0.0), 1.0)
+        joints.append(pin(mbs, before, (at, 0.0), body, (-half, 0.0)))
+        before, at = body, half
+        nodes.append(node)
+        bodies.append(body)
+    return mbs, ground, nodes, joints, bodies
+
+
+def breaks(mbs, ground, nodes, joints, bodies):
+    """The joint between them."""
+    return lambda mbs, late: mbs.SetObjectParameter(joints[1], "activeConnector", not late)
+
+
+def locks(mbs, ground, nodes, joints, bodies):
+    """The first one stands still from then on."""
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
+        for node, coordinate in ((mbs.AddNode(items.NodePointGround()), 0), (nodes[0], 2))
+    ]
+    lock = items.ObjectConnectorCoordinate(
+        markerNumbers=ends, velocityLevel=True, activeConnector=False
+    )
+    lock = mbs.AddObject(lock)
+    return lambda mbs, late: mbs.SetObjectParameter(lock, "activeConnector", late)
+
+
+def latches(mbs, ground, nodes, joints, bodies):
+    """The first one is held where it is by then."""
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
+        for node, coordinate in ((mbs.AddNode(items.NodePointGround()), 0), (nodes[0], 2))
+    ]
+    latch = items.ObjectConnectorCoordinate(markerNumbers=ends, activeConnector=False)
+    latch = mbs.AddObject(latch)
+
+    def hold(mbs, late):
+        if late and not mbs.GetObjectParameter(latch, "activeConnector"):
+            place = mbs.systemData.GetODE2Coordinates()[2]
+            mbs.SetObjectParameter(latch, "offset", place)
+            mbs.SetObjectParameter(latch, "activeConnector", True)
+
+    return hold
+
+
+def springs(mbs, ground, nodes, joints, bodies):
+    """A spring holds the end of the second one from then on."""
+    ends = [
+        mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=body, localPosition=place))
+        for body, place in ((ground, [2.0, 1.0, 0.0]), (bodies[1], [0.5, 0.0, 0.0]))
+    ]
+    spring = items.ObjectConnectorSpringDamper(
+        markerNumbers=ends, stiffness=200.0, damping=1.0, referenceLength=0.5, activeConnector=False
+    )
+    spring = mbs.AddObject(spring)
+    return lambda mbs, late: mbs.SetObjectParameter(spring, "activeConnector", late)
+
+
+def turns(mbs, ground, nodes, joints, bodies):
+    """Their weights."""
+    return lambda mbs, late: [
+        mbs.SetLoadParameter(load, "loadVector", [0.0, GRAVITY if late else -GRAVITY, 0.0])
+        for load in (0, 1)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("what", "most"), [(breaks, 120), (locks, 170), (latches, 130), (springs, 300), (turns, 125)]
+)
+def test_what_a_function_switches_costs_few_steps(what, most):
+    """Within ten of them; what it was before rings on in the accelerations otherwise."""
+    speeds = []
+    for tolerance in (1e-6, 1e-2):
+        mbs, *parts = arms()
+        switch = what(mbs, *parts)
+
+        def before_step(mbs, time, switch=switch):
+            switch(mbs, time >= SWITCHED_AT)
+            return True
+
+        mbs.SetPreStepUserFunction(before_step)
+        mbs.Assemble()
+        outcome = solve_dynamic(mbs, settings(), tolerance=tolerance)
+        assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+        speeds.append(mbs.systemData.GetODE2Coordinates_t())
+    assert outcome.steps + outcome.rejected_steps < most
+    largest = np.abs(speeds[0]).max()
+    assert speeds[1] == pytest.approx(speeds[0], abs=1e-2 * largest)
+
+
+def test_servos_that_push_a_jump_at_every_call():
+    """Stiff ones hold a bar in space where a function asks for it, and as fast.
+
+    Positions that Newton's method leaves off the hinge by 1e-10 m would be a jolt beside steps as
+    short as what a jump leaves takes to decay.
+    """
+    mbs = exu.SystemContainer().AddSystem()
+    body = mbs.CreateRigidBody(
+        inertia=items.InertiaCuboid(1000.0, [0.5, 0.05, 0.05]),
+        referencePosition=[0.25, 0.0, 0.0],
+        gravity=[0.0, 0.0, -GRAVITY],
+    )
+    ground = mbs.CreateGround()
+    mbs.CreateRevoluteJoint(itemNumbers=[ground, body], axis=[0.0, 1.0, 0.0], position=[0, 0, 0])
+    turned = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # about its z-axis
+    ends = [
+        mbs.AddMarker(
+            items.MarkerBodyRigid(
+                bodyNumber=number, localHT=exu.HT(rotation=turned, translation=[place, 0.0, 0.0])
+            )
+        )
+        for number, place in ((ground, 0.0), (body, -0.25))
+    ]
+    data = items.NodeGenericData(initialCoordinates=[0.0], numberOfDataCoordinates=1)
+    servo = items.TorsionalSpringDamper(
+        markerNumbers=ends,
+        nodeNumber=mbs.AddNode(data),
+        stiffness=4e3,
+        damping=40.0,
+    )
+    servo = mbs.AddObject(servo)
+
+    def ask(mbs, time):
+        mbs.SetObjectParameter(servo, "offset", 1.0 - np.cos(4.0 * time))
+        mbs.SetObjectParameter(servo, "velocityOffset", 4.0 * np.sin(4.0 * time))
+        return True
+
+    mbs.SetPreStepUserFunction(ask)
+    mbs.Assemble()
+    chosen = settings()
+    chosen.timeIntegration.endTime, chosen.timeIntegration.numberOfSteps = 0.2, 100
+    outcome = solve_dynamic(mbs, chosen, tolerance=1e-2)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert outcome.steps + outcome.rejected_steps < 1500

@@ -227,12 +227,8 @@ def test_what_a_function_switches_costs_few_steps(what, most):
     assert speeds[1] == pytest.approx(speeds[0], abs=1e-2 * largest)
 
 
-def test_servos_that_push_a_jump_at_every_call():
-    """Stiff ones hold a bar in space where a function asks for it, and as fast.
-
-    Positions that Newton's method leaves off the hinge by 1e-10 m would be a jolt beside steps as
-    short as what a jump leaves takes to decay.
-    """
+def servo():
+    """A bar in space that a stiff servo holds where a function asks for it, and as fast."""
     mbs = exu.SystemContainer().AddSystem()
     body = mbs.CreateRigidBody(
         inertia=items.InertiaCuboid(1000.0, [0.5, 0.05, 0.05]),
@@ -251,23 +247,46 @@ def test_servos_that_push_a_jump_at_every_call():
         for number, place in ((ground, 0.0), (body, -0.25))
     ]
     data = items.NodeGenericData(initialCoordinates=[0.0], numberOfDataCoordinates=1)
-    servo = items.TorsionalSpringDamper(
-        markerNumbers=ends,
-        nodeNumber=mbs.AddNode(data),
-        stiffness=4e3,
-        damping=40.0,
+    number = mbs.AddNode(data)
+    holds = items.TorsionalSpringDamper(
+        markerNumbers=ends, nodeNumber=number, stiffness=4e3, damping=40.0
     )
-    servo = mbs.AddObject(servo)
+    holds = mbs.AddObject(holds)
 
     def ask(mbs, time):
-        mbs.SetObjectParameter(servo, "offset", 1.0 - np.cos(4.0 * time))
-        mbs.SetObjectParameter(servo, "velocityOffset", 4.0 * np.sin(4.0 * time))
+        mbs.SetObjectParameter(holds, "offset", 1.0 - np.cos(4.0 * time))
+        mbs.SetObjectParameter(holds, "velocityOffset", 4.0 * np.sin(4.0 * time))
         return True
 
     mbs.SetPreStepUserFunction(ask)
     mbs.Assemble()
-    chosen = settings()
-    chosen.timeIntegration.endTime, chosen.timeIntegration.numberOfSteps = 0.2, 100
-    outcome = solve_dynamic(mbs, chosen, tolerance=1e-2)
+    return mbs
+
+
+def of_servo(steps=100):
+    chosen = settings(steps)
+    chosen.timeIntegration.endTime = 0.2
+    return chosen
+
+
+def test_servos_that_push_a_jump_at_every_call():
+    """They follow a staircase.
+
+    Positions that Newton's method leaves off the hinge by 1e-10 m would be a jolt beside steps as
+    short as what a jump leaves takes to decay.
+    """
+    outcome = solve_dynamic(servo(), of_servo(), tolerance=1e-2)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     assert outcome.steps + outcome.rejected_steps < 1500
+
+
+def test_servos_follow_a_trajectory_without_stairs():
+    """Where its function is called for the end of each step."""
+    fine, run = servo(), servo()
+    fine.SolveDynamic(of_servo(5_000))
+    outcome = solve_dynamic(run, of_servo(), sample=0.0)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert outcome.steps + outcome.rejected_steps < 700
+    expected = fine.systemData.GetODE2Coordinates_t()
+    largest = np.abs(expected).max()
+    assert run.systemData.GetODE2Coordinates_t() == pytest.approx(expected, abs=1e-3 * largest)

@@ -26,12 +26,14 @@ class Beginnings:
 
     Attributes:
         jumps: of prescribed velocities.
+        set_by_functions: how often it has begun anew behind a call of a pre-step function.
     """
 
     def __init__(self, task: Task, constraints: Constraints) -> None:
         """Take a task and its constraints."""
         self._task, self._constraints = task, constraints
         self.jumps = VelocityJumps(task, constraints)
+        self.set_by_functions = 0
         self._anew_at = self._failed_at = math.nan  # where the motion has, or a step, at last, s
 
     def fit_first(self, switched: Callable[[], bool]) -> tuple[Array, Array] | None:
@@ -70,7 +72,9 @@ class Beginnings:
         if begin == self._anew_at:
             return False
         again, self._failed_at = begin == self._failed_at, begin
-        return self._constraints.switched() or (begin == called_at and (by_far or again))
+        switched = self._constraints.switched() or (begin == called_at and (by_far or again))
+        self.set_by_functions += switched and begin == called_at
+        return switched
 
     def jumped(self, step: float, end: float, before: Array) -> tuple[Array, Array, Array] | None:
         """Return the motion behind a short step in which a prescribed velocity jumps.

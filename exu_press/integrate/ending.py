@@ -34,6 +34,10 @@ CALMER = (
 )
 """What makes contacts and friction of Exudyn's switch less."""
 
+STAIRS = 0.25, 10
+"""Part of the calls of a pre-step function, and number of them, above which its jumps are stairs.
+"""
+
 ARRIVED = "arrived"
 """A watch's word for a run that has reached its aim: it is completed."""
 
@@ -128,6 +132,18 @@ class Advice:
                 "believe the run up to there"
             )
             warnings.warn(f"solve_dynamic: {text}", stacklevel=3)
+
+    def announce_stairs(self, jumps: int, calls: int) -> None:
+        """Warn where a pre-step function has made forces jump in so many of its calls."""
+        part, number = STAIRS
+        if jumps > max(part * calls, number):
+            warnings.warn(
+                f"solve_dynamic: in {jumps} of {calls} calls a pre-step function made forces jump: "
+                "what it sets is held from call to call, as a controller's output is; a function "
+                "of time, as a trajectory, becomes a staircase, which fixed steps smooth: "
+                "sample=0.0 sets it for the end of each step",
+                stacklevel=4,
+            )
 
 
 def how_it_ended(

@@ -192,6 +192,11 @@ class Monitor:
         """Accepted steps within which contacts or friction of Exudyn's have switched."""
         return self._settling.switched
 
+    @property
+    def jumps_set(self) -> tuple[int, int]:
+        """Calls of a pre-step function behind which the motion began anew, and all of its grid."""
+        return self._beginnings.set_by_functions, self._sampling.calls
+
     def _before_step(self, mbs: exu.MainSystem, end: float) -> bool:
         """Return whether to go on."""
         self.tries += 1

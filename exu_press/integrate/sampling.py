@@ -30,6 +30,7 @@ class Sampling:
     a controller: held for several steps it would be a staircase. It is called before every step.
 
     Attributes:
+        calls: number of intervals that it was called for.
         called_at: where the interval begins that was last called for, s.
         switched: whether the function has switched constraints on or off in a call looked at.
     """
@@ -40,7 +41,7 @@ class Sampling:
         self._task, self._constraints = task, constraints
         self._called = -math.inf  # the end of the interval that was last called for, s
         self._looks = LOOKS if constraints.count else 0
-        self.called_at, self.switched = math.nan, False
+        self.calls, self.called_at, self.switched = 0, math.nan, False
         now, before = task.problem.current, task.problem.start
         # what the function may set, where a step starts from, and from where it is repeated
         self._states = [
@@ -69,6 +70,7 @@ class Sampling:
             if end == self._called:
                 return True
             self._called, self.called_at = end, begin
+            self.calls += 1
         looks = self._looks and self._period > 0.0
         before = self._constraints.violated() if looks else np.empty(0)
         go_on = bool(function(mbs, end))

@@ -137,6 +137,8 @@ def solve_dynamic(
                 task, next_corner, watch, progress, max_steps, sample, event, words.long, controller
             )
             outcome = _run(task, settings, monitor, words, progress)
+        if sample is None:
+            words.announce_stairs(*monitor.jumps_set)
         return outcome, task.scales
 
     if errors:

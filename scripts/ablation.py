@@ -21,7 +21,7 @@ import numpy as np
 from exu_press import Scene, SolverStatus, SolverTuning, solve_dynamic
 from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.scene import flexible_press
-from exudyn_examples.planar import bar, pin
+from exudyn_examples.planar import rods
 
 GRID = 4000  # instants at which runs are compared
 FINER = 1e-2
@@ -76,12 +76,8 @@ def system(tolerance, tuning, *, build, end):
 
 def pendulum(mbs, links=1):
     """Rods of a metre that hang on each other, let go while horizontal."""
-    before, end, node = mbs.AddObject(items.ObjectGround()), 0.0, 0
-    for i in range(links):
-        rod, half, node = bar(mbs, (i, 0.0), (i + 1.0, 0.0), 1.0)
-        pin(mbs, before, (end, 0.0), rod, (-half, 0.0))
-        before, end = rod, half
-    return node
+    _, _, nodes, _ = rods(mbs, [1.0] * links)
+    return nodes[-1]
 
 
 def spring(mbs):

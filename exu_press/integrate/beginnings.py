@@ -91,7 +91,7 @@ class Beginnings:
             Velocities and accelerations, and the prescribed rate of these.
         """
         problem, scales = self._task.problem, self._task.scales
-        jump = fit_jump(self._task, self._constraints, before, end, self.jumps.ahead(end))
+        jump = self._behind(before, end)
         changed = scales.norm((jump[0] - before).tolist())
         moved = scales.norm((problem.current.positions - problem.start.positions).tolist())
         speeds = scales.norm(jump[0].tolist()) + scales.norm(before.tolist())
@@ -110,10 +110,13 @@ class Beginnings:
         now = data.GetTime()  # that of the step's end, where one is about to be tried
         task.solver.ComputeNewtonResidual(mbs, mbs.sys["simulationSettings"])  # and its masses
         start_rates(task, time)
-        ahead, before = self.jumps.ahead(time), np.array(state.velocities)
-        jump = fit_jump(task, self._constraints, before, time, ahead)
+        jump = self._behind(np.array(state.velocities), time)
         state.velocities[:], state.accelerations[:], rate = jump
         begin.positions[:], begin.velocities[:] = state.positions, state.velocities
         begin.accelerations[:] = state.accelerations
         data.SetTime(now)
         return jump[1], rate
+
+    def _behind(self, before: Array, time: float) -> tuple[Array, Array, Array]:
+        """Return the motion behind a jump of these velocities at a time (s): `fit_jump`."""
+        return fit_jump(self._task, self._constraints, before, time, self.jumps.ahead(time))

@@ -17,14 +17,17 @@ def weight(mbs, body):
     mbs.AddLoad(items.LoadMassProportional(markerNumber=marker, loadVector=[0.0, -GRAVITY, 0.0]))
 
 
-def hold(mbs, node, coordinates):
-    """Fix coordinates of a node to the ground."""
+def hold(mbs, node, coordinates, **how):
+    """Fix coordinates of a node to the ground, or hold them otherwise; the constraints' numbers."""
     still = mbs.AddMarker(
         items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0)
     )
+    held = []
     for coordinate in coordinates:
         marker = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
-        mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=[still, marker]))
+        constraint = items.ObjectConnectorCoordinate(markerNumbers=[still, marker], **how)
+        held.append(mbs.AddObject(constraint))
+    return held
 
 
 def cables(mbs, modulus, bending=0.0, axial=0.0, elements=4):

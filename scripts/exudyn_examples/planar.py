@@ -13,6 +13,7 @@ __all__ = [
     "four_bar",
     "iftomm_pendulum",
     "mass_points",
+    "rods",
     "slider_crank",
 ]
 
@@ -113,13 +114,25 @@ def iftomm_pendulum(mbs):
     assert mass
 
 
+def rods(mbs, masses):
+    """Rods of a metre that hang on each other, let go while horizontal.
+
+    Returns the ground, and the bodies, nodes and joints of the rods.
+    """
+    ground = mbs.AddObject(items.ObjectGround())
+    before, at, bodies, nodes, joints = ground, 0.0, [], [], []
+    for i, mass in enumerate(masses):
+        rod, half, node = bar(mbs, (i, 0.0), (i + 1.0, 0.0), mass)
+        joints.append(pin(mbs, before, (at, 0.0), rod, (-half, 0.0)))
+        bodies.append(rod)
+        nodes.append(node)
+        before, at = rod, half
+    return ground, bodies, nodes, joints
+
+
 def double_pendulum(mbs):
     """Two rods that hang on each other, let go while horizontal."""
-    before = mbs.AddObject(items.ObjectGround())
-    for i in range(2):
-        rod, half, _ = bar(mbs, (i, 0.0), (i + 1.0, 0.0), 1.0)
-        pin(mbs, before, (half if i else 0.0, 0.0), rod, (-half, 0.0))
-        before = rod
+    rods(mbs, (1.0, 1.0))
 
 
 def mass_points(mbs):

@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from exu_press import SolverStatus, solve_dynamic
 from exudyn_examples.example import GRAVITY
 from exudyn_examples.other import first_order, mass_1d
-from exudyn_examples.planar import bar, pin
+from exudyn_examples.planar import rods
 
 REBOUND = 0.8
 
@@ -30,11 +30,7 @@ def falling(arms=1):
     Its own velocities are set there, and nothing of what that does to the others.
     """
     mbs = exu.SystemContainer().AddSystem()
-    before, at = mbs.AddObject(items.ObjectGround()), 0.0
-    for number in range(arms):
-        body, half, _ = bar(mbs, (number, 0.0), (number + 1.0, 0.0), 2.0 - number)
-        pin(mbs, before, (at, 0.0), body, (-half, 0.0))
-        before, at = body, half
+    rods(mbs, [2.0 - number for number in range(arms)])
 
     def rebound(mbs, time):
         velocities = np.array(mbs.systemData.GetODE2Coordinates_t())

@@ -7,7 +7,8 @@ import pytest
 
 from exu_press import SolverStatus, solve_dynamic
 from exudyn_examples.example import GRAVITY
-from exudyn_examples.planar import bar, pin
+from exudyn_examples.flexible import hold
+from exudyn_examples.planar import rods
 
 SWITCHED_AT = 0.3337  # s
 MASSES, SPEED = (1.0, 2.0), 5.0
@@ -21,15 +22,21 @@ def settings(steps=100):
     return chosen
 
 
-def clutch(function, *, engaged=False):
-    """Two masses on a line, the first of which moves, and what couples their velocities."""
+def sliding(masses, speeds):
+    """Masses on a line, and their nodes."""
     mbs = exu.SystemContainer().AddSystem()
     nodes = [
         mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[speed]))
-        for speed in (SPEED, 0.0)
+        for speed in speeds
     ]
-    for node, mass in zip(nodes, MASSES, strict=True):
+    for node, mass in zip(nodes, masses, strict=True):
         mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=mass))
+    return mbs, nodes
+
+
+def clutch(function, *, engaged=False):
+    """Two masses on a line, the first of which moves, and what couples their velocities."""
+    mbs, nodes = sliding(MASSES, (SPEED, 0.0))
     ends = [
         mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0)) for node in nodes
     ]
@@ -79,21 +86,8 @@ def test_a_constraint_that_is_off_from_the_first_call_on_holds_nothing():
 @pytest.mark.parametrize("slowed", [1e-1, 1e-2, 7e-3, 2e-3])
 def test_a_brake_may_meet_a_slow_motion(slowed):
     """By so much that a step fails, or by a little more or less than it may miss."""
-    mbs = exu.SystemContainer().AddSystem()
-    nodes = [
-        mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[speed]))
-        for speed in (SPEED, slowed * SPEED)
-    ]
-    for node in nodes:
-        mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
-        for node in (mbs.AddNode(items.NodePointGround()), nodes[1])
-    ]
-    brake = items.ObjectConnectorCoordinate(
-        markerNumbers=ends, velocityLevel=True, activeConnector=False
-    )
-    brake = mbs.AddObject(brake)
+    mbs, nodes = sliding((1.0, 1.0), (SPEED, slowed * SPEED))
+    (brake,) = hold(mbs, nodes[1], (0,), velocityLevel=True, activeConnector=False)
 
     def before_step(mbs, time):
         mbs.SetObjectParameter(brake, "activeConnector", time >= SWITCHED_AT)
@@ -111,9 +105,7 @@ def test_a_function_that_switches_nothing_costs_nothing():
     tries = []
     for function in (0, lambda mbs, time: True):
         mbs = exu.SystemContainer().AddSystem()
-        ground = mbs.AddObject(items.ObjectGround())
-        body, half, node = bar(mbs, (0.0, 0.0), (1.0, 0.0), 1.0)
-        pin(mbs, ground, (0.0, 0.0), body, (-half, 0.0))
+        _, _, (node,), _ = rods(mbs, (1.0,))
         ends = [
             mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=coordinate))
             for number, coordinate in ((mbs.AddNode(items.NodePointGround()), 0), (node, 2))
@@ -132,57 +124,31 @@ def test_a_function_that_switches_nothing_costs_nothing():
     assert tries[1] < 1.2 * tries[0]
 
 
-def arms():
-    """Two bars of a metre in a row, let go while horizontal; their nodes, joints and bodies."""
-    mbs = exu.SystemContainer().AddSystem()
-    ground, nodes, joints, bodies = mbs.AddObject(items.ObjectGround()), [], [], []
-    before, at = ground, 0.0
-    for number in range(2):
-        body, half, node = bar(mbs, (number, 0.0), (number + 1.0, 0.0), 1.0)
-        joints.append(pin(mbs, before, (at, 0.0), body, (-half, 0.0)))
-        before, at = body, half
-        nodes.append(node)
-        bodies.append(body)
-    return mbs, ground, nodes, joints, bodies
-
-
-def breaks(mbs, ground, nodes, joints, bodies):
+def breaks(mbs, ground, bodies, nodes, joints):
     """The joint between them."""
     return lambda mbs, late: mbs.SetObjectParameter(joints[1], "activeConnector", not late)
 
 
-def locks(mbs, ground, nodes, joints, bodies):
+def locks(mbs, ground, bodies, nodes, joints):
     """The first one stands still from then on."""
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
-        for node, coordinate in ((mbs.AddNode(items.NodePointGround()), 0), (nodes[0], 2))
-    ]
-    lock = items.ObjectConnectorCoordinate(
-        markerNumbers=ends, velocityLevel=True, activeConnector=False
-    )
-    lock = mbs.AddObject(lock)
+    (lock,) = hold(mbs, nodes[0], (2,), velocityLevel=True, activeConnector=False)
     return lambda mbs, late: mbs.SetObjectParameter(lock, "activeConnector", late)
 
 
-def latches(mbs, ground, nodes, joints, bodies):
+def latches(mbs, ground, bodies, nodes, joints):
     """The first one is held where it is by then."""
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
-        for node, coordinate in ((mbs.AddNode(items.NodePointGround()), 0), (nodes[0], 2))
-    ]
-    latch = items.ObjectConnectorCoordinate(markerNumbers=ends, activeConnector=False)
-    latch = mbs.AddObject(latch)
+    (latch,) = hold(mbs, nodes[0], (2,), activeConnector=False)
 
-    def hold(mbs, late):
+    def catch(mbs, late):
         if late and not mbs.GetObjectParameter(latch, "activeConnector"):
             place = mbs.systemData.GetODE2Coordinates()[2]
             mbs.SetObjectParameter(latch, "offset", place)
             mbs.SetObjectParameter(latch, "activeConnector", True)
 
-    return hold
+    return catch
 
 
-def springs(mbs, ground, nodes, joints, bodies):
+def springs(mbs, ground, bodies, nodes, joints):
     """A spring holds the end of the second one from then on."""
     ends = [
         mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=body, localPosition=place))
@@ -195,7 +161,7 @@ def springs(mbs, ground, nodes, joints, bodies):
     return lambda mbs, late: mbs.SetObjectParameter(spring, "activeConnector", late)
 
 
-def turns(mbs, ground, nodes, joints, bodies):
+def turns(mbs, ground, bodies, nodes, joints):
     """Their weights."""
     return lambda mbs, late: [
         mbs.SetLoadParameter(load, "loadVector", [0.0, GRAVITY if late else -GRAVITY, 0.0])
@@ -211,8 +177,8 @@ def test_what_a_function_switches_costs_few_steps(what, most):
     """Within ten of them; what it was before rings on in the accelerations otherwise."""
     speeds = []
     for tolerance in (1e-6, 1e-2):
-        mbs, *parts = arms()
-        switch = what(mbs, *parts)
+        mbs = exu.SystemContainer().AddSystem()
+        switch = what(mbs, *rods(mbs, (1.0, 1.0)))
 
         def before_step(mbs, time, switch=switch):
             switch(mbs, time >= SWITCHED_AT)

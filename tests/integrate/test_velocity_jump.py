@@ -24,16 +24,7 @@ def settings(end, smallest=1e-8):
 
 def prescribe(mbs, node, coordinate, motion):
     """Let a function of time give a coordinate of a node."""
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=index))
-        for number, index in ((mbs.AddNode(items.NodePointGround()), 0), (node, coordinate))
-    ]
-    mbs.AddObject(
-        items.ObjectConnectorCoordinate(
-            markerNumbers=ends,
-            offsetUserFunction=lambda mbs, time, item, given: motion(time),
-        )
-    )
+    hold(mbs, node, (coordinate,), offsetUserFunction=lambda mbs, time, item, given: motion(time))
 
 
 def pulled(offset):

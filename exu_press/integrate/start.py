@@ -32,7 +32,9 @@ DEFORMS = 1e-8
 is rounding, and makes speeds of micrometres a second."""
 
 SHRINKS = 0.5
-"""Part of what is missing that an iteration leaves at most; more is rounding."""
+"""Part of what is missing that two iterations leave at most; more is rounding. One may leave all:
+Exudyn's directions of joints are those of Euler parameters of length 1, which the first one mends.
+"""
 
 MASSLESS = 1e-12
 """Over the largest mass, up to which a coordinate has none."""
@@ -97,15 +99,16 @@ class _Start:
             missing: of them: what the constraints' rates are off by.
             order: of the rates.
         """
-        last, fits = math.inf, FITS[order]
+        last = before = math.inf
+        fits = FITS[order]
         rounded = np.full(len(self.held), ROUNDED * self.length / self._ahead**order)
         least = self._norm(self.undone(rounded))
         for _ in range(START_ITERATIONS):
             change = self.undone(missing(vector))
             size = self._norm(change)
-            if size <= max(least, fits * self._norm(vector - change)) or size > SHRINKS * last:
+            if size <= max(least, fits * self._norm(vector - change)) or size > SHRINKS * before:
                 break
-            vector, last = vector - change, size
+            vector, last, before = vector - change, size, last
         return vector
 
     def stiffened(self, period: float) -> Array:
@@ -230,13 +233,14 @@ def fit_start(
         accelerations[:] = _accelerations(task)
         return np.array(accelerations), np.zeros_like(accelerations)
     start = _Start(task, constraints, task.start, ahead)
-    length, last, deforms = start.length, math.inf, False
+    length, deforms = start.length, False
+    last = before = math.inf
     for i in range(START_ITERATIONS):
         violated = np.where(start.held, start.violated(), 0.0)
         size = float(np.abs(violated).max())
-        if size <= FITS[0] * length or size > SHRINKS * last:
+        if size <= FITS[0] * length or size > SHRINKS * before:
             break
-        last = size
+        last, before = size, last
         if i:
             task.solver.ComputeMassMatrix(task.problem.mbs)
             start.turn()

@@ -125,6 +125,46 @@ def test_rows_between_steps_begin_with_the_velocities_that_are_set():
     assert rows[:, 1] == pytest.approx(expected, abs=1e-9)
 
 
+@pytest.mark.parametrize("spin", [0.0, 5.0, 20.0])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+def test_behind_an_event_a_spinning_disc_has_its_accelerations(spin, tolerance):
+    """On an arm of 1 m that turns at 2 rad/s: those of its middle are 4 m/s^2.
+
+    Exudyn's directions of joints are those of Euler parameters of length 1, and accelerations do
+    not keep it, so that one iteration mends their length and a second one the joints.
+    """
+    mbs = exu.SystemContainer().AddSystem()
+    ground, rate = mbs.CreateGround(), 2.0
+    arm = mbs.CreateRigidBody(
+        inertia=items.InertiaCuboid(1000.0, [1.0, 0.1, 0.1]),
+        referencePosition=[0.5, 0.0, 0.0],
+        initialVelocity=[0.0, 0.5 * rate, 0.0],
+        initialAngularVelocity=[0.0, 0.0, rate],
+    )
+    disc = mbs.CreateRigidBody(
+        inertia=items.InertiaCylinder(1000.0, 0.05, 0.2, 0),
+        referencePosition=[1.0, 0.0, 0.0],
+        initialVelocity=[0.0, rate, 0.0],
+        initialAngularVelocity=[spin, 0.0, rate],
+    )
+    for pair, place, axis in (((ground, arm), 0.0, [0, 0, 1]), ((arm, disc), 1.0, [1, 0, 0])):
+        mbs.CreateRevoluteJoint(itemNumbers=list(pair), position=[place, 0.0, 0.0], axis=axis)
+    sensor = mbs.AddSensor(
+        items.SensorBody(
+            bodyNumber=disc,
+            storeInternal=True,
+            outputVariableType=exu.OutputVariableType.Acceleration,
+        )
+    )
+    mbs.Assemble()
+    outcome = solve_dynamic(
+        mbs, settings(1.0), tolerance=tolerance, event=lambda mbs, time: math.sin(20.0 * time - 0.1)
+    )
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    sizes = np.linalg.norm(mbs.GetSensorStoredData(sensor)[:, 1:], axis=1)
+    assert sizes == pytest.approx(rate**2, rel=1e-2)
+
+
 def test_a_first_order_coordinate_has_events_as_well():
     """A tank is filled up to 1.5, and empties from there."""
     mbs = exu.SystemContainer().AddSystem()

@@ -45,6 +45,7 @@ MODULES = [
     "integrate/sampling",
     "integrate/scales",
     "integrate/scheme",
+    "integrate/set_numbers",
     "integrate/start",
     "integrate/step_change",
     "integrate/stepping",

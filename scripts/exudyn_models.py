@@ -10,7 +10,7 @@ Of scripts that vary parameters, the first ones count. What older scripts call b
 installed Exudyn has no longer is put back. What is in OUT is not run again. A run with a tolerance
 may take ten times the user's own processor time, and the limit on top: what takes longer is far
 slower than fixed steps. All runs but coarser ones call a pre-step function on the grid of the
-user's steps, as it is a part of the system.
+user's steps, as it is a part of the system, and let numbers that it sets go over from call to call.
 
 With --equal-error, processor time is also compared with that of the fixed step of the same error,
 between a 64th of the user's steps and the references.

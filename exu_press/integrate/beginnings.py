@@ -26,22 +26,24 @@ class Beginnings:
 
     Attributes:
         jumps: of prescribed velocities.
-        set_by_functions: how often it has begun anew behind a call of a pre-step function.
+        pushed_by_calls: how often a call of a pre-step function has made accelerations jump by what
+            matters within the largest step.
     """
 
     def __init__(self, task: Task, constraints: Constraints) -> None:
         """Take a task and its constraints."""
         self._task, self._constraints = task, constraints
         self.jumps = VelocityJumps(task, constraints)
-        self.set_by_functions = 0
+        self.pushed_by_calls, self._called = 0, False
         self._anew_at = self._failed_at = math.nan  # where the motion has, or a step, at last, s
 
-    def fit_first(self, switched: Callable[[], bool]) -> tuple[Array, Array] | None:
+    def fit_first(self, changed: Callable[[], bool]) -> tuple[Array, Array] | None:
         """Fit the start; return its accelerations and their rate, where these have been found.
 
         Args:
-            switched: has a pre-step function called, and returns whether that has switched
-                constraints: what it has switched off is not to be fitted.
+            changed: has a pre-step function called, and returns whether that has changed
+                constraints: what it has switched off is not to be fitted, and the motion that it
+                prescribes is.
         """
         task, constraints = self._task, self._constraints
         state, data, given = task.problem.current, task.problem.data, exu.ConfigurationType.Initial
@@ -51,9 +53,10 @@ class Beginnings:
         fitted = fit_start(task, constraints, ahead) or found
         if fit_data(task):
             fitted = fit_start(task, constraints, ahead, pushed=True)
-        if switched():
+        if changed():
             state.positions[:] = data.GetODE2Coordinates(given)
             state.velocities[:] = data.GetODE2Coordinates_t(given)
+            ahead = self.jumps.ahead(task.start)
             fitted = fit_start(task, constraints, ahead, pushed=True)
         return fitted
 
@@ -73,7 +76,7 @@ class Beginnings:
             return False
         again, self._failed_at = begin == self._failed_at, begin
         switched = self._constraints.switched() or (begin == called_at and (by_far or again))
-        self.set_by_functions += switched and begin == called_at
+        self._called = switched and begin == called_at
         return switched
 
     def jumped(self, step: float, end: float, before: Array) -> tuple[Array, Array, Array] | None:
@@ -111,6 +114,10 @@ class Beginnings:
         task.solver.ComputeNewtonResidual(mbs, mbs.sys["simulationSettings"])  # and its masses
         start_rates(task, time)
         jump = self._behind(np.array(state.velocities), time)
+        if self._called:
+            scales, self._called = task.scales, False
+            gained = task.largest * scales.norm((jump[1] - state.accelerations).tolist())
+            self.pushed_by_calls += gained > task.tolerance * scales.speed
         state.velocities[:], state.accelerations[:], rate = jump
         begin.positions[:], begin.velocities[:] = state.positions, state.velocities
         begin.accelerations[:] = state.accelerations

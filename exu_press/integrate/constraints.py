@@ -55,7 +55,11 @@ def normalised(directions: Array) -> tuple[Array, Array]:
 
 
 class Constraints:
-    """The constraints of a system."""
+    """The constraints of a system.
+
+    Attributes:
+        untold: whether Exudyn does not tell the rates of some.
+    """
 
     def __init__(self, task: Task) -> None:
         """Take the problem."""
@@ -63,7 +67,8 @@ class Constraints:
         self._mbs, self._solver, self._data = problem.mbs, task.solver, problem.data
         self._current, self._start = problem.current, problem.start
         self._places = list(problem.places)
-        self._untold = problem.untold_rates or bool(self._places)  # Exudyn has none for these
+        self.untold = problem.untold_rates
+        self._prescribe: Callable[[float], object] | None = None
         self._length, self._nearby = problem.length, NEARBY * problem.length
         self._of_velocities: Flags | None = None
         # objects that may be switched off, and which were on when `switched` was last asked
@@ -74,6 +79,10 @@ class Constraints:
     def count(self) -> int:
         """Their number."""
         return len(self._current.multipliers)
+
+    def prescribed_by(self, function: Callable[[float], object]) -> None:
+        """Call a function of time (s) that sets what they prescribe, wherever they are asked."""
+        self._prescribe, self.untold = function, True
 
     def of_velocities(self) -> Flags:
         """Return which of them hold velocities; the others hold positions."""
@@ -153,6 +162,8 @@ class Constraints:
 
     def _evaluated(self, *, velocities: bool = False) -> Array:
         """Return what Exudyn tells of the current state; or its rate, if it has one."""
+        if self._prescribe is not None:
+            self._prescribe(self._data.GetTime())
         self._solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=velocities)
         return np.array(self._solver.GetSystemResidual())[-self.count :]
 
@@ -184,7 +195,7 @@ class Constraints:
         Args:
             ahead: time within which positions tell it where velocities do not, s.
         """
-        if not self._untold:
+        if not (self.untold or self._places):
             return self._evaluated(velocities=True)
         time, positions = self._data.GetTime(), self._current.positions
         now, here = np.array(positions), self.violated()

@@ -139,9 +139,10 @@ class Advice:
         if jumps > max(part * calls, number):
             warnings.warn(
                 f"solve_dynamic: in {jumps} of {calls} calls a pre-step function made forces jump: "
-                "what it sets is held from call to call, as a controller's output is; a function "
-                "of time, as a trajectory, becomes a staircase, which fixed steps smooth: "
-                "sample=0.0 sets it for the end of each step",
+                "what it does not set by mbs.Set...Parameter, as mbs.variables, is held from call "
+                "to call, and so are flags; a function of time, as a trajectory, becomes a "
+                "staircase, which fixed steps smooth: sample=0.0 calls it for the end of each "
+                "step; hold=True if forces are to jump",
                 stacklevel=4,
             )
 

@@ -73,10 +73,12 @@ class Monitor:
         watch: Callable[[float], str],
         progress: Progress,
         max_steps: int,
-        sample: float | None = None,
+        sample: float = 0.0,
         event: Callable[[Any, float], float] | None = None,
         why_long: Callable[[float, ClearanceJoint | None], str] | None = None,
         controller: Controller | None = None,
+        *,
+        hold: bool = False,
     ) -> None:
         """Watch a run.
 
@@ -87,11 +89,12 @@ class Monitor:
             watch: is asked after every step why the run is to end there, or nothing.
             progress: is shown ten times a second.
             max_steps: budget.
-            sample: period of a pre-step function, s; None: the largest step, 0.0: every step.
+            sample: period of a pre-step function, s; 0.0: every step.
             event: function of the system and the time, s; steps end where its sign changes.
             why_long: says why a run is long, of its mean step, s, and the clearance joint that
                 limits most steps, if one does.
             controller: of the steps by tolerance; `LimitedGrowth` unless given.
+            hold: whether what a pre-step function sets is held for its period.
         """
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
@@ -114,9 +117,8 @@ class Monitor:
         self._output = OutputGrid(task, self._places)
         self._settling = Settling(task)
         self._estimate = StepError(task, self._settling)
-        samples = bool(_function(task.problem.mbs.GetPreStepUserFunction())) and not task.fixed
-        period = (task.largest if sample is None else sample) if samples else 0.0
-        self._sampling = Sampling(task, self.constraints, period)
+        before_step = _function(task.problem.mbs.GetPreStepUserFunction())
+        self._sampling = Sampling(task, self.constraints, before_step, sample, hold=hold)
         self._event = Event(task, event)
         self._beginnings = Beginnings(task, self.constraints)
 
@@ -157,7 +159,7 @@ class Monitor:
         for place, function in zip(places, ours, strict=True):
             place(function)
         try:
-            with self._catching_interrupts():
+            with self._catching_interrupts(), self._sampling.watched():
                 yield
         finally:
             self._modal_mass.fit(0.0)
@@ -170,8 +172,10 @@ class Monitor:
         self._places.begin()
         start_rates(task, task.start)
         task.solver.ComputeMassMatrix(task.problem.mbs)
+        if self._users[0] or self._users[3]:
+            self.constraints.switched()  # from now on it tells
         if not task.fixed:  # within a fixed step, motions may change by less than rounding
-            fitted = self._beginnings.fit_first(self._called_at_start)
+            fitted = self._beginnings.fit_first(self._sampling.look)
             if fitted is not None:
                 self._step_change.start_from(*fitted)
                 self._estimate.start = fitted[0].tolist()
@@ -193,9 +197,9 @@ class Monitor:
         return self._settling.switched
 
     @property
-    def jumps_set(self) -> tuple[int, int]:
-        """Calls of a pre-step function behind which the motion began anew, and all of its grid."""
-        return self._beginnings.set_by_functions, self._sampling.calls
+    def pushed_by_calls(self) -> tuple[int, int]:
+        """Calls of a pre-step function that made forces jump, and all of its grid."""
+        return self._beginnings.pushed_by_calls, self._sampling.calls
 
     def _before_step(self, mbs: exu.MainSystem, end: float) -> bool:
         """Return whether to go on."""
@@ -208,27 +212,17 @@ class Monitor:
         self._modal_mass.fit(end - self._time)
         self._places.before_try(0.0)
         if self._users[0]:
-            self._call_before_step(end)
+            self.go_on = self._sampling.call(self._time, end) and self.go_on
         if self._repeats_anew:
             self._repeats_anew = False
+            self._sampling.set(self._time)
+            self._step_change.unshift()
             self._start_again(*self._beginnings.fit_anew(self._time))
         self._step_change.before_try(self._time, end - self._time)
+        self._sampling.set(end)
         self._places.before_try(end - self._time)
         self.over_budget = self.tries >= self.max_steps
         return self.go_on and not (self.interrupted or self.over_budget)
-
-    def _call_before_step(self, end: float) -> None:
-        """Call the user's own function, if it is due, for a step that ends at `end`, s."""
-        function, mbs = self._users[0], self._task.problem.mbs
-        self.go_on = self._sampling.call(function, mbs, self._time, end) and self.go_on
-
-    def _called_at_start(self) -> bool:
-        """Call a function of the grid; return whether it has switched constraints."""
-        if self._users[0] or self._users[3]:
-            self.constraints.switched()  # from now on it tells
-        if self._sampling.on_grid and self.constraints.count:
-            self._call_before_step(self._task.start)
-        return self._sampling.switched
 
     def _say_if_long(self, why: Callable[[float, ClearanceJoint | None], str]) -> None:
         """Say once, early, how long the run will be, if that is long, and why."""
@@ -256,6 +250,7 @@ class Monitor:
         """Return [0, -1] to accept the step, or [2, step] to have it repeated."""
         step = end - self._time
         ours = self._judged(step)
+        self._sampling.set(end)
         self._settling.judged(ours is ACCEPTED, step)
         if not self._users[2]:
             return ours

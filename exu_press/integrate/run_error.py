@@ -40,9 +40,9 @@ stated ones cover the true ones in 58 of 60 of Exudyn's scripts, and in 81 of 82
 AMPLIFIED = 10.0
 """Tolerances above which an error is more than that of steps alone."""
 
-Run = Callable[[float, float | None, Watch, int, bool], tuple[Outcome, FoundScales]]
-"""Solves a problem from its start: tolerance, period of samples, watch, budget, quiet, as in
-`solve_dynamic` -> how it ended, and the scales of its errors."""
+Run = Callable[[float, Watch, int, bool], tuple[Outcome, FoundScales]]
+"""Solves a problem from its start: tolerance, watch, budget, quiet, as in `solve_dynamic` -> how it
+ended, and the scales of its errors."""
 
 
 def with_error(
@@ -50,7 +50,7 @@ def with_error(
     problem: Problem,
     settings: exu.SimulationSettings,
     tolerance: float | None,
-    sample: float | None,
+    period: float,
     watch: Watch,
     max_steps: int,
     quiet: bool,
@@ -61,6 +61,7 @@ def with_error(
         run: solves the problem.
         problem: to be solved.
         settings: Exudyn's, of the run; the others as in `solve_dynamic`.
+        period: on whose multiples steps end, s, or 0.0: it may bound them.
 
     Raises:
         InputError: no finer run in a copy of this process would tell.
@@ -75,20 +76,18 @@ def with_error(
 
     def with_finer_steps() -> Outcome:
         integration = settings.timeIntegration
-        if sample is None:  # as in the run itself
-            period = (integration.endTime - integration.startTime) / integration.numberOfSteps
-        else:
-            period = sample
         shorter = math.sqrt(FINER)
-        integration.numberOfSteps = math.ceil(integration.numberOfSteps / shorter)
+        periods = (integration.endTime - integration.startTime) / (period or math.inf)
+        at_least = max(integration.numberOfSteps, periods)
+        integration.numberOfSteps = math.ceil(at_least / shorter)
         integration.initialStepSize *= shorter
         integration.minimumStepSize *= shorter
         _write_nothing(problem.mbs, settings)
         most = math.ceil(max_steps / FINER)
-        return run(FINER * tolerance, period, finer.beside(watch), most, True)[0]
+        return run(FINER * tolerance, finer.beside(watch), most, True)[0]
 
     with FinerRun(with_finer_steps, finer, problem.mbs) as copy:
-        outcome, scales = run(tolerance, sample, motion.beside(watch), max_steps, quiet)
+        outcome, scales = run(tolerance, motion.beside(watch), max_steps, quiet)
         if not outcome.status.ended:
             return outcome, scales
         with Progress("finer run", 1.0, "run", quiet=quiet) as progress:

@@ -3,45 +3,70 @@ events."""
 
 import math
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 import numpy as np
 
 from exu_press.integrate.constraints import Constraints
+from exu_press.integrate.set_numbers import SetNumbers
 from exu_press.integrate.settings import Task
 from exu_press.integrate.start import start_rates
+from exu_press.numerics.arrays import Array
 
 __all__ = ["Event", "Sampling"]
 
 NARROW = 1e-6
 """Over the largest step: to which an event is located."""
 
+SAME_PLACE = 1e-9
+"""Over the length: by which constraints may differ that are the same."""
+
 LOOKS = 3
-"""Calls of a pre-step function, at the first of which is seen whether it moves constraints."""
+"""First calls on a grid, at which is seen whether a function moves constraints; later on, where a
+number begins to change."""
 
 
 class Sampling:
     """Calls a pre-step function on a grid, as a controller samples its plant.
 
-    With fixed steps a user's pre-step function is called once a step, with the step's end, and what
-    it sets is held until the next one. With a tolerance steps have other sizes and are repeated. So
-    steps end on the grid, and the function is called once for each of its intervals, with the
-    interval's end. A function that changes what constraints prescribe describes a motion instead of
-    a controller: held for several steps it would be a staircase. It is called before every step.
+    With fixed steps a user's pre-step function is called once a step, with the step's end. With a
+    tolerance steps have other sizes and are repeated. So steps end on the grid, and the function is
+    called once for each of its intervals, with the interval's end; what it sets of numbers goes
+    over from one call to the next, or is held.
+
+    A function of time that changes what constraints prescribe describes a motion. Its rates have to
+    be known, as those of an offset's own function: it is called wherever constraints are asked. It
+    is told by a call for an interval's beginning, which sets what was there.
 
     Attributes:
         calls: number of intervals that it was called for.
         called_at: where the interval begins that was last called for, s.
-        switched: whether the function has switched constraints on or off in a call looked at.
     """
 
-    def __init__(self, task: Task, constraints: Constraints, period: float) -> None:
-        """Sample with a period, s; 0.0 calls the function before every step."""
-        self._start, self._end, self._period = task.start, task.end, period
+    def __init__(
+        self, task: Task, constraints: Constraints, function: Any, period: float, *, hold: bool
+    ) -> None:
+        """Sample a function with a period.
+
+        Args:
+            task: to be solved.
+            constraints: of the system.
+            function: of the user's own, of the system and the time, s; or nothing.
+            period: s; 0.0 calls the function before every step.
+            hold: whether what the function sets is held until it is called again.
+        """
+        self._period = 0.0 if task.fixed else period
+        self._start, self._end = task.start, task.end
         self._task, self._constraints = task, constraints
+        self._mbs, self._function = task.problem.mbs, function
         self._called = -math.inf  # the end of the interval that was last called for, s
-        self._looks = LOOKS if constraints.count else 0
-        self.calls, self.called_at, self.switched = 0, math.nan, False
+        self._looks = LOOKS if constraints.count and function and not task.fixed else 0
+        self._same = SAME_PLACE * max(1.0, task.problem.length)
+        self._changed = self._moves = False  # constraints, in a call; their motion, in all
+        self._told = math.nan  # for which time it was last called, s
+        self.calls, self.called_at = 0, math.nan
+        self._numbers = None if hold or self._period <= 0.0 else SetNumbers(self._mbs)
         now, before = task.problem.current, task.problem.start
         # what the function may set, where a step starts from, and from where it is repeated
         self._states = [
@@ -51,11 +76,6 @@ class Sampling:
             (now.data, before.data),
         ]
 
-    @property
-    def on_grid(self) -> bool:
-        """Return whether a function is called once a period, and not before every step."""
-        return self._period > 0.0
-
     def next(self, time: float) -> float:
         """Return where the interval that a time (s) begins or lies in has its end, s."""
         if self._period <= 0.0:
@@ -63,27 +83,84 @@ class Sampling:
         number = math.floor((time - self._start) / self._period * (1.0 + 1e-12) + 1e-6) + 1
         return min(self._start + number * self._period, self._end)
 
-    def call(self, function: Any, mbs: Any, begin: float, end: float) -> bool:
-        """Call a function before a step from `begin` to `end`, s, if it is due; return its word."""
+    def look(self) -> bool:
+        """Call the function for the run's start; return whether it has changed constraints."""
+        if self._looks:
+            self.call(self._start, self._start + self._task.largest)
+        return self._changed
+
+    def call(self, begin: float, end: float) -> bool:
+        """Call the function for a step from `begin` to `end`, s, if it is due; return its word."""
         if self._period > 0.0:
             end = self.next(begin)
             if end == self._called:
                 return True
             self._called, self.called_at = end, begin
             self.calls += 1
-        looks = self._looks and self._period > 0.0
+        looks = self._looks > 0
         before = self._constraints.violated() if looks else np.empty(0)
-        go_on = bool(function(mbs, end))
+        if self._numbers is None:
+            go_on = self._ask(end)
+        else:
+            go_on = self._numbers.call(lambda: self._ask(end), begin, end)
+            if self._numbers.fresh and self._constraints.count and not looks:
+                looks = True
+                self._numbers.at(begin)
+                before = self._constraints.violated()
+                self._numbers.at(end)
         if looks:
-            self._looks -= 1
-            self.switched = self._constraints.switched()
-            if not (self.switched or np.array_equal(before, self._constraints.violated())):
-                self._period = 0.0
+            self._look(before, begin, end)
+        self.set(begin)
         if self._period > 0.0:  # else it is called for each try anew
             for state, kept in self._states:
                 kept[:] = state
         start_rates(self._task, begin)
         return go_on
+
+    def _look(self, before: Array, begin: float, end: float) -> None:
+        """See whether a call for an interval's end has changed constraints, and how.
+
+        Args:
+            before: by how much they were violated before it.
+            begin: of the interval, s.
+            end: of it, s.
+        """
+        constraints = self._constraints
+        self._looks -= self._period > 0.0
+        self._changed = constraints.switched()
+        if self._changed or np.array_equal(before, constraints.violated()):
+            return
+        self._ask_again(begin)
+        self._moves = np.allclose(before, constraints.violated(), rtol=0.0, atol=self._same)
+        if self._moves:
+            self._period, self._numbers, self._looks = 0.0, None, 0
+        else:
+            self._ask_again(end)
+        self._changed = self._moves or self._numbers is not None
+        if self._changed:
+            constraints.prescribed_by(self.set)
+
+    def _ask_again(self, time: float) -> None:
+        """Call the function for a time (s) without a look at what it sets."""
+        if self._numbers is None:
+            self._ask(time)
+        else:
+            self._numbers.unseen(lambda: self._ask(time))
+
+    def _ask(self, time: float) -> bool:
+        self._told = time
+        return bool(self._function(self._mbs, time))
+
+    def watched(self) -> AbstractContextManager[None]:
+        """See meanwhile what functions set, if numbers go over."""
+        return nullcontext() if self._numbers is None else self._numbers.watched()
+
+    def set(self, time: float) -> None:
+        """Set what is prescribed at a time, and numbers that go over; s."""
+        if self._numbers is not None:
+            self._numbers.at(time)
+        elif self._moves and time != self._told:
+            self._ask(time)
 
 
 class Event:

@@ -216,7 +216,11 @@ def inertia_factor(solver: Any) -> float:
 
 
 def refuse_unusable(
-    settings: exu.SimulationSettings, tolerance: float | None, sample: float | None = None
+    settings: exu.SimulationSettings,
+    tolerance: float | None,
+    sample: float | None = None,
+    *,
+    hold: bool = False,
 ) -> None:
     """Refuse what cannot be integrated; warn where another method is taken than asked for.
 
@@ -243,6 +247,8 @@ def refuse_unusable(
         )
     if sample is not None and not 0.0 <= sample < math.inf:
         raise InputError(f"sample = {sample!r}: allowed is a period in seconds, or 0.0")
+    if hold and sample == 0.0:
+        raise InputError("hold = True: allowed with a period; sample = 0.0 has none")
     solver = str(integration.solverType).rsplit(".", 1)[-1]
     if solver not in IMPLICIT:
         raise InputError(

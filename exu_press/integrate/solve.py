@@ -46,6 +46,7 @@ def solve_dynamic(
     next_corner: Callable[[float], float] | None = None,
     watch: Callable[[float], str] = _nothing,
     sample: float | None = None,
+    hold: bool = False,
     event: Callable[[exu.MainSystem, float], float] | None = None,
     bodies: Mapping[int, tuple[str, float]] | None = None,
     advice: Callable[[Problem, bool], Advice] = Advice,
@@ -83,9 +84,11 @@ def solve_dynamic(
         watch: time (s) -> why the motion has come to its end there, or nothing; is asked after
             every step. ARRIVED ends a run that got where it was to go.
         sample: period of the system's pre-step function, s. Steps end on its multiples, and the
-            function is called once for each of them, with its end, as in fixed steps of that size:
-            what a controller sets is held. None: the largest step. 0.0: before every step, as are
-            always functions that change what constraints prescribe.
+            function is called once for each period, with its end, as in fixed steps of that size.
+            None: the largest step. 0.0: before every step, as are always functions that change what
+            constraints prescribe.
+        hold: whether numbers that a pre-step function sets are held from call to call, as by a
+            digital controller. False: they go over from one call to the next, as in fixed steps.
         event: function (system, time in s) -> number; steps end where it changes its sign, within
             a millionth of the largest step. Not with fixed steps.
         bodies: node number -> name and mass (kg) of its body; nodes that are not named are
@@ -112,7 +115,7 @@ def solve_dynamic(
             cannot be copied; the system is left as it was.
         exudyn.ExudynError: a user function failed.
     """
-    refuse_unusable(settings, tolerance, sample)
+    refuse_unusable(settings, tolerance, sample, hold=hold)
     if not 0.0 <= absolute < math.inf or (absolute and tolerance is None):
         raise InputError(
             f"absolute = {absolute!r}: allowed is a velocity in m/s, or 0.0; with fixed steps 0.0"
@@ -124,9 +127,10 @@ def solve_dynamic(
     if problem.joints is not None:
         problem.joints.refuse_start(words.joint)
 
+    period = _period(mbs, settings, sample)
+
     def run(
         tolerance: float | None,
-        sample: float | None,
         watch: Callable[[float], str],
         max_steps: int,
         quiet: bool,
@@ -134,21 +138,30 @@ def solve_dynamic(
         task = Task(problem, settings, tolerance, scales, tuning, absolute)
         with Progress("run", task.end - task.start, quiet=quiet) as progress:
             monitor = Monitor(
-                task, next_corner, watch, progress, max_steps, sample, event, words.long, controller
+                task,
+                next_corner,
+                watch,
+                progress,
+                max_steps,
+                period,
+                event,
+                words.long,
+                controller,
+                hold=hold,
             )
             outcome = _run(task, settings, monitor, words, progress)
-        if sample is None:
-            words.announce_stairs(*monitor.jumps_set)
+        if not hold:
+            words.announce_stairs(*monitor.pushed_by_calls)
         return outcome, task.scales
 
     if errors:
         from exu_press.integrate.run_error import with_error  # a run without them loads less
 
         outcome, found = with_error(
-            run, problem, settings, tolerance, sample, watch, max_steps, quiet
+            run, problem, settings, tolerance, period, watch, max_steps, quiet
         )
     else:
-        outcome, found = run(tolerance, sample, watch, max_steps, quiet)
+        outcome, found = run(tolerance, watch, max_steps, quiet)
     if update_initial_values:
         _start_from_here(mbs)
     words.announce(outcome)
@@ -160,6 +173,17 @@ def solve_dynamic(
             stacklevel=2,
         )
     return outcome
+
+
+def _period(mbs: exu.MainSystem, settings: exu.SimulationSettings, sample: float | None) -> float:
+    """Return the period of a pre-step function, s, or 0.0 where there is none."""
+    function: Any = mbs.GetPreStepUserFunction()
+    if function == 0:
+        return 0.0
+    if sample is not None:
+        return sample
+    integration = settings.timeIntegration
+    return (integration.endTime - integration.startTime) / integration.numberOfSteps
 
 
 def _run(

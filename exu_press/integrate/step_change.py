@@ -95,7 +95,6 @@ class StepChange:
         # of it: what constraints forbid of positions and velocities, and `KeptEnergy`
         self._offsets: list[list[float]] | None = None
         self._ahead = 0.0  # how far ahead rates were looked for there, s
-        self._untold = problem.untold_rates
         self._per_square: list[list[float]] | None = None
         self._mean: list[float] | None = None  # acceleration of the first step
         # accelerations at the start, and what of their rate constraints prescribe
@@ -126,6 +125,12 @@ class StepChange:
     def velocities(self) -> Array:
         """Return those with which the step under way begins, before any shift."""
         return np.array(self._state[1] if self._state else self._at_start.velocities)
+
+    def unshift(self) -> None:
+        """Take back any shift of the state with which the step under way begins."""
+        for k, values in enumerate(self._state):
+            self._now[k].set(values)
+            self._before[k].set(values)
 
     def before_try(self, start: float, step: float) -> None:
         """Shift the state from which Exudyn is about to try a step (s) from a start (s)."""
@@ -167,10 +172,11 @@ class StepChange:
         q, v, a = self._state
         if abs(ratio - 1.0) > SAME:
             part = step / self._fits
+            untold = self._constraints.untold
             if part < self._refit or self._seldom:
                 self._leaves = step
                 if self._constraints.count:
-                    if self._offsets is None or (self._untold and step < self._ahead):
+                    if self._offsets is None or (untold and step < self._ahead):
                         self._ahead = AHEAD * min(step, self._fits)
                         self._offsets = self._violations().tolist()
                     of_q, of_v = self._offsets
@@ -231,7 +237,7 @@ class StepChange:
         forces, inertia, directions = self._matrices()
         directions, lengths = normalised(directions)
         state = np.array(self._state)
-        if self._energy is not None:
+        if self._energy is not None and not self._constraints.untold:  # nothing drives them
             undone = self._constraints.undone(inertia, directions)
             if self._last is not None:
                 held = undone(directions @ state[1:].T)

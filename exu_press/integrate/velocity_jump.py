@@ -39,7 +39,6 @@ class VelocityJumps:
     def __init__(self, task: Task, constraints: Constraints) -> None:
         """Look at the constraints of a task."""
         problem = task.problem
-        self._sought = problem.untold_rates and constraints.count > 0
         self._constraints, self._data, self._smallest = constraints, problem.data, task.smallest
         self._length, self._positions = problem.length or 1.0, problem.current.positions
         self._ahead = LOOK_AHEAD * task.largest
@@ -48,6 +47,10 @@ class VelocityJumps:
         # where the step last looked at begins, and the one before unless motion begins anew, s
         self._begin = self._last = task.start
         self.crossed = False
+
+    @property
+    def _sought(self) -> bool:
+        return self._constraints.untold and self._constraints.count > 0
 
     def shorter(self, begin: float, step: float, *, failed: bool) -> float:
         """Return with which step to repeat one just tried, s, or 0.0 where there is no jump in it.

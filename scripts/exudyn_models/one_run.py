@@ -37,6 +37,7 @@ from exu_press import InputError, solve_dynamic
 from exu_press.integrate.motion import velocities_of
 from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import weights
+from exu_press.integrate.set_numbers import SetNumbers
 from exudyn_models.renamed import put_back
 
 EXPORTED = (
@@ -119,16 +120,17 @@ class Record:
         return self.own(mbs, time) if self.own else True
 
 
-def on_grid(function, start, period):
-    """Return a pre-step function that is called once a period, with its end, as by the user."""
+def on_grid(function, numbers, start, period):
+    """Return a pre-step function that calls one once a period, with its end, as by the user."""
     called = [start]
 
     def call(mbs, time):
-        end = start + math.ceil((time - start) / period - 1e-6) * period
-        if end == called[0]:
-            return True
-        called[0] = end
-        return function(mbs, end)
+        end, go_on = start + math.ceil((time - start) / period - 1e-6) * period, True
+        if end != called[0]:
+            go_on = numbers.call(lambda: function(mbs, end), called[0], end)
+            called[0] = end
+        numbers.at(time)
+        return go_on
 
     return call
 
@@ -190,12 +192,15 @@ def replace(variant, file):
         settings.timeIntegration.simulateInRealtime = False
         users = integration.numberOfSteps
         period = (integration.endTime - integration.startTime) / users
+        watched = contextlib.nullcontext()
         if "times" in variant:
             integration.numberOfSteps = max(SAMPLES, round(users * variant["times"]))
             before = mbs.GetPreStepUserFunction()
             if variant["times"] > 1 and isinstance(before, dict) and before["function"]:
+                numbers = SetNumbers(mbs)
+                watched = numbers.watched()
                 mbs.SetPreStepUserFunction(
-                    on_grid(before["function"], integration.startTime, period)
+                    on_grid(before["function"], numbers, integration.startTime, period)
                 )
         elif variant.get("steps"):
             integration.numberOfSteps = variant["steps"]
@@ -206,7 +211,8 @@ def replace(variant, file):
         begun = clock.process_time()
         try:
             if "times" in variant:
-                theirs(mbs, settings, solver)
+                with watched:
+                    theirs(mbs, settings, solver)
                 found["status"] = "completed"
             else:
                 integration.solverType = solver

@@ -77,7 +77,7 @@ def speeds(mbs, tolerance, end=1.0, coordinate=0):
         found.append(float(mbs.systemData.GetODE2Coordinates_t()[coordinate]))
         return ""
 
-    outcome = solve_dynamic(mbs, settings, tolerance=tolerance, watch=watch)
+    outcome = solve_dynamic(mbs, settings, tolerance=tolerance, watch=watch, hold=True)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     return found
 

@@ -136,6 +136,16 @@ def test_a_controller_has_its_period_in_both_runs():
     assert outcome.error.motion < 1e-2
 
 
+def test_steps_that_the_grid_alone_bounds_are_halved_too():
+    """At 0.1 both runs take steps of a period; their difference was next to nothing."""
+    mbs = vibrating()
+    mbs.SetPreStepUserFunction(lambda mbs, time: True)
+    outcome = solve_dynamic(mbs, settings(1.0), tolerance=0.1, sample=1e-3, errors=True)
+    assert 1000 <= outcome.steps < 1010
+    true = abs(mbs.GetNodeOutput(0, VELOCITY) + 20.0 * np.sin(20.0)) / 20.0
+    assert 1e-5 < true <= outcome.error.motion <= 10.0 * true
+
+
 def test_an_early_stop_has_no_error_and_leaves_no_process():
     mbs = vibrating()
     with pytest.warns(UserWarning, match="too many steps"):

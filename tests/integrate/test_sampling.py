@@ -47,7 +47,7 @@ def velocity(mbs):
 
 
 def test_a_controller_is_sampled_on_its_grid_and_its_output_is_held():
-    """v' = 1 - K v(t_k): v_k+1 = v_k + T (1 - K v_k), as with fixed steps of the period."""
+    """v' = 1 - K v(t_k): v_k+1 = v_k + T (1 - K v_k)."""
     called = []
 
     def controller(load):
@@ -59,7 +59,7 @@ def test_a_controller_is_sampled_on_its_grid_and_its_output_is_held():
         return control
 
     mbs = mass(controller)
-    outcome = solve_dynamic(mbs, settings(0.2), tolerance=1e-4, sample=PERIOD)
+    outcome = solve_dynamic(mbs, settings(0.2), tolerance=1e-4, sample=PERIOD, hold=True)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     assert called == pytest.approx(PERIOD * np.arange(1, 11))
     expected = 0.0
@@ -78,7 +78,7 @@ def test_a_pressure_whose_valve_is_set_on_the_grid_starts_with_its_new_rate():
 
     mbs.SetPreStepUserFunction(switch)
     mbs.Assemble()
-    outcome = solve_dynamic(mbs, settings(1.0), tolerance=1e-3, sample=PERIOD)
+    outcome = solve_dynamic(mbs, settings(1.0), tolerance=1e-3, sample=PERIOD, hold=True)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     expected, part = 0.0, np.exp(-PERIOD)
     for number in range(50):
@@ -177,33 +177,10 @@ def test_without_a_period_the_largest_step_is_one():
         return look
 
     mbs = mass(switch)
-    assert solve_dynamic(mbs, settings(), tolerance=1e-4).status is SolverStatus.COMPLETED
+    outcome = solve_dynamic(mbs, settings(), tolerance=1e-4, hold=True)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     assert times == pytest.approx(np.arange(1, 21) / 20.0)
     assert velocity(mbs) == pytest.approx(2.0 * 0.55, rel=1e-3)
-
-
-def test_a_function_that_prescribes_a_motion_is_called_before_every_step():
-    mbs = exu.SystemContainer().AddSystem()
-    still = mbs.AddNode(items.NodePointGround())
-    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0]))
-    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
-        for number in (still, node)
-    ]
-    held = mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends))
-    times = []
-
-    def move(mbs, time):
-        times.append(time)
-        mbs.SetObjectParameter(held, "offset", 0.1 * time**3)
-        return True
-
-    mbs.SetPreStepUserFunction(move)
-    mbs.Assemble()
-    outcome = solve_dynamic(mbs, settings(), max_steps=200)
-    assert times[0] == 0.05, "what it moves is seen by a call for the first period"
-    assert len(times) == 1 + outcome.steps + outcome.rejected_steps > 10
 
 
 def test_a_step_ends_right_behind_an_event():
@@ -268,5 +245,7 @@ def test_an_event_does_not_jolt_constraints():
 def test_what_cannot_be_sampled_is_refused():
     with pytest.raises(InputError, match="sample = -1"):
         solve_dynamic(mass(), settings(), sample=-1.0)
+    with pytest.raises(InputError, match=r"hold = True: .* sample = 0.0 has none"):
+        solve_dynamic(mass(), settings(), sample=0.0, hold=True)
     with pytest.raises(InputError, match="event: allowed with a tolerance"):
         solve_dynamic(mass(), settings(), tolerance=None, event=lambda mbs, time: 1.0)

@@ -234,57 +234,13 @@ def test_functions_and_settings_of_the_user_take_part_and_stay():
     chosen = settings(3.0)
     chosen.timeIntegration.newton.maxIterations = 17
     outcome = solve_dynamic(mbs, chosen, sample=0.0)
-    assert called["before"] == outcome.steps + outcome.rejected_steps
+    assert called["before"] == 1 + outcome.steps + outcome.rejected_steps  # at the start too
     assert called["after"] == outcome.steps + 1  # at the start too, as Exudyn does
     assert 0.5 <= outcome.end_time < 0.7
     assert outcome.status is SolverStatus.INTERRUPTED
     assert chosen.timeIntegration.newton.maxIterations == 17
     mbs.SolveDynamic(chosen)
     assert called["after"] > outcome.steps + 2, "it is still there"
-
-
-def test_constraints_that_a_pre_step_function_moves_are_named():
-    """Their offsets are those of a step's end, also when the step is repeated with another."""
-    mbs = exu.SystemContainer().AddSystem()
-    nodes = [
-        mbs.AddNode(items.NodePointGround()),
-        mbs.AddNode(items.NodePoint2D(referenceCoordinates=[1.0, 0.0])),
-    ]
-    mbs.AddObject(items.ObjectMassPoint2D(nodeNumber=nodes[1], mass=2.0))
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0)) for node in nodes
-    ]
-    pushed = mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends))
-
-    def push(mbs, time):
-        mbs.SetObjectParameter(pushed, "offset", 0.1 * (1.0 - np.cos(5.0 * time)))
-        return True
-
-    mbs.SetPreStepUserFunction(push)
-    mbs.Assemble()
-    outcome = solve_dynamic(mbs, settings(2.0))
-    assert outcome.status is SolverStatus.STEP_TOO_SMALL
-    assert "offsetUserFunction" in outcome.reason
-
-
-def test_a_start_that_does_not_fit_is_named_with_its_jump():
-    """A pre-step function turns a rod by 0.1 rad at once."""
-    mbs, node = pendulum()
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=2))
-        for number in (mbs.AddNode(items.NodePointGround()), node)
-    ]
-    drive = mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends))
-
-    def turn(mbs, time):
-        mbs.SetObjectParameter(drive, "offset", 0.1)
-        return True
-
-    mbs.SetPreStepUserFunction(turn)
-    mbs.Assemble()
-    with pytest.warns(UserWarning, match="its first step changes a speed by"):
-        outcome = solve_dynamic(mbs, settings(1.0), sample=0.0)
-    assert outcome.status is SolverStatus.STEP_TOO_SMALL and outcome.steps == 0
 
 
 def test_a_load_that_jumps_at_a_tight_tolerance():

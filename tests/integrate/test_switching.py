@@ -170,10 +170,11 @@ def turns(mbs, ground, bodies, nodes, joints):
 
 
 @pytest.mark.filterwarnings("error::UserWarning")
+@pytest.mark.parametrize("hold", [False, True])
 @pytest.mark.parametrize(
     ("what", "most"), [(breaks, 120), (locks, 170), (latches, 130), (springs, 300), (turns, 125)]
 )
-def test_what_a_function_switches_costs_few_steps(what, most):
+def test_what_a_function_switches_costs_few_steps(what, most, hold):
     """Within ten of them; what it was before rings on in the accelerations otherwise."""
     speeds = []
     for tolerance in (1e-6, 1e-2):
@@ -186,7 +187,7 @@ def test_what_a_function_switches_costs_few_steps(what, most):
 
         mbs.SetPreStepUserFunction(before_step)
         mbs.Assemble()
-        outcome = solve_dynamic(mbs, settings(), tolerance=tolerance)
+        outcome = solve_dynamic(mbs, settings(), tolerance=tolerance, hold=hold)
         assert outcome.status is SolverStatus.COMPLETED, outcome.reason
         speeds.append(mbs.systemData.GetODE2Coordinates_t())
     assert outcome.steps + outcome.rejected_steps < most
@@ -242,20 +243,46 @@ def test_servos_that_push_a_jump_at_every_call():
     Positions that Newton's method leaves off the hinge by 1e-10 m would be a jolt beside steps as
     short as what a jump leaves takes to decay.
     """
-    with pytest.warns(UserWarning, match=r"in \d+ of 100 calls .* forces jump.*sample=0.0"):
-        outcome = solve_dynamic(servo(), of_servo(), tolerance=1e-2)
+    outcome = solve_dynamic(servo(), of_servo(), tolerance=1e-2, hold=True)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     assert outcome.steps + outcome.rejected_steps < 1500
 
 
 @pytest.mark.filterwarnings("error::UserWarning")
-def test_servos_follow_a_trajectory_without_stairs():
-    """Where its function is called for the end of each step."""
+@pytest.mark.parametrize("sample", [None, 0.0])
+def test_servos_follow_a_trajectory_without_stairs(sample):
+    """Where its function is called for the end of each step, and where numbers go over."""
     fine, run = servo(), servo()
     fine.SolveDynamic(of_servo(5_000))
-    outcome = solve_dynamic(run, of_servo(), sample=0.0)
+    outcome = solve_dynamic(run, of_servo(), sample=sample)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     assert outcome.steps + outcome.rejected_steps < 700
     expected = fine.systemData.GetODE2Coordinates_t()
     largest = np.abs(expected).max()
     assert run.systemData.GetODE2Coordinates_t() == pytest.approx(expected, abs=1e-3 * largest)
+
+
+def test_stairs_of_what_no_one_sees_are_told():
+    """A spring's own function reads where a pre-step function wants its end."""
+    mbs, nodes = sliding((1.0,), (0.0,))
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
+        for number in (mbs.AddNode(items.NodePointGround()), nodes[0])
+    ]
+
+    def pull(mbs, time, item, place, rate, *others):
+        return 1e4 * (place - mbs.variables["wanted"]) + 40.0 * rate
+
+    spring = items.ObjectConnectorCoordinateSpringDamper
+    mbs.AddObject(spring(markerNumbers=ends, springForceUserFunction=pull))
+    mbs.variables["wanted"] = 0.0
+
+    def ask(mbs, time):
+        mbs.variables["wanted"] = 1.0 - np.cos(4.0 * time)
+        return True
+
+    mbs.SetPreStepUserFunction(ask)
+    mbs.Assemble()
+    with pytest.warns(UserWarning, match=r"in \d+ of 100 calls .* forces jump.*sample=0.0"):
+        outcome = solve_dynamic(mbs, settings(), tolerance=1e-3)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason

@@ -35,8 +35,7 @@ CALMER = (
 """What makes contacts and friction of Exudyn's switch less."""
 
 STAIRS = 0.25, 10
-"""Part of the calls of a pre-step function, and number of them, above which its jumps are stairs.
-"""
+"""Part of a function's calls, and number of them, above which what it sets is to be told of."""
 
 ARRIVED = "arrived"
 """A watch's word for a run that has reached its aim: it is completed."""
@@ -108,9 +107,8 @@ class Advice:
     def cause(self) -> str:
         """Return what is known of the system that explains why it does not get on, or nothing."""
         function: Any = self.problem.mbs.GetPreStepUserFunction()
-        if function != 0:
-            return " (a pre-step function that changes constraints: offsetUserFunction instead)"
-        return " (or no offset that jumps)" if self.problem.untold_rates else ""
+        moved = self.problem.untold_rates or function != 0
+        return " (or no offset that jumps)" if moved else ""
 
     def resolution(self, worst: Unresolved) -> str:
         """Return what resolves a run that leapt over its impacts."""
@@ -143,6 +141,17 @@ class Advice:
                 "to call, and so are flags; a function of time, as a trajectory, becomes a "
                 "staircase, which fixed steps smooth: sample=0.0 calls it for the end of each "
                 "step; hold=True if forces are to jump",
+                stacklevel=4,
+            )
+
+    def announce_lag(self, behind: int, steps: int) -> None:
+        """Warn where a post-step function has changed numbers behind so many of the steps."""
+        part, number = STAIRS
+        if behind > max(part * steps, number):
+            warnings.warn(
+                f"solve_dynamic: behind {behind} of {steps} steps a post-step function changed "
+                "numbers: they lag by a step, whose size depends on the tolerance; set them in a "
+                "pre-step function, which has a period, sample=",
                 stacklevel=4,
             )
 

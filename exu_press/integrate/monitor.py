@@ -5,7 +5,7 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from types import FrameType
 from typing import Any
 
@@ -23,6 +23,7 @@ from exu_press.integrate.output import OutputGrid
 from exu_press.integrate.places import Places
 from exu_press.integrate.sampling import Event, Sampling
 from exu_press.integrate.scheme import Newton
+from exu_press.integrate.set_numbers import SetNumbers
 from exu_press.integrate.settings import Task
 from exu_press.integrate.start import start_rates
 from exu_press.integrate.step_change import StepChange
@@ -64,6 +65,7 @@ class Monitor:
             mass.
         refused: what of the start allows no run by tolerance, or nothing.
         again: whether the run is to begin again, with settings that its start asks for.
+        set_behind_steps: steps behind which a post-step function has changed numbers.
     """
 
     def __init__(
@@ -96,7 +98,7 @@ class Monitor:
             controller: of the steps by tolerance; `LimitedGrowth` unless given.
             hold: whether what a pre-step function sets is held for its period.
         """
-        self.tries = self.steps = 0
+        self.tries = self.steps = self.set_behind_steps = 0
         self.interrupted = self.over_budget = False
         self.go_on, self.without_mass, self.refused, self.again = True, False, "", False
         self._repeats_anew = False  # whether the motion begins anew with the step to be repeated
@@ -118,7 +120,10 @@ class Monitor:
         self._settling = Settling(task)
         self._estimate = StepError(task, self._settling)
         before_step = _function(task.problem.mbs.GetPreStepUserFunction())
-        self._sampling = Sampling(task, self.constraints, before_step, sample, hold=hold)
+        self._numbers = SetNumbers(task.problem.mbs)
+        self._sampling = Sampling(
+            task, self.constraints, self._numbers, before_step, sample, hold=hold
+        )
         self._event = Event(task, event)
         self._beginnings = Beginnings(task, self.constraints)
 
@@ -159,7 +164,8 @@ class Monitor:
         for place, function in zip(places, ours, strict=True):
             place(function)
         try:
-            with self._catching_interrupts(), self._sampling.watched():
+            watched = not self._task.fixed and (self._users[0] or self._users[3])
+            with self._catching_interrupts(), self._numbers.watched() if watched else nullcontext():
                 yield
         finally:
             self._modal_mass.fit(0.0)
@@ -344,7 +350,9 @@ class Monitor:
         """Call the user's own function; return whether it has set velocities, as an impact does."""
         task, velocities = self._task, self._task.problem.current.velocities
         before = velocities.tobytes()  # to compare bytes takes a tenth of the time
+        others = self._numbers.others
         self.go_on = bool(self._users[3](mbs, end)) and self.go_on
+        self.set_behind_steps += self._numbers.others > others
         if velocities.tobytes() == before:
             return False
         changed = task.scales.norm((velocities - np.frombuffer(before)).tolist())

@@ -3,7 +3,6 @@ events."""
 
 import math
 from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 import numpy as np
@@ -45,13 +44,21 @@ class Sampling:
     """
 
     def __init__(
-        self, task: Task, constraints: Constraints, function: Any, period: float, *, hold: bool
+        self,
+        task: Task,
+        constraints: Constraints,
+        numbers: SetNumbers,
+        function: Any,
+        period: float,
+        *,
+        hold: bool,
     ) -> None:
         """Sample a function with a period.
 
         Args:
             task: to be solved.
             constraints: of the system.
+            numbers: that functions set.
             function: of the user's own, of the system and the time, s; or nothing.
             period: s; 0.0 calls the function before every step.
             hold: whether what the function sets is held until it is called again.
@@ -66,7 +73,7 @@ class Sampling:
         self._changed = self._moves = False  # constraints, in a call; their motion, in all
         self._told = math.nan  # for which time it was last called, s
         self.calls, self.called_at = 0, math.nan
-        self._numbers = None if hold or self._period <= 0.0 else SetNumbers(self._mbs)
+        self._numbers = None if hold or self._period <= 0.0 else numbers
         now, before = task.problem.current, task.problem.start
         # what the function may set, where a step starts from, and from where it is repeated
         self._states = [
@@ -150,10 +157,6 @@ class Sampling:
     def _ask(self, time: float) -> bool:
         self._told = time
         return bool(self._function(self._mbs, time))
-
-    def watched(self) -> AbstractContextManager[None]:
-        """See meanwhile what functions set, if numbers go over."""
-        return nullcontext() if self._numbers is None else self._numbers.watched()
 
     def set(self, time: float) -> None:
         """Set what is prescribed at a time, and numbers that go over; s."""

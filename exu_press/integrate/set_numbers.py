@@ -36,6 +36,7 @@ class SetNumbers:
 
     Attributes:
         fresh: whether a number changes for the first time in the interval.
+        others: how often other functions have changed a number.
     """
 
     def __init__(self, mbs: exu.MainSystem) -> None:
@@ -46,6 +47,8 @@ class SetNumbers:
         self._changes: set[Key] = set()  # what has changed so far
         self._calling = self._unseen = self.fresh = False
         self._begin = self._end = 0.0  # of the interval, s
+        self._now = math.nan  # the time for which they are set
+        self.others = 0
 
     @contextmanager
     def watched(self) -> Iterator[None]:
@@ -76,11 +79,12 @@ class SetNumbers:
                 before = getter(system, number, name)
             setter(system, *args, **keys)
             key = kind, int(number), name
+            old, new = _flat(before, "f"), _flat(value, "fiu")
+            a_number = old is not None and new is not None and len(old) == len(new)
             if not self._calling:
                 self._known.pop(key, None)
-                return
-            old, new = _flat(before, "f"), _flat(value, "fiu")
-            if old is None or new is None or len(old) != len(new):
+                self.others += a_number and old != new
+            elif old is None or new is None or not a_number:
                 self._known.pop(key, None)
                 if not np.array_equal(before, value):
                     self._changed.add(key[:2])
@@ -98,7 +102,8 @@ class SetNumbers:
         self._calling = True
         go_on = function()
         self._calling = False
-        self._begin, self._end = begin, end
+        self._begin = begin
+        self._end = self._now = end
         for key, number in list(self._known.items()):
             number.renew()
             if number.still or key[:2] in self._changed:
@@ -112,9 +117,13 @@ class SetNumbers:
         self._unseen = True
         function()
         self._unseen = False
+        self._now = math.nan
 
     def at(self, time: float) -> None:
         """Set what numbers are at a time within the interval, s."""
+        if time == self._now:
+            return
+        self._now = time
         part = 1.0 if time >= self._end else (time - self._begin) / (self._end - self._begin)
         for number in self._known.values():
             number.put(self._mbs, part)

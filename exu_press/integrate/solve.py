@@ -85,8 +85,8 @@ def solve_dynamic(
             every step. ARRIVED ends a run that got where it was to go.
         sample: period of the system's pre-step function, s. Steps end on its multiples, and the
             function is called once for each period, with its end, as in fixed steps of that size.
-            None: the largest step. 0.0: before every step, as are always functions that change what
-            constraints prescribe.
+            None: the largest step. 0.0: before every step. A function of time that moves
+            constraints is called wherever these are asked.
         hold: whether numbers that a pre-step function sets are held from call to call, as by a
             digital controller. False: they go over from one call to the next, as in fixed steps.
         event: function (system, time in s) -> number; steps end where it changes its sign, within
@@ -152,6 +152,7 @@ def solve_dynamic(
             outcome = _run(task, settings, monitor, words, progress)
         if not hold:
             words.announce_stairs(*monitor.pushed_by_calls)
+        words.announce_lag(monitor.set_behind_steps, monitor.steps)
         return outcome, task.scales
 
     if errors:

@@ -82,7 +82,7 @@ def test_what_is_held_at_another_place_is_named(how):
 
 def test_a_place_that_jumps_later_is_named():
     mbs = driven(lambda time: 0.2 * (time > 0.45), "step")
-    with pytest.warns(UserWarning, match="a pre-step function that changes constraints"):
+    with pytest.warns(UserWarning, match="or no offset that jumps"):
         outcome = solve_dynamic(mbs, settings())
     assert outcome.status is SolverStatus.STEP_TOO_SMALL
     assert outcome.end_time == pytest.approx(0.45, abs=1e-6)

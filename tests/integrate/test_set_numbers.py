@@ -1,5 +1,6 @@
 """Numbers that a pre-step function sets go over from call to call."""
 
+import warnings
 from itertools import pairwise
 
 import exudyn as exu
@@ -126,6 +127,28 @@ def test_what_a_post_step_function_sets_stays(sets):
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     stays = 0.0 if sets == "loadVector" else 1.0
     assert mbs.GetLoadParameter(load, "loadVector")[0] == stays
+
+
+@pytest.mark.parametrize("often", [True, False])
+def test_a_post_step_function_that_sets_numbers_is_told_of_where_it_often_does(often):
+    """What it sets lags by a step: 20 sin(10 t) over a second is 0.05 off in 20 of them."""
+    mbs, load = mass()
+
+    def after_step(mbs, time):
+        force = 20.0 * np.sin(10.0 * time) if often else 1.0
+        mbs.SetLoadParameter(load, "loadVector", [force, 0.0, 0.0])
+        return True
+
+    mbs.SetPostStepUserFunction(after_step)
+    mbs.Assemble()
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        outcome = solve_dynamic(mbs, settings(1.0))
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    told = [each for each in caught if "steps a post-step function changed" in str(each.message)]
+    assert len(told) == often
+    if not often:
+        assert speed(mbs) == pytest.approx(1.0, rel=1e-3)
 
 
 def test_another_system_is_set_at_once():

@@ -4,8 +4,10 @@ import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
 import pytest
+from patched import PATCHED
 
 from exu_press import SolverStatus, solve_dynamic
+from exu_press.integrate.beginnings import Beginnings
 from exudyn_examples.example import GRAVITY
 from exudyn_examples.flexible import hold
 from exudyn_examples.planar import rods
@@ -193,6 +195,34 @@ def test_what_a_function_switches_costs_few_steps(what, most, hold):
     assert outcome.steps + outcome.rejected_steps < most
     largest = np.abs(speeds[0]).max()
     assert speeds[1] == pytest.approx(speeds[0], abs=1e-2 * largest)
+
+
+@PATCHED
+def test_the_motion_begins_anew_from_the_end_of_the_last_step(monkeypatch):
+    """Where the step that failed was longer, and so had begun with a shifted state."""
+    mbs, ends, off = exu.SystemContainer().AddSystem(), [], []
+    switch = springs(mbs, *rods(mbs, (1.0, 1.0)))
+    fit_anew = Beginnings.fit_anew
+
+    def state(mbs):
+        data = mbs.systemData
+        return np.array([data.GetODE2Coordinates(), data.GetODE2Coordinates_t()])
+
+    def watched(beginnings, time):
+        off.append(np.abs(state(mbs) - ends[-1]).max())
+        return fit_anew(beginnings, time)
+
+    def before_step(mbs, time):
+        switch(mbs, int(time / 0.13) % 2 == 1)
+        return True
+
+    monkeypatch.setattr(Beginnings, "fit_anew", watched)
+    mbs.SetPreStepUserFunction(before_step)
+    mbs.SetPostStepUserFunction(lambda mbs, time: ends.append(state(mbs)) or True)
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(10), tolerance=1e-2, sample=0.01)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    assert len(off) > 5 and max(off) == 0.0
 
 
 def servo():

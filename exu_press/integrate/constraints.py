@@ -59,6 +59,8 @@ class Constraints:
 
     Attributes:
         untold: whether Exudyn does not tell the rates of some.
+        shaken: by how much positions change at the start, (n,), if each is to be undone that is
+            violated by one, m or rad, one way or the other.
     """
 
     def __init__(self, task: Task) -> None:
@@ -68,6 +70,7 @@ class Constraints:
         self._current, self._start = problem.current, problem.start
         self._places = list(problem.places)
         self.untold = problem.untold_rates
+        self.shaken: Array = np.zeros(len(self._current.positions))
         self._prescribe: Callable[[float], object] | None = None
         self._length, self._nearby = problem.length, NEARBY * problem.length
         self._of_velocities: Flags | None = None

@@ -34,7 +34,7 @@ CALMER = (
 )
 """What makes contacts and friction of Exudyn's switch less."""
 
-STAIRS = 0.25, 10
+OFTEN = 0.25, 10
 """Part of a function's calls, and number of them, above which what it sets is to be told of."""
 
 ARRIVED = "arrived"
@@ -131,29 +131,32 @@ class Advice:
             )
             warnings.warn(f"solve_dynamic: {text}", stacklevel=3)
 
-    def announce_stairs(self, jumps: int, calls: int) -> None:
-        """Warn where a pre-step function has made forces jump in so many of its calls."""
-        part, number = STAIRS
-        if jumps > max(part * calls, number):
-            warnings.warn(
-                f"solve_dynamic: in {jumps} of {calls} calls a pre-step function made forces jump: "
-                "what it does not set by mbs.Set...Parameter, as mbs.variables, is held from call "
-                "to call, and so are flags; a function of time, as a trajectory, becomes a "
-                "staircase, which fixed steps smooth: sample=0.0 calls it for the end of each "
-                "step; hold=True if forces are to jump",
-                stacklevel=4,
-            )
+    def announce_functions(self, jumps: tuple[int, int], lags: tuple[int, int]) -> None:
+        """Warn of what functions of the user's own often set so that it jumps or lags.
 
-    def announce_lag(self, behind: int, steps: int) -> None:
-        """Warn where a post-step function has changed numbers behind so many of the steps."""
-        part, number = STAIRS
-        if behind > max(part * steps, number):
-            warnings.warn(
-                f"solve_dynamic: behind {behind} of {steps} steps a post-step function changed "
-                "numbers: they lag by a step, whose size depends on the tolerance; set them in a "
-                "pre-step function, which has a period, sample=",
-                stacklevel=4,
-            )
+        Args:
+            jumps: calls of a pre-step function that have made forces jump, and all of its grid.
+            lags: steps behind which a post-step function has changed numbers, and all of them.
+        """
+        part, least = OFTEN
+        for (number, of), text in (
+            (
+                jumps,
+                "in {} of {} calls a pre-step function made forces jump: what it does not set by "
+                "mbs.Set...Parameter, as mbs.variables, is held from call to call, and so are "
+                "flags; a function of time, as a trajectory, becomes a staircase, which fixed "
+                "steps smooth: sample=0.0 calls it for the end of each step; hold=True if forces "
+                "are to jump",
+            ),
+            (
+                lags,
+                "behind {} of {} steps a post-step function changed numbers: they lag by a step, "
+                "whose size depends on the tolerance; set them in a pre-step function, which has a "
+                "period, sample=",
+            ),
+        ):
+            if number > max(part * of, least):
+                warnings.warn(f"solve_dynamic: {text.format(number, of)}", stacklevel=4)
 
 
 def how_it_ended(

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.integrate.problem import Node, Problem
+from exu_press.numerics.arrays import Array
 
 __all__ = ["ErrorScales", "FoundScales", "weights"]
 
@@ -22,6 +23,10 @@ displacements, above which these move."""
 LAST_DIGIT = 1e-17
 """Part of a system's length that it moves by in a hundredth of the run, where the motion of the
 whole run is one of last digits."""
+
+OFF = 0.1
+"""By how much constraints are off in their last digit, over `SolverTuning.rounding` and the length.
+"""
 
 LEAST_ENERGY = 1e-4
 """Part of the largest kinetic energy that each node has at least as a scale: of a rotor that
@@ -96,7 +101,7 @@ class FoundScales:
         """
         self._given, self._problem, self._longest = given, problem, longest
         self.gravity = given.gravity
-        self._first, self._stir = first, stir
+        self._first, self._stir, self._shaken = first, stir, 1.0
         self.rest, self.rounded = 0.0, False
         self.length = problem.length
         self.masses: list[float] = []
@@ -164,7 +169,14 @@ class FoundScales:
     @property
     def alternating(self) -> float:
         """Return what rounded positions make of accelerations, times the step's square, m."""
-        return self._stir * self.length
+        return self._stir * self.length * self._shaken
+
+    def shake(self, change: Array) -> None:
+        """Be told by how much positions change, (n,), where all constraints are off by one.
+
+        Where it is much, as in loops of links near their dead centres, so does rounding.
+        """
+        self._shaken = max(1.0, OFF * self.norm(change.tolist()))
 
     @property
     def resting(self) -> bool:

@@ -150,9 +150,8 @@ def solve_dynamic(
                 hold=hold,
             )
             outcome = _run(task, settings, monitor, words, progress)
-        if not hold:
-            words.announce_stairs(*monitor.pushed_by_calls)
-        words.announce_lag(monitor.set_behind_steps, monitor.steps)
+        jumps = (0, 0) if hold else monitor.pushed_by_calls
+        words.announce_functions(jumps, (monitor.set_behind_steps, monitor.steps))
         return outcome, task.scales
 
     if errors:

@@ -248,6 +248,8 @@ def fit_start(
         deforms = deforms or (task.problem.joints is None and size > DEFORMS * length)
         matrix = start.stiffened(task.largest) if deforms else None
         start.q = start.q - start.undone(violated, matrix)
+    either_way = np.random.default_rng(0).choice([-1.0, 1.0], constraints.count)
+    constraints.shaken = start.undone(either_way)
     rate = start.fit_rates(pushed=pushed or last < math.inf)
     return start.a, rate
 

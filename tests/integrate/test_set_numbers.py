@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from exu_press import SolverStatus, solve_dynamic
+from exudyn_examples.other import first_order
 
 PERIOD = 0.05  # s
 TABLE = [0.0, 1.0, 1.5, 1.0, -2.0, -4.0, -5.0, -5.5, -5.5, 0.0, 0.0, 0.0, 0.0, 3.0, 9.0, 18.0, 30.0]
@@ -30,6 +31,15 @@ def mass():
     body = mbs.CreateMassPoint(mass=1.0)
     at = mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=body))
     return mbs, mbs.AddLoad(items.LoadForceVector(markerNumber=at, loadVector=[0.0, 0.0, 0.0]))
+
+
+def solve(mbs, before_step=0, after_step=0, end=1.0, **how):
+    """Solve it with functions of the user's own."""
+    mbs.SetPreStepUserFunction(before_step)
+    mbs.SetPostStepUserFunction(after_step)
+    mbs.Assemble()
+    outcome = solve_dynamic(mbs, settings(end), **how)
+    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
 
 
 def speed(mbs):
@@ -73,10 +83,7 @@ def test_a_force_is_the_table_interpolated(sets, tolerance):
         sets(mbs, load, TABLE[round(time / PERIOD)])
         return True
 
-    mbs.SetPreStepUserFunction(before_step)
-    mbs.Assemble()
-    outcome = solve_dynamic(mbs, settings(), tolerance=tolerance)
-    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    solve(mbs, before_step, end=0.8, tolerance=tolerance)
     assert seen == TABLE[:-1]
     assert mbs.GetLoadParameter(load, "loadVector")[0] == TABLE[-1]
     assert speed(mbs) == pytest.approx(gained(), rel=tolerance)
@@ -85,21 +92,14 @@ def test_a_force_is_the_table_interpolated(sets, tolerance):
 def test_a_pressure_follows_what_its_valve_lets_in():
     """y' = t^2 / 2: exact, but for two intervals, as it might have been zero before."""
     mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(
-        items.NodeGenericODE1(
-            referenceCoordinates=[0.0], initialCoordinates=[0.0], numberOfODE1Coordinates=1
-        )
-    )
+    node = first_order(mbs, [0.0])
     tank = mbs.AddObject(items.ObjectGenericODE1(nodeNumbers=[node], rhsVector=[0.0]))
 
     def before_step(mbs, time):
         mbs.SetObjectParameter(tank, "rhsVector", [0.5 * time * time])
         return True
 
-    mbs.SetPreStepUserFunction(before_step)
-    mbs.Assemble()
-    outcome = solve_dynamic(mbs, settings(1.0), tolerance=1e-6)
-    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    solve(mbs, before_step, tolerance=1e-6)
     first_two = (1.0 + 0.5) * PERIOD**3 / 12.0  # a straight line, and half of the bend
     found = mbs.systemData.GetODE1Coordinates()[0]
     assert found == pytest.approx(1.0 / 6.0 + first_two, rel=1e-6)
@@ -120,11 +120,7 @@ def test_what_a_post_step_function_sets_stays(sets):
             mbs.SetLoadParameter(load, sets, [0.0] * 3 if sets == "loadVector" else False)
         return True
 
-    mbs.SetPreStepUserFunction(before_step)
-    mbs.SetPostStepUserFunction(after_step)
-    mbs.Assemble()
-    outcome = solve_dynamic(mbs, settings(1.0))
-    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    solve(mbs, before_step, after_step)
     stays = 0.0 if sets == "loadVector" else 1.0
     assert mbs.GetLoadParameter(load, "loadVector")[0] == stays
 
@@ -139,12 +135,9 @@ def test_a_post_step_function_that_sets_numbers_is_told_of_where_it_often_does(o
         mbs.SetLoadParameter(load, "loadVector", [force, 0.0, 0.0])
         return True
 
-    mbs.SetPostStepUserFunction(after_step)
-    mbs.Assemble()
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        outcome = solve_dynamic(mbs, settings(1.0))
-    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+        solve(mbs, after_step=after_step)
     told = [each for each in caught if "steps a post-step function changed" in str(each.message)]
     assert len(told) == often
     if not often:
@@ -165,11 +158,7 @@ def test_another_system_is_set_at_once():
         found.append(other.GetLoadParameter(load, "loadVector")[0])
         return True
 
-    mbs.SetPreStepUserFunction(before_step)
-    mbs.SetPostStepUserFunction(after_step)
-    mbs.Assemble()
-    outcome = solve_dynamic(mbs, settings(1.0))
-    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
+    solve(mbs, before_step, after_step)
     assert np.unique(found[1:]) == pytest.approx(PERIOD * np.arange(1, 21))
 
 

@@ -10,6 +10,7 @@ from exu_press import SolverStatus, solve_dynamic
 from exu_press.integrate.beginnings import Beginnings
 from exudyn_examples.example import GRAVITY
 from exudyn_examples.flexible import hold
+from exudyn_examples.other import mass_1d
 from exudyn_examples.planar import rods
 
 SWITCHED_AT = 0.3337  # s
@@ -294,11 +295,8 @@ def test_servos_follow_a_trajectory_without_stairs(sample):
 
 def test_stairs_of_what_no_one_sees_are_told():
     """A spring's own function reads where a pre-step function wants its end."""
-    mbs, nodes = sliding((1.0,), (0.0,))
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
-        for number in (mbs.AddNode(items.NodePointGround()), nodes[0])
-    ]
+    mbs = exu.SystemContainer().AddSystem()
+    ends = mass_1d(mbs, 1.0)
 
     def pull(mbs, time, item, place, rate, *others):
         return 1e4 * (place - mbs.variables["wanted"]) + 40.0 * rate

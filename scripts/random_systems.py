@@ -1,6 +1,6 @@
 """Systems by chance, as users write them: scripts for `exudyn_models.py`, one a seed.
 
-Run with: python scripts/random_systems.py FOLDER [--seeds 340]
+Run with: python scripts/random_systems.py FOLDER [--seeds 340] [--part 1e-4]
 then: python scripts/exudyn_models.py FOLDER OUT
 """
 
@@ -14,7 +14,7 @@ from systems_by_chance import KINDS, Chance
 SCRIPT = """import sys
 sys.path.insert(0, {folder!r})
 from random_systems import solve
-solve({seed})  # by SolveDynamic
+solve({seed}, {part})  # by SolveDynamic
 """
 
 
@@ -35,9 +35,10 @@ def settings_of(by):
     return settings
 
 
-def solve(seed):
-    """Build a system and solve it as its user does."""
+def solve(seed, part=1.0):
+    """Build a system and solve it as its user does, or a part of its time in as many steps."""
     by = system(seed)
+    by.end *= part
     by.mbs.Assemble()
     by.mbs.SolveDynamic(settings_of(by))
 
@@ -46,6 +47,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--seeds", type=int, default=340)
+    parser.add_argument("--part", type=float, default=1.0, help="of each run's time")
     options = parser.parse_args()
     folder = options.folder / "main" / "pythonDev" / "Examples"
     folder.mkdir(parents=True, exist_ok=True)
@@ -53,7 +55,9 @@ def main():
     for seed in range(options.seeds):
         kind = KINDS[seed % len(KINDS)].__name__
         script = folder / f"{kind}_{seed:03d}.py"
-        script.write_text(SCRIPT.format(folder=here, seed=seed), encoding="utf-8")
+        script.write_text(
+            SCRIPT.format(folder=here, seed=seed, part=options.part), encoding="utf-8"
+        )
     print(f"{options.seeds} scripts in {folder}")
 
 

@@ -59,8 +59,8 @@ class Constraints:
 
     Attributes:
         untold: whether Exudyn does not tell the rates of some.
-        shaken: by how much positions change at the start, (n,), if each is to be undone that is
-            violated by one, m or rad, one way or the other.
+        shaken: by how much positions change at the start, (n,), where those that round are off by
+            one, m or rad, one way or the other.
     """
 
     def __init__(self, task: Task) -> None:

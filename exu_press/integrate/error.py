@@ -33,13 +33,6 @@ from exu_press.integrate.settings import Task
 
 __all__ = ["StepError"]
 
-VANISHING = 8.0
-"""Power of the step with which no error of a motion shrinks."""
-
-DOUBTED = 2.0
-"""Largest error of a step whose motion may be rounding: one a little shorter tells, and stirs less.
-"""
-
 TURNS_BY_ROUNDING = 10.0
 """Over the smallest step: in shorter ones rounding turns the forces of films."""
 
@@ -82,11 +75,11 @@ class StepError:
         self._curvature: Curvature | None = None
         self._turning: Turning | None = None
         self._step = 0.0  # last tried, s
-        self._noise = (
-            0.0  # what rounded positions make of accelerations, times the step's square, m
-        )
-        # error and size of a repeated step, in a motion that may be rounding
-        self._doubted = 0.0, 0.0
+        self._noise = 0.0  # accelerations due to rounded positions, times the step's square, m
+        # those which are left of the steps before, and by what part in each further one, m/s^2
+        self._alternating = 0.0
+        self._fading = task.spectral_radius if problem.joints is None else 0.0
+        self._doubted = 0.0  # error of a repeated step, in a motion that may be rounding
         self._envelope = Envelope()
         self._settling = settling
         self._jumped = False  # whether accelerations have, in a step of the smallest size
@@ -104,8 +97,12 @@ class StepError:
         small = scales.resting and scales.still(self._velocities.tolist())
         if scales.resting and not small:
             scales.set_out(self._velocities.tolist(), now)
+        if small and scales.speed > 0.0 and step <= 2.0 * self._task.smallest:
+            scales.rounded = True  # no shorter one tells
         still = small and scales.rounded
-        bodies.noise = 0.0 if small and not still and scales.speed > 0.0 else self._noise
+        bodies.noise = 0.0
+        if still or not small or scales.speed == 0.0:
+            bodies.noise = max(self._noise, self._alternating * step * step)
         if bodies.turning > 1.0:
             bodies.velocities = self._velocities.tolist()
         error, left = bodies.tried(now, step), 0.0
@@ -129,12 +126,8 @@ class StepError:
             if self._curvature is not None:
                 offset = max(offset, self._curvature.error(step))
             error = max(error, math.pow(offset, 1.5))  # as the step's cube
-        if small and not still:
-            first = self._doubted[0] == 0.0
-            if self._is_rounded(error, step):
-                error = 0.0
-            elif first and not self._joints:
-                error = min(error, DOUBTED)
+        if small and not still and self._is_rounded(error):
+            error = 0.0
         if self._first_order is not None:
             error = max(error, self._first_order.error(step))
         if self._switching:
@@ -164,18 +157,16 @@ class StepError:
         change, rate = self._matrix.filtered(bodies.change, bodies.rate)
         return change, max(bodies.error(change, step), bodies.of_positions(rate, step))
 
-    def _is_rounded(self, error: float, step: float) -> bool:
+    def _is_rounded(self, error: float) -> bool:
         """Return whether what moves by no more than rounding does is rounding, by its error.
 
-        That of a motion shrinks with its order where a step is repeated with a smaller size. That
-        of rounding grows, or is gone as Newton's method has nothing to balance by chance.
+        That of a motion shrinks where a step is repeated with a smaller size; that of rounding
+        grows.
         """
-        before, longer = self._doubted
-        if before > 0.0:
-            gone = before * math.pow(step / longer, VANISHING)
-            self._scales.rounded = error >= before or (error < gone and not self._joints)
+        if self._doubted > 0.0:
+            self._scales.rounded = error >= self._doubted
         if error > 1.0:
-            self._doubted = error, step
+            self._doubted = error
         return self._scales.rounded
 
     @property
@@ -216,6 +207,7 @@ class StepError:
             shortened: whether Exudyn let it end where a contact opens or closes.
         """
         assert self._bodies is not None
+        self._alternating = self._fading * self._bodies.noise / (self._step * self._step)
         if self._curvature is not None:
             self._curvature.accept()
         self._bodies.accept()
@@ -224,7 +216,7 @@ class StepError:
             self._bodies.jumped()
             self._envelope = Envelope()  # a jump is no part of a cycle
         self._jumped = False
-        self._doubted = 0.0, 0.0
+        self._doubted = 0.0
         if self._turning is not None:
             self._bodies.turning = self._turning.stepped(self._step)
         if not self._scales.fixed:
@@ -239,6 +231,7 @@ class StepError:
         """Be told of the accelerations with which the step under way begins anew, as the first."""
         assert self._bodies is not None
         self._bodies.start_again(accelerations)
+        self._alternating = 0.0
         self._envelope = Envelope()
         if self._curvature is not None:
             self._curvature.start_again()

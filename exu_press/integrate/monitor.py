@@ -186,7 +186,8 @@ class Monitor:
                 self._step_change.start_from(*fitted)
                 self._estimate.start = fitted[0].tolist()
         task.scales.begin(task.solver.GetSystemMassMatrix())
-        task.scales.shake(self.constraints.shaken)
+        if task.problem.joints is None:  # beside which changes of the step leave no rounding
+            task.scales.shake(self.constraints.shaken)
         now = self._accelerations.tolist()
         self._newton.begin()
         if self.resolution is not None:

@@ -24,9 +24,8 @@ LAST_DIGIT = 1e-17
 """Part of a system's length that it moves by in a hundredth of the run, where the motion of the
 whole run is one of last digits."""
 
-OFF = 0.1
-"""By how much constraints are off in their last digit, over `SolverTuning.rounding` and the length.
-"""
+OF_FORCES = 0.1
+"""Rounding that forces alone feel, over that of constraints."""
 
 LEAST_ENERGY = 1e-4
 """Part of the largest kinetic energy that each node has at least as a scale: of a rotor that
@@ -172,11 +171,13 @@ class FoundScales:
         return self._stir * self.length * self._shaken
 
     def shake(self, change: Array) -> None:
-        """Be told by how much positions change, (n,), where all constraints are off by one.
+        """Be told by how much positions change, (n,), where constraints that round are off by one.
 
-        Where it is much, as in loops of links near their dead centres, so does rounding.
+        Where it is much, as in loops of links near their dead centres, so does rounding. Where none
+        does, forces feel it alone.
         """
-        self._shaken = max(1.0, OFF * self.norm(change.tolist()))
+        size = self.norm(change.tolist())
+        self._shaken = max(1.0, size) if size > 0.0 else OF_FORCES
 
     @property
     def resting(self) -> bool:

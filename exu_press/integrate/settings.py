@@ -182,13 +182,13 @@ class Task:
         self.largest = largest = (self.end - self.start) / integration.numberOfSteps
         self.usual = scales.step or largest
         self.smallest = integration.minimumStepSize
-        room = 10.0 * self.smallest  # to repeat a film's first step in, before rounding shows
+        room = 10.0 * self.smallest  # to repeat a first step in
         if self.fixed:
             self.smallest = largest / MOST_HALVED
             self.first = max(2.0 * self.smallest, room) if problem.lubricated else largest
         else:
-            of_film = max(tuning.first_step_of_film * largest, room)
-            usual = of_film if problem.lubricated else FIRST_STEP * largest
+            part = tuning.first_step_of_film if problem.lubricated else FIRST_STEP
+            usual = max(part * largest, room)
             self.first = max(integration.initialStepSize or usual, self.smallest)
         self.first = min(self.first, largest)
         latest = max(abs(self.start), abs(self.end))

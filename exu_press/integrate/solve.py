@@ -168,8 +168,8 @@ def solve_dynamic(
     if found.unseen:
         warnings.warn(
             "solve_dynamic: the system is taken to be at rest: nothing moved by more than "
-            f"{found.rest:.2g} m/s, as rounded positions may, and errors were not judged; "
-            "fixed steps (tolerance=None) follow such a motion",
+            f"{found.rest:.2g} m/s, as rounded positions may, and errors were not judged; longer "
+            "steps, or fixed ones (tolerance=None), follow such a motion",
             stacklevel=2,
         )
     return outcome

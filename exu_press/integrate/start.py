@@ -24,8 +24,15 @@ FITS = 1e-14, 1e-6, 1e-6
 are moved: differences are rounded. Forces of constraints go as violations over the square of a
 step: on a ton, 1e-13 m are 20 kN in a step of 0.1 us."""
 
-ROUNDED = 4e-15
-"""Violations that are rounding, over the length, in the sum of those of a few instants."""
+NEAR = 1e-9
+"""Between positions at which constraints are asked whether they are lines, over the length: its
+square is less than a last digit."""
+
+LINES = 1e-20
+"""Over the length: by how much the violations of a line are off it at such positions."""
+
+SAMPLES = 3
+"""Of these positions: at a third of them last digits cancel by chance."""
 
 DEFORMS = 1e-8
 """Violation at the start, over the length, from which bodies are not to be deformed to fit: less
@@ -100,9 +107,7 @@ class _Start:
             order: of the rates.
         """
         last = before = math.inf
-        fits = FITS[order]
-        rounded = np.full(len(self.held), ROUNDED * self.length / self._ahead**order)
-        least = self._norm(self.undone(rounded))
+        fits, least = FITS[order], self._rounded(order)
         for _ in range(START_ITERATIONS):
             change = self.undone(missing(vector))
             size = self._norm(change)
@@ -110,6 +115,31 @@ class _Start:
                 break
             vector, last, before = vector - change, size, last
         return vector
+
+    def _rounded(self, order: int) -> float:
+        """Return what rounding makes of a change that rates of this order ask for."""
+        rounding = self._task.tuning.rounding * self.length / self._ahead**order
+        rounded = np.full(len(self.held), rounding)
+        return self._norm(self.undone(rounded))
+
+    def shaken(self) -> Array:
+        """Return by how much positions change, (n,), where constraints are off in a last digit.
+
+        Each by one, m or rad, one way or the other. But those that are lines, as that of a
+        coordinate, have none to be off in.
+        """
+        random, there, bent = np.random.default_rng(0), self.q, np.zeros(len(self.held))
+        for _ in range(SAMPLES):
+            apart = NEAR * self.length * random.uniform(-1.0, 1.0, len(there))
+            violated = []
+            for part in (0.0, 0.3, 1.0):
+                self.q = there + part * apart
+                violated.append(self.violated())
+            bent += np.abs(0.7 * violated[0] - violated[1] + 0.3 * violated[2])
+        self.q = there
+        self.put()
+        either_way = random.choice([-1.0, 1.0], len(self.held))
+        return self.undone(np.where(bent > LINES * self.length, either_way, 0.0))
 
     def stiffened(self, period: float) -> Array:
         """Return the matrix of changes of positions that deform nothing, for `undone`.
@@ -144,7 +174,8 @@ class _Start:
     def fit_rates(self, *, pushed: bool) -> Array:
         """Let velocities and accelerations fit; return what of their rate constraints prescribe.
 
-        Accelerations that fit are left alone: differences tell them to fewer digits.
+        Accelerations that fit are left alone: differences tell them to fewer digits. A rate that
+        rounding may have made is none.
 
         Args:
             pushed: whether forces are others than the given accelerations belong to.
@@ -171,7 +202,7 @@ class _Start:
         _, second, third = self.rates()
         rate = -self.undone(np.where(held, third, second))
         self.put()
-        return rate
+        return rate if self._norm(rate) > self._rounded(3) else np.zeros_like(rate)
 
     def _driven(self) -> bool:
         """Return whether constraints change while nothing moves, as prescribed motions do."""
@@ -248,8 +279,7 @@ def fit_start(
         deforms = deforms or (task.problem.joints is None and size > DEFORMS * length)
         matrix = start.stiffened(task.largest) if deforms else None
         start.q = start.q - start.undone(violated, matrix)
-    either_way = np.random.default_rng(0).choice([-1.0, 1.0], constraints.count)
-    constraints.shaken = start.undone(either_way)
+    constraints.shaken = start.shaken()
     rate = start.fit_rates(pushed=pushed or last < math.inf)
     return start.a, rate
 

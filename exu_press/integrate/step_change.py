@@ -1,6 +1,5 @@
 """Generalized-alpha's memory from step to step, where the step changes."""
 
-import math
 from collections.abc import Callable
 
 import numpy as np
@@ -18,12 +17,6 @@ AHEAD = 1.0 / 64.0
 
 MORE = 0.999
 """Part of the masses' resistance to a change that forces have too, but for rounding."""
-
-LEAP = 10.0
-"""Growth of a step from which on rounding is looked at."""
-
-ROUNDED = 0.01
-"""Part of the tolerance that rounding may take."""
 
 CHANGE_ITERATIONS = 3
 """To velocities and positions that fit the constraints; each leaves some hundredths."""
@@ -142,23 +135,20 @@ class StepChange:
             self._per_square = None
         self._leaves = self._fits
         ratio = 1.0 if self._last is None else step / self._last
-        if not self._smooth or (ratio > LEAP and self._rounded(ratio)):
+        if not self._smooth or (ratio > 1.0 and self._rounded(ratio)):
             ratio = min(1.0, ratio)
         given = self._last is None and self._given is not None
         if repeated or given or abs(ratio - 1.0) > SAME:
             self._shift(step, ratio)
 
     def _rounded(self, ratio: float) -> bool:
-        """Return whether the last step's offsets, scaled up by this ratio, would be rounding.
-
-        Velocities are known to the rounding of positions over the step.
-        """
+        """Return whether the last step's offsets, scaled up by this ratio, would be rounding."""
         if self._task.fixed:
             return False
         assert self._last is not None
-        size = float(np.abs(self._current.positions).max(initial=1.0))
-        error = ratio * ratio * math.ulp(size) / self._last
-        return error > ROUNDED * self._task.tolerance * self._task.scales.speed
+        scales = self._task.scales
+        error = ratio * ratio * scales.alternating / self._last
+        return error > self._task.tolerance * scales.speed
 
     def _shift(self, step: float, ratio: float) -> None:
         """Shift positions, velocities and accelerations for a step `ratio` times the last one.

@@ -17,9 +17,6 @@ SHORT = 0.1
 JUMPS = 0.25
 """Change of velocities at a jump, over that within the step in which it is sought, or above."""
 
-ROUNDED = 1e-14
-"""Over the length or angle: by which positions may be off in sums of a few rounded ones."""
-
 
 class VelocityJumps:
     """Lets steps end before and behind the instants at which prescribed velocities jump.
@@ -42,7 +39,7 @@ class VelocityJumps:
         self._constraints, self._data, self._smallest = constraints, problem.data, task.smallest
         self._length, self._positions = problem.length or 1.0, problem.current.positions
         self._ahead = LOOK_AHEAD * task.largest
-        self._short = SHORT * task.smallest
+        self._short, self._rounding = SHORT * task.smallest, task.tuning.rounding
         self._behind = math.inf  # the jump last found, s
         # where the step last looked at begins, and the one before unless motion begins anew, s
         self._begin = self._last = task.start
@@ -99,7 +96,7 @@ class VelocityJumps:
         below, above = self._prescribed(begin), self._prescribed(end)
         jump = change = _distance(above, below)
         length = float(np.abs(self._positions).max(initial=self._length))
-        rounded = ROUNDED * length / self._short
+        rounded = self._rounding * length / self._short
         while jump > rounded and end - begin > self._smallest * (1.0 + SAME):
             middle = 0.5 * (begin + end)
             between = self._prescribed(middle)

@@ -15,6 +15,7 @@ __all__ = [
     "mass_points",
     "rods",
     "slider_crank",
+    "truss",
 ]
 
 
@@ -128,6 +129,19 @@ def rods(mbs, masses):
         nodes.append(node)
         before, at = rod, half
     return ground, bodies, nodes, joints
+
+
+def truss(mbs, rise):
+    """Two bars of a metre that hold each other, with their middle joint that much above the ends.
+
+    Nothing moves; nearly in a line, a last digit of the joints moves the middle far.
+    """
+    ground, along = mbs.AddObject(items.ObjectGround()), np.sqrt(1.0 - rise**2)
+    places = (0.0, 0.0), (along, rise), (2.0 * along, 0.0)
+    (one, a, _), (other, b, _) = (bar(mbs, places[i], places[i + 1], 1.0) for i in range(2))
+    pin(mbs, ground, places[0], one, (-a, 0.0))
+    pin(mbs, one, (a, 0.0), other, (-b, 0.0))
+    pin(mbs, other, (b, 0.0), ground, places[2])
 
 
 def double_pendulum(mbs):

@@ -13,7 +13,8 @@ from random_systems import KINDS, main
 
 @pytest.mark.filterwarnings("ignore:settings.timeIntegration")
 @pytest.mark.parametrize("number", range(len(KINDS)), ids=[kind.__name__ for kind in KINDS])
-def test_each_kind_ends(number, tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize("part", [1.0, 1e-4])
+def test_each_kind_ends(number, part, tmp_path, monkeypatch, capsys):
     outcomes = []
 
     def instead(mbs, settings):
@@ -21,7 +22,8 @@ def test_each_kind_ends(number, tmp_path, monkeypatch, capsys):
         outcomes.append(solve_dynamic(mbs, settings, tolerance=1e-2))
 
     monkeypatch.setattr(exu.MainSystem, "SolveDynamic", instead)
-    monkeypatch.setattr(sys, "argv", ["random_systems.py", str(tmp_path), "--seeds", "17"])
+    words = [str(tmp_path), "--seeds", "17", "--part", str(part)]
+    monkeypatch.setattr(sys, "argv", ["random_systems.py", *words])
     monkeypatch.setattr(sys, "path", [*sys.path])
     main()
     assert capsys.readouterr().out.startswith("17 scripts in")

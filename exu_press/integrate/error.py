@@ -78,7 +78,7 @@ class StepError:
         self._noise = 0.0  # accelerations due to rounded positions, times the step's square, m
         # those which are left of the steps before, and by what part in each further one, m/s^2
         self._alternating = 0.0
-        self._fading = task.spectral_radius if problem.joints is None else 0.0
+        self._fading = 0.0 if task.impacts else task.spectral_radius
         self._doubted = 0.0  # error of a repeated step, in a motion that may be rounding
         self._envelope = Envelope()
         self._settling = settling

@@ -129,13 +129,13 @@ class _Start:
         coordinate, have none to be off in.
         """
         random, there, bent = np.random.default_rng(0), self.q, np.zeros(len(self.held))
+        at_start = self.violated()
         for _ in range(SAMPLES):
             apart = NEAR * self.length * random.uniform(-1.0, 1.0, len(there))
-            violated = []
-            for part in (0.0, 0.3, 1.0):
-                self.q = there + part * apart
-                violated.append(self.violated())
-            bent += np.abs(0.7 * violated[0] - violated[1] + 0.3 * violated[2])
+            self.q = there + 0.3 * apart
+            between = self.violated()
+            self.q = there + apart
+            bent += np.abs(0.7 * at_start - between + 0.3 * self.violated())
         self.q = there
         self.put()
         either_way = random.choice([-1.0, 1.0], len(self.held))
@@ -279,7 +279,8 @@ def fit_start(
         deforms = deforms or (task.problem.joints is None and size > DEFORMS * length)
         matrix = start.stiffened(task.largest) if deforms else None
         start.q = start.q - start.undone(violated, matrix)
-    constraints.shaken = start.shaken()
+    if not task.impacts:
+        constraints.shaken = start.shaken()
     rate = start.fit_rates(pushed=pushed or last < math.inf)
     return start.a, rate
 

@@ -42,6 +42,7 @@ def converging(
     least: float = 0.0,
     safety: float = SAFETY,
     nearest: float = 0.0,
+    earlier: Sequence[Sequence[float]] = (),
 ) -> Error:
     """Return the error of a figure whose error goes with the tolerance (or the step).
 
@@ -55,13 +56,16 @@ def converging(
         safety: factor on what the differences say.
         nearest: error over the difference from the second run at least, where only this one still
             has the first one's motion; the others' differences do not go with the tolerance then.
+        earlier: the values at instants before, of a figure that swings: the largest error counts.
 
     >>> round(converging([1.01, 1.04, 1.08], [1.0, 4.0, 8.0])["error"], 6)  # SAFETY times 1.01 - 1
     0.015
     """
-    pairs = combinations(zip(values, ratios, strict=True), 2)
-    largest = max(abs(a - b) / abs(i - j) for (a, i), (b, j) in pairs)
-    error = max(safety * largest, nearest * abs(values[1] - values[0]))
+    error = 0.0
+    for found in (values, *earlier):
+        pairs = combinations(zip(found, ratios, strict=True), 2)
+        largest = max(abs(a - b) / abs(i - j) for (a, i), (b, j) in pairs)
+        error = max(error, safety * largest, nearest * abs(found[1] - found[0]))
     return _about(values[0], error + least, determined=True)
 
 

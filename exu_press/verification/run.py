@@ -14,7 +14,7 @@ from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
 from exu_press.result.info import Error, Errors
 from exu_press.result.run import run_once
-from exu_press.result.windows import until, window
+from exu_press.result.windows import at, until, window
 from exu_press.scene import Scene
 from exu_press.verification.divergence import Divergence, divergence
 from exu_press.verification.estimate import (
@@ -42,6 +42,10 @@ higher by half of it, one of alternating loads is too high by all of it."""
 
 OF_FLOOR = 3.0
 """Times the least error of a kind: with a smaller error a figure that is nothing is known."""
+
+LATE, INSTANTS = 0.5, 16
+"""From this part of the run on, and at so many instants: what swings while surfaces meet, as the
+stored energy does, may be as in the other runs at one instant by chance."""
 
 SAME = 1e-9
 """Relative: a figure that has changed by less since the horizon is one from before it."""
@@ -139,7 +143,7 @@ def errors_of(
     diverged = divergence(result, complete)
     horizon = end if diverged.growth.horizon is None else diverged.growth.horizon
     runs = {1.0: result, **complete}
-    by_end = {at: {r: read(until(run, at)) for r, run in runs.items()} for at in {end, horizon}}
+    by_end = {t: {r: read(until(run, t)) for r, run in runs.items()} for t in {end, horizon}}
     parted = horizon < end
     after = {r: read(window(run, horizon, end)) for r, run in runs.items()} if parted else {}
     ways = (
@@ -152,6 +156,12 @@ def errors_of(
     solver = result.scene.solver
     safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
     before = by_end[horizon]
+    swings = {name: one for name, one in told.items() if _swings(one.quantity)}
+    late = [
+        {r: numbers_of(at(run, instant), swings) for r, run in runs.items()}
+        for instant in np.linspace(LATE * horizon, horizon, INSTANTS, endpoint=False)
+        if diverged.distances and all(len(run.time) >= 4 for run in runs.values())
+    ]
     errors: dict[str, Error] = {}
     sizes = _sizes(by_end[end][1.0], told)
     for name, value in by_end[end][1.0].items():
@@ -160,7 +170,7 @@ def errors_of(
         least = _least(
             quantity, [found[name] for found in by_end[end].values() if name in found], sizes
         )
-        told_values = by_end[end], before, after
+        told_values = by_end[end], [before, *late] if name in swings else [before], after
         error = _error(name, quantity.extreme, *told_values, least + left_open, safety, diverged)
         if value >= 0.0 and not quantity.signed:
             error["low"] = max(error["low"], 0.0)
@@ -186,7 +196,7 @@ def _error(
     name: str,
     extreme: Extreme,
     now: Numbers,
-    before: Numbers,
+    before: Sequence[Numbers],
     after: Numbers,
     least: float,
     safety: float,
@@ -201,7 +211,8 @@ def _error(
         name: of the quantity.
         extreme: of what it is an extreme.
         now: of the whole motion.
-        before: of the motion until the horizon, where there is one.
+        before: of the motion until the horizon, where there is one, and until instants before it,
+            of which the largest error counts.
         after: of the motion from then on.
         least: least error.
         safety: factor on errors that go with the tolerance or the step.
@@ -210,9 +221,10 @@ def _error(
     values = {ratio: found[name] for ratio, found in now.items() if name in found}
     if len(values) < 2:
         return scattered([values[1.0], 0.0])
-    begun = {r: before[r].get(name, np.nan) for r in values}
+    begun, *earlier = [{r: found[r].get(name, np.nan) for r in values} for found in before]
     later = {r: found.get(name, np.nan) for r, found in after.items() if r in values}
-    known = converging(list(begun.values()), list(values), least, safety, diverged.nearest)
+    swung = [list(found.values()) for found in earlier]
+    known = converging(list(begun.values()), list(values), least, safety, diverged.nearest, swung)
     shares = [diverged.distances.get(r, 1.0) for r in values if r != 1.0]
     if later and _is_of_both(extreme, values, begun, later):
         beyond = scattered(list(later.values()), least, shares)
@@ -220,6 +232,11 @@ def _error(
     if all(abs(begun[r] - value) <= SAME * abs(value) for r, value in values.items()):
         return known
     return scattered(list(values.values()), least, shares)
+
+
+def _swings(quantity: Quantity) -> bool:
+    """Return whether a quantity is a sum so far that goes up and down."""
+    return quantity.cumulative and quantity.signed
 
 
 def _is_of_both(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.result.windows import revolutions_of, until, window
+from exu_press.result.windows import at, revolutions_of, until, window
 
 PERIOD = 0.25
 """s, at 240 rpm."""
@@ -26,6 +26,16 @@ def test_both_ends_of_a_window_are_in_it(run):
 def test_all_of_a_record_is_the_record(run):
     found = until(run, run.time[-1])
     assert all(np.array_equal(found[name], run[name]) for name in run)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.001, 0.5, 0.999, 1.0])
+def test_between_samples_a_record_is_cubic(run, share):
+    cubic = (run.time - 0.1) ** 3 + run.time
+    instant = share * run.time[-1]
+    found = at(run.with_values({"energy_stored": cubic}), instant)
+    assert found.time == pytest.approx([instant], abs=1e-12)
+    assert found["energy_stored"] == pytest.approx([(instant - 0.1) ** 3 + instant])
+    assert found["shaft_force"].shape == (1, 2)
 
 
 def test_whole_revolutions_follow_each_other(run):

@@ -11,6 +11,7 @@ from exu_press.quantities import Placed, Quantity, quantities_of
 from exu_press.quantities.kind import DIFFERENCE, MOTION, RESULTANT, SHARE
 from exu_press.quantities.value import numbers_of
 from exu_press.scene import flexible_press
+from exu_press.verification.estimate import SAFETY
 from exu_press.verification.refinement import RefinementRuns, plan
 from exu_press.verification.run import errors_of, with_errors
 
@@ -103,6 +104,21 @@ def test_errors_go_with_the_tolerance_until_journals_are_apart(result):
     near, apart = (one["errors"]["joints.crank_pin.peak_force"]["error"] for one in found)
     assert [one["horizon"] is None for one in found] == [True, False]
     assert apart > 3.0 * near
+
+
+def test_energies_that_agree_at_the_end_by_chance_are_not_known_so_well(result):
+    """Those of a run with clearance swing, and so do their differences."""
+    swing = np.cos(6.5 * np.pi * result.time / result.time[-1])  # nothing at the end
+    away = result["crank_pin_eccentricity"] * (1.0 + 1e-3 * swing[:, None])
+    found = []
+    for joules in (0.0, 0.2):
+        energy = {"energy_stored": result["energy_stored"] + joules * swing}
+        other = result.with_values({"crank_pin_eccentricity": away, **energy})
+        told = errors_of(result, [(0.5, other), (8.0, other)])
+        assert told["horizon"] is None
+        found.append(told["errors"]["energy.stored"]["error"])
+    assert found[0] < 1e-3
+    assert SAFETY * 0.2 / 0.5 <= 1.1 * found[1] <= 1.2 * SAFETY * 0.2 / 0.5
 
 
 def test_what_refinements_did_before_the_horizon_widens_no_bounds(result):

@@ -186,8 +186,7 @@ class Monitor:
                 self._step_change.start_from(*fitted)
                 self._estimate.start = fitted[0].tolist()
         task.scales.begin(task.solver.GetSystemMassMatrix())
-        if not task.impacts:  # beside which changes of the step leave no rounding
-            task.scales.shake(self.constraints.shaken)
+        task.scales.shake(self.constraints.shaken, impacts=task.impacts)
         now = self._accelerations.tolist()
         self._newton.begin()
         if self.resolution is not None:

@@ -170,14 +170,14 @@ class FoundScales:
         """Return what rounded positions make of accelerations, times the step's square, m."""
         return self._stir * self.length * self._shaken
 
-    def shake(self, change: Array) -> None:
+    def shake(self, change: Array, *, impacts: bool) -> None:
         """Be told by how much positions change, (n,), where constraints that round are off by one.
 
         Where it is much, as in loops of links near their dead centres, so does rounding. Where none
-        does, forces feel it alone.
+        does, forces feel it alone; those of impacts feel it all.
         """
         size = self.norm(change.tolist())
-        self._shaken = max(1.0, size) if size > 0.0 else OF_FORCES
+        self._shaken = max(1.0, size) if size > 0.0 or impacts else OF_FORCES
 
     @property
     def resting(self) -> bool:

@@ -275,11 +275,10 @@ def fit_start(
         if i:
             task.solver.ComputeMassMatrix(task.problem.mbs)
             start.turn()
-        # clearance joints remember where they were asked
         deforms = deforms or (task.problem.joints is None and size > DEFORMS * length)
         matrix = start.stiffened(task.largest) if deforms else None
         start.q = start.q - start.undone(violated, matrix)
-    if not task.impacts:
+    if task.problem.joints is None:  # which remember where they were asked
         constraints.shaken = start.shaken()
     rate = start.fit_rates(pushed=pushed or last < math.inf)
     return start.a, rate

@@ -3,6 +3,7 @@
 from types import SimpleNamespace
 
 import exudyn as exu
+import exudyn.utilities as items
 import numpy as np
 import pytest
 from patched import PATCHED
@@ -115,17 +116,49 @@ def test_three_angles_are_followed_where_all_scales_are_given():
 
 
 @PATCHED
+@pytest.mark.parametrize("contact", [False, True])
 @pytest.mark.parametrize(("rise", "least", "most"), [(0.5, 1.0, 3.0), (1e-3, 100.0, 1e3)])
-def test_rounding_counts_by_what_constraints_make_of_it(rise, least, most, monkeypatch):
+def test_rounding_counts_by_what_constraints_make_of_it(rise, least, most, contact, monkeypatch):
     """In a roof a last digit moves joints as far as it is; nearly in a line it moves them far."""
     mbs = exu.SystemContainer().AddSystem()
     truss(mbs, rise)
+    if contact:
+        stop_far_away(mbs)
+    assert least <= shaken(mbs, monkeypatch) <= most
+
+
+@PATCHED
+@pytest.mark.parametrize(("contact", "part"), [(False, 0.1), (True, 1.0)])
+def test_forces_feel_a_tenth_of_rounding_unless_bodies_strike(contact, part, monkeypatch):
+    mbs = exu.SystemContainer().AddSystem()
+    mbs.CreateMassPoint(referencePosition=[1.0, 0.0, 0.0], physicsMass=1.0, gravity=[9.81, 0, 0])
+    if contact:
+        stop_far_away(mbs)
+    assert shaken(mbs, monkeypatch) == pytest.approx(part)
+
+
+def stop_far_away(mbs):
+    """Add a contact to a system, a metre from its first coordinate."""
+    ground = mbs.AddNode(items.NodePointGround())
+    markers = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+        for node in (ground, 0)
+    ]
+    gap = mbs.AddNode(items.NodeGenericData(initialCoordinates=[1.0], numberOfDataCoordinates=1))
+    contact = items.ObjectContactCoordinate(
+        markerNumbers=markers, nodeNumber=gap, contactStiffness=1e6, offset=1.0
+    )
+    mbs.AddObject(contact)
+
+
+def shaken(mbs, monkeypatch):
+    """Return by how much what rounds at the start of a system changes the rounding that counts."""
     mbs.Assemble()
     found, shake = [], FoundScales.shake
 
-    def watched(scales, change):
+    def watched(scales, change, **keys):
         before = scales.alternating
-        shake(scales, change)
+        shake(scales, change, **keys)
         found.append(scales.alternating / before)
 
     monkeypatch.setattr(FoundScales, "shake", watched)
@@ -133,7 +166,7 @@ def test_rounding_counts_by_what_constraints_make_of_it(rise, least, most, monke
     settings.solution.file.write = False
     with pytest.warns(UserWarning, match="too many steps"):
         solve_dynamic(mbs, settings, max_steps=1)
-    assert least <= found[0] <= most
+    return found[0]
 
 
 def test_weights_of_nodes():

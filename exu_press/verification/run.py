@@ -14,7 +14,7 @@ from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
 from exu_press.result.info import Error, Errors
 from exu_press.result.run import run_once
-from exu_press.result.windows import at, until, window
+from exu_press.result.windows import at, settled, until, window
 from exu_press.scene import Scene
 from exu_press.verification.divergence import Divergence, divergence
 from exu_press.verification.estimate import (
@@ -44,7 +44,7 @@ OF_FLOOR = 3.0
 """Times the least error of a kind: with a smaller error a figure that is nothing is known."""
 
 LATE, INSTANTS = 0.5, 16
-"""From this part of the run on, and at so many instants: what swings while surfaces meet, as the
+"""From this part of a run on, and at so many instants: what swings while surfaces meet, as the
 stored energy does, may be as in the other runs at one instant by chance."""
 
 SAME = 1e-9
@@ -157,11 +157,7 @@ def errors_of(
     safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
     before = by_end[horizon]
     swings = {name: one for name, one in told.items() if _swings(one.quantity)}
-    late = [
-        {r: numbers_of(at(run, instant), swings) for r, run in runs.items()}
-        for instant in np.linspace(LATE * horizon, horizon, INSTANTS, endpoint=False)
-        if diverged.distances and all(len(run.time) >= 4 for run in runs.values())
-    ]
+    late = _late(runs, horizon, swings) if diverged.distances else []
     errors: dict[str, Error] = {}
     sizes = _sizes(by_end[end][1.0], told)
     for name, value in by_end[end][1.0].items():
@@ -237,6 +233,21 @@ def _error(
 def _swings(quantity: Quantity) -> bool:
     """Return whether a quantity is a sum so far that goes up and down."""
     return quantity.cumulative and quantity.signed
+
+
+def _late(
+    runs: Mapping[float, Result], horizon: float, swings: Mapping[str, Placed]
+) -> list[Numbers]:
+    """Return quantities at instants late in what they are read from, before the horizon (s)."""
+    parts = {ratio: settled(run) for ratio, run in runs.items()}
+    begin, end = parts[1.0].time[0], min(parts[1.0].time[-1], horizon)
+    if end <= begin or min(len(part.time) for part in parts.values()) < 4:
+        return []
+    instants = np.linspace(begin + LATE * (end - begin), end, INSTANTS, endpoint=False)
+    return [
+        {ratio: numbers_of(at(part, instant), swings) for ratio, part in parts.items()}
+        for instant in instants
+    ]
 
 
 def _is_of_both(

@@ -121,6 +121,16 @@ def test_energies_that_agree_at_the_end_by_chance_are_not_known_so_well(result):
     assert SAFETY * 0.2 / 0.5 <= 1.1 * found[1] <= 1.2 * SAFETY * 0.2 / 0.5
 
 
+def test_what_energies_differ_by_while_a_run_settles_is_no_error():
+    run = simulate(Scene(**DRY, revolutions=0.1, settle=0.04))
+    early = np.where(run.time > 0.2 * run.time[-1], 5.0, 0.0)
+    away = run["crank_pin_eccentricity"] * (1.0 + 1e-3 * np.sin(run.time))[:, None]
+    energy = {"energy_stored": run["energy_stored"] + early}
+    other = run.with_values({"crank_pin_eccentricity": away, **energy})
+    told = errors_of(run, [(0.5, other), (8.0, other)])
+    assert told["errors"]["energy.stored"]["error"] < 1e-3
+
+
 def test_what_refinements_did_before_the_horizon_widens_no_bounds(result):
     """A peak does not fall below the one until then."""
     part = result.time / result.time[-1]

@@ -265,6 +265,7 @@ def fit_start(
         return np.array(accelerations), np.zeros_like(accelerations)
     start = _Start(task, constraints, task.start, ahead)
     length, deforms = start.length, False
+    anywhere = task.problem.joints is None  # clearance joints remember where they were asked
     last = before = math.inf
     for i in range(START_ITERATIONS):
         violated = np.where(start.held, start.violated(), 0.0)
@@ -275,10 +276,10 @@ def fit_start(
         if i:
             task.solver.ComputeMassMatrix(task.problem.mbs)
             start.turn()
-        deforms = deforms or (task.problem.joints is None and size > DEFORMS * length)
+        deforms = deforms or (anywhere and size > DEFORMS * length)
         matrix = start.stiffened(task.largest) if deforms else None
         start.q = start.q - start.undone(violated, matrix)
-    if task.problem.joints is None:  # which remember where they were asked
+    if anywhere:
         constraints.shaken = start.shaken()
     rate = start.fit_rates(pushed=pushed or last < math.inf)
     return start.a, rate

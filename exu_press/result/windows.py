@@ -65,14 +65,14 @@ def at(run: Result, instant: float) -> Result:
 
     Straight between long steps an energy misses more than a run is off. Of four samples at least.
     """
-    first = max(int(np.searchsorted(run.time, instant)) - 2, 0)
-    about = slice(first, first + 4) if first + 4 <= len(run.time) else slice(-4, None)
+    first = int(np.clip(np.searchsorted(run.time, instant) - 2, 0, len(run.time) - 4))
+    about = slice(first, first + 4)
     time = run.time[about]
 
-    def then(values: Array) -> Array:
+    def then(_: str, values: Array) -> Array:
         return evaluate(time, spline(time, np.moveaxis(values[about], 0, -1)), instant)[None]
 
-    return run.changed(lambda _, values: then(values))
+    return run.changed(then)
 
 
 def revolutions_of(run: Result) -> list[Result]:

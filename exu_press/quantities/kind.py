@@ -31,8 +31,9 @@ class Kind:
         has_error: whether runs at other tolerances tell its error.
         relative: least error over the value.
         absolute: least error, in the quantity's unit.
+        of_largest: least error over the run's largest value of the quantity's unit; extremes are
+            compared with extremes, as impacts make them large.
         of_forces: least error over the run's largest force, in the unit of the quantity over N.
-        of_energies: least error over the run's largest energy.
         from_accelerations: whether the first step leaves an error of its own in it.
         may_vanish: whether nothing, within an error, is an answer. Where it is none, as for a peak,
             a figure that is smaller than its error is not determined.
@@ -42,8 +43,8 @@ class Kind:
     has_error: bool = True
     relative: float = ROUNDING
     absolute: float = 0.0
+    of_largest: float = 0.0
     of_forces: float = 0.0
-    of_energies: float = 0.0
     from_accelerations: bool = False
     may_vanish: bool = False
 
@@ -57,14 +58,14 @@ DIFFERENCE = Kind("difference", may_vanish=True)
 LOAD = Kind("load", relative=1e-5, from_accelerations=True)
 """Follows from accelerations, as forces, torques and powers do."""
 
-RESULTANT = Kind("resultant", relative=1e-5, of_forces=1e-6, from_accelerations=True)
-"""Is a sum in which large forces cancel. Newton's method and the rounding of positions leave
-of_forces of them (5e-7 was measured at 1 rpm)."""
+RESULTANT = Kind("resultant", relative=1e-5, of_largest=1e-6, from_accelerations=True)
+"""Is a sum in which large forces cancel, or the power of one. Newton's method and the rounding of
+positions leave of_largest of them (5e-7 was measured at 1 rpm)."""
 
 MOMENT = Kind("moment", relative=0.0, of_forces=1e-7)
 """Is a moment of forces that balance each other; their arms are rounded, by of_forces in m."""
 
-ENERGY = Kind("energy", relative=0.0, of_energies=1e-6)
+ENERGY = Kind("energy", relative=0.0, of_largest=1e-6)
 """Is stored or dissipated: a difference of larger amounts."""
 
 FLOW = Kind("work")

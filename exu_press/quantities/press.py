@@ -213,7 +213,7 @@ GUIDES = (
     Quantity("sliding_power", "W",
              "mean of side force times sliding speed, over whole revolutions: times a "
              "coefficient of power that the guide dissipates by friction",
-             LOAD, lambda run, body: run.once(_sliding_powers)[body], Place.GUIDE),
+             RESULTANT, lambda run, body: run.once(_sliding_powers)[body], Place.GUIDE),
     Quantity("peak_friction", "N", "largest friction along the guide",
              LOAD, _guide_peak("friction"), Place.GUIDE,
              extreme=Extreme.LARGEST, curve="friction"),

@@ -263,23 +263,28 @@ def _is_of_both(
     )
 
 
-def _sizes(values: Mapping[str, float], told: Mapping[str, Placed]) -> dict[str, float]:
-    """Return the largest force, N, and the largest energy, J, of a run, by their units."""
-    found = {"N": 0.0, "J": 0.0}
+def _sizes(
+    values: Mapping[str, float], told: Mapping[str, Placed]
+) -> dict[tuple[str, Extreme], float]:
+    """Return the largest value of each unit and extreme in a run; what cancels is left out."""
+    found: dict[tuple[str, Extreme], float] = {}
     for name, value in values.items():
-        unit = told[name].quantity.unit
-        if unit in found and told[name].quantity.kind is not RESULTANT:
-            found[unit] = max(found[unit], abs(value))
+        quantity = told[name].quantity
+        if quantity.kind is not RESULTANT:
+            which = quantity.unit, quantity.extreme
+            found[which] = max(found.get(which, 0.0), abs(value))
     return found
 
 
-def _least(quantity: Quantity, values: Sequence[float], sizes: Mapping[str, float]) -> float:
+def _least(
+    quantity: Quantity, values: Sequence[float], sizes: Mapping[tuple[str, Extreme], float]
+) -> float:
     """Return the least error of a quantity, in its unit.
 
     Args:
         quantity: as it is declared.
         values: of it, in all runs; the run's own first.
-        sizes: the largest force and energy of the run, by their units.
+        sizes: the largest values of the run, by their units and extremes.
     """
     if not any(values):
         return 0.0
@@ -287,6 +292,6 @@ def _least(quantity: Quantity, values: Sequence[float], sizes: Mapping[str, floa
     relative = kind.relative
     if kind.from_accelerations and max(values) - min(values) <= kind.relative * size:
         relative = OF_THE_START
-    return max(
-        relative * size, kind.absolute, kind.of_forces * sizes["N"], kind.of_energies * sizes["J"]
-    )
+    largest = kind.of_largest * sizes.get((quantity.unit, quantity.extreme), 0.0)
+    forces = kind.of_forces * sizes.get(("N", Extreme.LARGEST), 0.0)
+    return max(relative * size, kind.absolute, largest, forces)

@@ -319,6 +319,15 @@ def test_a_force_that_symmetry_makes_nothing_is_known():
     assert told["determined"]
 
 
+def test_a_power_of_such_a_force_is_known():
+    """Its runs differ by what rounding made of each: it may be that of the other guides' powers."""
+    run = simulate(Scene(mechanism="press", joints={}, revolutions=1.0), errors=True)
+    power = run.quantity("guides.slider.sliding_power")
+    told, others = run.info["errors"][power.name], run.quantity("drive.guide_friction_power").value
+    assert told["determined"]
+    assert power.value < 1e-9 * others < 1e-7 * others < told["error"] < 1e-5 * others
+
+
 @pytest.mark.parametrize(
     "tolerance", [3e-3, *(pytest.param(t, marks=pytest.mark.long) for t in (1e-3, 3e-4))]
 )

@@ -60,6 +60,18 @@ class Beginnings:
             fitted = fit_start(task, constraints, ahead, pushed=True)
         return fitted
 
+    def fitted_by(self) -> tuple[float, float]:
+        """Return by how much a start that has been fitted was moved, m, and its speeds, m/s.
+
+        A system at rest that a prescribed motion takes along has no speeds to be changed.
+        """
+        problem, norm = self._task.problem, self._task.scales.norm
+        data, given = problem.data, exu.ConfigurationType.Initial
+        moved = problem.current.positions - data.GetODE2Coordinates(given)
+        speeds = data.GetODE2Coordinates_t(given)
+        changed = (problem.current.velocities - speeds) if speeds.any() else speeds
+        return norm(moved.tolist()), norm(changed.tolist())
+
     def switched(self, begin: float, called_at: float, *, by_far: bool) -> bool:
         """Return whether a function may have switched something where a step has failed; once.
 

@@ -131,6 +131,23 @@ class Advice:
             )
             warnings.warn(f"solve_dynamic: {text}", stacklevel=3)
 
+    def announce_start(self, fitted: tuple[float, float], task: Task) -> None:
+        """Warn of a start that was fitted by more than what errors may be.
+
+        Args:
+            fitted: by how much it has moved, m, and its speeds, m/s.
+            task: that was solved.
+        """
+        moved, changed = fitted
+        scales, tolerance = task.scales, task.tolerance
+        if moved > tolerance * scales.length or changed > tolerance * scales.speed:
+            warnings.warn(
+                "solve_dynamic: the start did not fit joints and prescribed motions: positions "
+                f"were changed by up to {moved:.2g} m, velocities by up to {changed:.2g} m/s, by "
+                "as little as can be; give initial values that fit",
+                stacklevel=4,
+            )
+
     def announce_functions(self, jumps: tuple[int, int], lags: tuple[int, int]) -> None:
         """Warn of what functions of the user's own often set so that it jumps or lags.
 

@@ -100,6 +100,7 @@ class Monitor:
         """
         self.tries = self.steps = self.set_behind_steps = 0
         self.interrupted = self.over_budget = False
+        self.fitted = 0.0, 0.0  # by how much the start has moved, m, and its speeds, m/s
         self.go_on, self.without_mass, self.refused, self.again = True, False, "", False
         self._repeats_anew = False  # whether the motion begins anew with the step to be repeated
         # velocities, accelerations and their rate, which have jumped in the step last tried
@@ -187,6 +188,7 @@ class Monitor:
                 self._estimate.start = fitted[0].tolist()
         task.scales.begin(task.solver.GetSystemMassMatrix())
         task.scales.shake(self.constraints.shaken, impacts=task.impacts)
+        self.fitted = self._beginnings.fitted_by()
         now = self._accelerations.tolist()
         self._newton.begin()
         if self.resolution is not None:

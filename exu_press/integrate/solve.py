@@ -150,6 +150,7 @@ def solve_dynamic(
                 hold=hold,
             )
             outcome = _run(task, settings, monitor, words, progress)
+        words.announce_start(monitor.fitted, task)
         jumps = (0, 0) if hold else monitor.pushed_by_calls
         words.announce_functions(jumps, (monitor.set_behind_steps, monitor.steps))
         return outcome, task.scales

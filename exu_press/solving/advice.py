@@ -4,6 +4,7 @@ import math
 
 from exu_press.integrate import Advice, Outcome
 from exu_press.integrate.problem import Problem
+from exu_press.integrate.settings import Task
 from exu_press.integrate.stepping import Unresolved
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.scene import LubricatedJoint, mechanism_of
@@ -34,6 +35,9 @@ class SceneAdvice(Advice):
 
     def announce(self, outcome: Outcome) -> None:
         """Leave it to the result, which tells how its run ended."""
+
+    def announce_start(self, fitted: tuple[float, float], task: Task) -> None:
+        """Say nothing: a scene's start fits, but where it goes on from a run at another speed."""
 
     @property
     def setting(self) -> str:

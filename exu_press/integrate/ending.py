@@ -131,8 +131,8 @@ class Advice:
             )
             warnings.warn(f"solve_dynamic: {text}", stacklevel=3)
 
-    def announce_start(self, fitted: tuple[float, float], task: Task) -> None:
-        """Warn of a start that was fitted by more than what errors may be.
+    def about_start(self, fitted: tuple[float, float], task: Task) -> Iterator[str]:
+        """Say of a start that it was fitted by more than what errors may be.
 
         Args:
             fitted: by how much it has moved, m, and its speeds, m/s.
@@ -141,15 +141,14 @@ class Advice:
         moved, changed = fitted
         scales, tolerance = task.scales, task.tolerance
         if moved > tolerance * scales.length or changed > tolerance * scales.speed:
-            warnings.warn(
-                "solve_dynamic: the start did not fit joints and prescribed motions: positions "
-                f"were changed by up to {moved:.2g} m, velocities by up to {changed:.2g} m/s, by "
-                "as little as can be; give initial values that fit",
-                stacklevel=4,
+            yield (
+                "the start did not fit joints and prescribed motions: positions were changed by "
+                f"up to {moved:.2g} m, velocities by up to {changed:.2g} m/s, by as little as can "
+                "be; give initial values that fit"
             )
 
-    def announce_functions(self, jumps: tuple[int, int], lags: tuple[int, int]) -> None:
-        """Warn of what functions of the user's own often set so that it jumps or lags.
+    def about_functions(self, jumps: tuple[int, int], lags: tuple[int, int]) -> Iterator[str]:
+        """Say what functions of the user's own often set so that it jumps or lags.
 
         Args:
             jumps: calls of a pre-step function that have made forces jump, and all of its grid.
@@ -173,7 +172,7 @@ class Advice:
             ),
         ):
             if number > max(part * of, least):
-                warnings.warn(f"solve_dynamic: {text.format(number, of)}", stacklevel=4)
+                yield text.format(number, of)
 
 
 def how_it_ended(

@@ -127,7 +127,7 @@ def solve_dynamic(
     if problem.joints is not None:
         problem.joints.refuse_start(words.joint)
 
-    period = _period(mbs, settings, sample)
+    period, told = _period(mbs, settings, sample), list[str]()
 
     def run(
         tolerance: float | None,
@@ -150,9 +150,9 @@ def solve_dynamic(
                 hold=hold,
             )
             outcome = _run(task, settings, monitor, words, progress)
-        words.announce_start(monitor.fitted, task)
+        told.extend(words.about_start(monitor.fitted, task))
         jumps = (0, 0) if hold else monitor.pushed_by_calls
-        words.announce_functions(jumps, (monitor.set_behind_steps, monitor.steps))
+        told.extend(words.about_functions(jumps, (monitor.set_behind_steps, monitor.steps)))
         return outcome, task.scales
 
     if errors:
@@ -167,12 +167,13 @@ def solve_dynamic(
         _start_from_here(mbs)
     words.announce(outcome)
     if found.unseen:
-        warnings.warn(
-            "solve_dynamic: the system is taken to be at rest: nothing moved by more than "
+        told.append(
+            "the system is taken to be at rest: nothing moved by more than "
             f"{found.rest:.2g} m/s, as rounded positions may, and errors were not judged; longer "
-            "steps, or fixed ones (tolerance=None), follow such a motion",
-            stacklevel=2,
+            "steps, or fixed ones (tolerance=None), follow such a motion"
         )
+    for text in told:
+        warnings.warn(f"solve_dynamic: {text}", stacklevel=2)
     return outcome
 
 

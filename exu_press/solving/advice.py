@@ -1,6 +1,7 @@
 """Advice to a run that stops early: crank angles, and the keys to change."""
 
 import math
+from collections.abc import Iterator
 
 from exu_press.integrate import Advice, Outcome
 from exu_press.integrate.problem import Problem
@@ -36,8 +37,9 @@ class SceneAdvice(Advice):
     def announce(self, outcome: Outcome) -> None:
         """Leave it to the result, which tells how its run ended."""
 
-    def announce_start(self, fitted: tuple[float, float], task: Task) -> None:
+    def about_start(self, fitted: tuple[float, float], task: Task) -> Iterator[str]:
         """Say nothing: a scene's start fits, but where it goes on from a run at another speed."""
+        return iter(())
 
     @property
     def setting(self) -> str:

@@ -221,17 +221,18 @@ def test_a_start_that_is_far_off_is_refused():
 
 
 @pytest.mark.parametrize(
-    ("place", "velocity", "changed"),
+    ("place", "velocity", "changed", "errors"),
     [
-        ((1.0, 0.0), (0.5, 2.0), "up to 0 m, velocities by up to 0.5 m/s"),
-        ((0.99, 0.0), (0.0, 2.0), "up to 0.01 m, velocities by up to 0 m/s"),
+        ((1.0, 0.0), (0.5, 2.0), "up to 0 m, velocities by up to 0.5 m/s", False),
+        ((0.99, 0.0), (0.0, 2.0), "up to 0.01 m, velocities by up to 0 m/s", True),
     ],
 )
-def test_it_is_said_of_a_start_by_how_much_it_did_not_fit(place, velocity, changed):
+def test_it_is_said_of_a_start_by_how_much_it_did_not_fit(place, velocity, changed, errors):
     mbs = swing(place=place, velocity=velocity)
-    with pytest.warns(UserWarning, match=f"start did not fit joints .* by {changed}"):
-        _, outcome, _ = states(mbs)
+    with pytest.warns(UserWarning, match=f"start did not fit joints .* by {changed}") as told:
+        _, outcome, _ = states(mbs, errors=errors)
     assert outcome.status is SolverStatus.COMPLETED
+    assert [warning.filename for warning in told] == [__file__]
 
 
 def test_nothing_is_said_where_a_motion_takes_along_what_is_at_rest():

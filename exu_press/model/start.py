@@ -86,9 +86,10 @@ def _refuse_too_compliant(scene: Scene, name: str, body: "FlexibleBody", modes: 
     if not share <= SMALL:
         given = scene.bodies[name].youngs_modulus
         than = "" if given is None else f" than {given:g} Pa"
+        bent = f"{share:.2g} of its size" if share < 1.0 else "more than its size"
         raise InputError(
-            f"bodies.{name}: its ideal motion would bend it by {share:.2g} of its size; allowed is "
-            f"{SMALL:g}, of a larger youngs_modulus{than} or at a lower speed_rpm"
+            f"bodies.{name}: its ideal motion would bend it by {bent}; allowed is {SMALL:g}, of a "
+            f"larger youngs_modulus{than} or at a lower speed_rpm"
         )
 
 
@@ -159,7 +160,10 @@ class _Balance:
         missing[size:] = -self._residual()[size:]
         missing[size + self._driven] = angle - q[self._coordinate]  # its speed is held
         matrix[:size, :size] = self._stiffness
-        found = np.linalg.solve(matrix, missing)
+        try:
+            found = np.linalg.solve(matrix, missing)
+        except np.linalg.LinAlgError:  # a body is bent out of all proportion, and is refused
+            found = np.full(len(missing), np.nan)
         q += found[:size]
         forces += found[size:]
 

@@ -122,7 +122,7 @@ def run_command(command: str, place: Path, shortened: list[str] | None) -> list[
 
 
 def run(words: list[str], place: Path) -> str:
-    """Run a process; return what it printed, with kernels that all x86-64 processors have.
+    """Run a process; return what it printed, with kernels for x86-64 processors since 2013.
 
     OpenBLAS has others for some of them, which round otherwise: errors that runs state differ in
     their first digit then, and peaks beyond the horizon by a tenth.

@@ -5,7 +5,6 @@ keys.
 """
 
 import math
-import warnings
 from collections.abc import Iterator
 from typing import Any
 
@@ -114,22 +113,20 @@ class Advice:
         """Return what resolves a run that leapt over its impacts."""
         return f"a {self.setting} ten times smaller"
 
-    def announce(self, outcome: Outcome) -> None:
-        """Warn of an outcome that a script may go on without looking at."""
+    def about_outcome(self, outcome: Outcome) -> Iterator[str]:
+        """Say of an outcome what a script may go on without looking at."""
         if outcome.status not in (SolverStatus.COMPLETED, SolverStatus.INTERRUPTED):
-            text = f"solve_dynamic: {outcome.status.value}: {outcome.reason}"
-            warnings.warn(text, stacklevel=3)
+            yield f"{outcome.status.value}: {outcome.reason}"
         error = outcome.error
         if error is not None and error.since < math.inf:
             begins = f"from t = {error.since:.6g} s on"
-            text = (
+            yield (
                 f"no error is known {begins}: the finer run stopped early, {error.reason}"
                 if error.reason
                 else f"errors are above ten tolerances {begins}, up to {error.motion:.2g} of the "
                 "largest speed: the motion amplifies what steps miss; try a smaller tolerance, or "
                 "believe the run up to there"
             )
-            warnings.warn(f"solve_dynamic: {text}", stacklevel=3)
 
     def about_start(self, fitted: tuple[float, float], task: Task) -> Iterator[str]:
         """Say of a start that it was fitted by more than what errors may be.

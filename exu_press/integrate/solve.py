@@ -165,7 +165,7 @@ def solve_dynamic(
         outcome, found = run(tolerance, watch, max_steps, quiet)
     if update_initial_values:
         _start_from_here(mbs)
-    words.announce(outcome)
+    told.extend(words.about_outcome(outcome))
     if found.unseen:
         told.append(
             "the system is taken to be at rest: nothing moved by more than "

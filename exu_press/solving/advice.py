@@ -34,8 +34,9 @@ class SceneAdvice(Advice):
         super().__init__(problem, by_tolerance)
         self._model, self._scene = model, model.scene
 
-    def announce(self, outcome: Outcome) -> None:
-        """Leave it to the result, which tells how its run ended."""
+    def about_outcome(self, outcome: Outcome) -> Iterator[str]:
+        """Say nothing: the result tells how its run ended."""
+        return iter(())
 
     def about_start(self, fitted: tuple[float, float], task: Task) -> Iterator[str]:
         """Say nothing: a scene's start fits, but where it goes on from a run at another speed."""

@@ -1,7 +1,6 @@
 """A start that fits the constraints; and a change of step must not show in the accelerations."""
 
 import itertools
-import warnings
 
 import exudyn as exu
 import exudyn.utilities as items
@@ -125,12 +124,11 @@ def test_a_hinged_rod_at_rest_sets_out_as_its_torque_does():
     assert found * stiffness == pytest.approx(expected, rel=1e-3)
 
 
+@pytest.mark.filterwarnings("error::UserWarning")
 def test_a_drawing_of_few_digits_is_put_together():
     """Off by 20 um, and by a millimetre a second: a first step of 10 us would make 4 m/s of it."""
     mbs = swing(place=(0.6, 0.80002), velocity=(0.001, 0.0))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", UserWarning)
-        (place, velocity, _), outcome, _ = states(mbs)
+    (place, velocity, _), outcome, _ = states(mbs)
     assert outcome.status is SolverStatus.COMPLETED
     assert np.hypot(*place) == pytest.approx(1.0, abs=1e-9)
     assert place @ velocity == pytest.approx(0.0, abs=1e-6)
@@ -235,19 +233,17 @@ def test_it_is_said_of_a_start_by_how_much_it_did_not_fit(place, velocity, chang
     assert [warning.filename for warning in told] == [__file__]
 
 
+@pytest.mark.filterwarnings("error::UserWarning")
 def test_nothing_is_said_where_a_motion_takes_along_what_is_at_rest():
     mbs = swing(offset=lambda mbs, t, item, offset: 2.0 * t)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", UserWarning)
-        (_, velocity, _), _, _ = states(mbs)
+    (_, velocity, _), _, _ = states(mbs)
     assert velocity[0] == pytest.approx(2.0, rel=1e-6)
 
 
+@pytest.mark.filterwarnings("error::UserWarning")
 def test_a_start_that_fits_is_left_alone():
     mbs = swing(place=(0.6, 0.8), velocity=(0.8, -0.6))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", UserWarning)
-        (place, velocity, _), _, _ = states(mbs)
+    (place, velocity, _), _, _ = states(mbs)
     assert place.tolist() == [0.6, 0.8] and velocity.tolist() == [0.8, -0.6]
 
 

@@ -108,7 +108,7 @@ def add_dry_spherical(
     if in_plane(mbs, ball) and in_plane(mbs, socket):
         return add_revolute(mbs, ball, socket, _touching(contact, friction, radius, clearance))
     ends = spatial_end(mbs, ball), spatial_end(mbs, socket)
-    return _added(mbs, SpatialSpherical(*ends, contact, friction, radius, clearance))
+    return _add_joint(mbs, SpatialSpherical(*ends, contact, friction, radius, clearance))
 
 
 def add_lubricated_revolute(
@@ -151,7 +151,7 @@ def add_lubricated_revolute(
     Raises:
         InputError: as `add_dry_revolute`, or a length, radius, clearance or viscosity not positive.
     """
-    _check(mbs, radius=radius, clearance=clearance, law=law, **_given(contact, friction))
+    _check(mbs, radius=radius, clearance=clearance, law=law, **_given_laws(contact, friction))
     film = FilmInterface(law, film_scale(viscosity, length, radius, clearance), clearance)
     touching = _touching(contact, friction, radius, clearance - asperity_onset)
     return add_revolute(mbs, journal, bearing, [film, *touching], axis=axis)
@@ -193,7 +193,7 @@ def add_lubricated_spherical(
     Raises:
         InputError: as `add_dry_revolute`, or a radius, clearance or viscosity not positive.
     """
-    _check(mbs, radius=radius, clearance=clearance, film=film, **_given(contact, friction))
+    _check(mbs, radius=radius, clearance=clearance, film=film, **_given_laws(contact, friction))
     scale = film_scale(viscosity, radius, radius, clearance)
     if in_plane(mbs, ball) and in_plane(mbs, socket):
         between = FilmInterface(film.law, scale, clearance)
@@ -209,7 +209,7 @@ def add_lubricated_spherical(
         SphericalFilm(film, scale, clearance),
         asperity_onset,
     )
-    return _added(mbs, joint)
+    return _add_joint(mbs, joint)
 
 
 def add_guideway_contact(
@@ -248,10 +248,12 @@ def add_guideway_contact(
     x, y = _along_guideway(direction, clearance, half_width)
     across = y, -x
     interface = DryInterface(contact, friction, half_width, clearance)
-    place = float(middle[0]), float(middle[1])
+    centre = float(middle[0]), float(middle[1])
     if in_plane(mbs, body):
-        return _added(mbs, GuidewayContact(planar_end(mbs, body), place, across, interface))
-    return _added(mbs, SpatialGuidewayContact(spatial_end(mbs, body), place, across, interface))
+        return _add_joint(mbs, GuidewayContact(planar_end(mbs, body), centre, across, interface))
+    return _add_joint(
+        mbs, SpatialGuidewayContact(spatial_end(mbs, body), centre, across, interface)
+    )
 
 
 def add_guideway_film(
@@ -315,7 +317,7 @@ def add_guideway_film(
         length=length,
         half_width=half_width,
     )
-    return _added(mbs, film)
+    return _add_joint(mbs, film)
 
 
 def _along_guideway(
@@ -363,12 +365,12 @@ def _touching(
     return [DryInterface(contact, friction or no_friction(), radius, reach)]
 
 
-def _given(contact: Any, friction: Any) -> dict[str, Any]:
+def _given_laws(contact: Any, friction: Any) -> dict[str, Any]:
     laws = {"friction": friction, "contact": contact}
     return {name: law for name, law in laws.items() if law is not None}
 
 
-def _added(mbs: exu.MainSystem, joint: ClearanceJoint) -> ClearanceJoint:
+def _add_joint(mbs: exu.MainSystem, joint: ClearanceJoint) -> ClearanceJoint:
     user_force_of(mbs).add(joint)
     return joint
 
@@ -430,11 +432,11 @@ def add_revolute(
             raise InputError(f"axis = {tuple(axis)}: allowed between planar bodies is (0, 0, 1)")
         ends = planar_end(mbs, journal), planar_end(mbs, bearing)
         if worn is None:
-            return _added(mbs, PlanarJoint(*ends, interfaces))
+            return _add_joint(mbs, PlanarJoint(*ends, interfaces))
         from exu_press.joints.worn import WornJoint
 
-        return _added(mbs, WornJoint(*ends, interfaces, worn))
+        return _add_joint(mbs, WornJoint(*ends, interfaces, worn))
     if worn is not None:
         raise InputError("worn: allowed is a joint between planar bodies")
     in_space = spatial_end(mbs, journal), spatial_end(mbs, bearing)
-    return _added(mbs, SpatialRevolute(*in_space, axis, interfaces))
+    return _add_joint(mbs, SpatialRevolute(*in_space, axis, interfaces))

@@ -11,7 +11,7 @@ from exudyn.rigidBodyUtilities import RotationVector2RotationMatrix, RotXYZ2G, R
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["NODES", "BodyEnd", "FlexiblePoint", "Vector", "cross", "cross_matrix", "dot", "turned"]
+__all__ = ["NODES", "BodyEnd", "FlexiblePoint", "Vector", "cross", "cross_matrix", "dot", "rotate"]
 
 Vector = tuple[float, float, float]
 
@@ -133,15 +133,15 @@ class BodyEnd:
             along += shift_x
             across += shift_y
             up += shift_z
-            drift = turned(self.rotation, (drift_x, drift_y, drift_z))
-            turn = turned(self.rotation, (turn_x, turn_y, turn_z))
+            drift = rotate(self.rotation, (drift_x, drift_y, drift_z))
+            turn = rotate(self.rotation, (turn_x, turn_y, turn_z))
             u += drift[0]
             v += drift[1]
             w += drift[2]
             omega_x += turn[0]
             omega_y += turn[1]
             omega_z += turn[2]
-        arm = turned(self.rotation, (along, across, up))
+        arm = rotate(self.rotation, (along, across, up))
         around = cross(rigid_omega, arm)
         self.arm = arm
         self.angular_velocity = omega_x, omega_y, omega_z
@@ -270,7 +270,7 @@ def _orientation(kind: str, pose: list[float]) -> tuple[Matrix, list[float]]:
     return rotation, omegas.ravel().tolist()
 
 
-def turned(r: Matrix, v: Vector) -> Vector:
+def rotate(r: Matrix, v: Vector) -> Vector:
     """Return a vector of the body's frame in the global one."""
     a, b, c, d, e, f, g, h, i = r
     x, y, z = v

@@ -104,12 +104,12 @@ class SlidingFriction:
             time: (n,), s.
             speed: (n,), m/s.
         """
-        replayed, found = SlidingFriction(self.law), np.zeros_like(time)
-        before = time[0]
+        replayed, coefficients = SlidingFriction(self.law), np.zeros_like(time)
+        previous = time[0]
         for i, (now, v) in enumerate(zip(time.tolist(), speed.tolist(), strict=True)):
-            replayed.begin_step(now - before, accepted=True)
-            found[i], before = replayed(v)[0], now
-        return found
+            replayed.begin_step(now - previous, accepted=True)
+            coefficients[i], previous = replayed(v)[0], now
+        return coefficients
 
 
 class GuideFriction:

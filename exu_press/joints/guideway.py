@@ -122,7 +122,7 @@ class SpatialGuidewayContact(SpatialRevolute):
         super().__init__(end, frame, (0.0, 0.0, 1.0), [interface], turns=False)
         self._normal = across
 
-    def _across(self, apart: Vector) -> tuple[float, Vector]:
+    def _eccentricity_and_normal(self, apart: Vector) -> tuple[float, Vector]:
         """Return how far the point lies beside the middle, m, and the normal on that side."""
         x, y = self._normal
         beside = apart[0] * x + apart[1] * y

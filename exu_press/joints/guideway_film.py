@@ -80,7 +80,10 @@ class GuidewayFilm:
         rear, front = self._ends
         rear.move(q, q_t)
         front.move(q, q_t)
-        self._places = beside_1, beside_2 = self._beside(rear), self._beside(front)
+        self._places = beside_1, beside_2 = (
+            self._lateral_displacement(rear),
+            self._lateral_displacement(front),
+        )
         self._rates = rate_1, rate_2 = (
             _in(rear.velocity, self._across),
             _in(front.velocity, self._across),
@@ -148,7 +151,7 @@ class GuidewayFilm:
             velocity=self._in_plane(0.5 * (rate_1 + rate_2), self._sliding),
             moments=(couple, moment),
             angular_velocities=(tilting / self._length, self._turning),
-            gap=self.clearance - max(abs(place) for place in self._places),
+            gap=self.clearance - max(abs(displacement) for displacement in self._places),
             stored_energy=0.0,
             stored_power=0.0,
         )
@@ -193,7 +196,7 @@ class GuidewayFilm:
         n, t = self._across, self._along
         return across * n[0] + along * t[0], across * n[1] + along * t[1]
 
-    def _beside(self, end: BodyEnd) -> float:
+    def _lateral_displacement(self, end: BodyEnd) -> float:
         """Return the displacement of an end from the guideway's middle, m."""
         x, y, _ = end.position
         return (x - self._middle[0]) * self._across[0] + (y - self._middle[1]) * self._across[1]

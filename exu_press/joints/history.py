@@ -47,11 +47,11 @@ class JointHistory:
     @property
     def power(self) -> Array:
         """Power of forces and moments on the two bodies, (n,), W."""
-        found = np.zeros_like(self.gap)
+        total = np.zeros_like(self.gap)
         for loads, rates in ((self.force, self.velocity), (self.moments, self.angular_velocities)):
             for load, rate in zip(loads.T, rates.T, strict=True):
-                found += load * rate
-        return found
+                total += load * rate
+        return total
 
     @property
     def moments_in_plane(self) -> Array:
@@ -79,7 +79,7 @@ def history(states: States, joint: ClearanceJoint, time: Array) -> JointHistory:
     ends = first + np.cumsum([0, *lengths])
     parts = [np.array(table[:, begin:end]) for begin, end in pairwise(ends.tolist())]
     eccentricity, force, velocity, moments, turning, gap, energy, power, rubbing = parts
-    gap, energy, power = (one[:, 0] for one in (gap, energy, power))
+    gap, energy, power = (column[:, 0] for column in (gap, energy, power))
     rubbing = rubbing if lengths[-1] else np.zeros((0, 2))
     return JointHistory(
         eccentricity, force, velocity, moments, turning, gap, energy, power, rubbing

@@ -170,9 +170,9 @@ class DryInterface(InterfaceLaw):
                 return None
         normal, stiffness, damping = self.contact.force(penetration, e_dot, speed)
         self._normal = normal
-        return self._loaded(e, normal, (mu, slope, normal, stiffness, damping))
+        return self._film_load(e, normal, (mu, slope, normal, stiffness, damping))
 
-    def _loaded(self, e: float, normal: float, response: Response) -> Load:
+    def _film_load(self, e: float, normal: float, response: Response) -> Load:
         drag = -response[0] * normal
         return -normal, drag, self.radius * drag, -(self.radius + e) * drag, response
 
@@ -207,7 +207,9 @@ class DryInterface(InterfaceLaw):
         """Return the energy that bristles took up in the last step at its mean normal force, J."""
         if not isinstance(self.friction, LuGre):
             return 0.0
-        bent = self.friction.stored(self._next_bristle) - self.friction.stored(self.bristle)
+        bent = self.friction.stored_energy(self._next_bristle) - self.friction.stored_energy(
+            self.bristle
+        )
         return 0.5 * (self._normal + self._normal_before) * bent
 
     def stored_power(self, e: float, e_dot: float) -> float:
@@ -488,9 +490,9 @@ class InterfaceJoint:
         """Take over the memory of another joint of its kind, in the state of the last forces."""
         self._step = memory[0]
         self.path.recall(memory[1])
-        for interface, each in zip(self.interfaces, memory[2], strict=True):
+        for interface, interface_memory in zip(self.interfaces, memory[2], strict=True):
             interface.drift = self.path.drift
-            interface.recall(each)
+            interface.recall(interface_memory)
 
     def _load(self, motion: Motion) -> list[Load | None]:
         """Return each interface's load in a state; the one before is kept for the secant."""

@@ -95,11 +95,11 @@ class PlanarJoint(InterfaceJoint):
         matrix: list[float] | None = None
         for i, load in enumerate(self._loads):
             if load is not None:
-                part = self._jacobian_of(i, load, by_q, by_q_t)
+                block = self._jacobian_of(i, load, by_q, by_q_t)
                 if matrix is None:
-                    matrix = part
+                    matrix = block
                 else:
-                    for k, value in enumerate(part):
+                    for k, value in enumerate(block):
                         matrix[k] += value
         return matrix
 

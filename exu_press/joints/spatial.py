@@ -5,7 +5,7 @@ from math import sqrt
 
 import numpy as np
 
-from exu_press.joints.ends import BodyEnd, Vector, cross, dot, turned
+from exu_press.joints.ends import BodyEnd, Vector, cross, dot, rotate
 from exu_press.joints.interface import InterfaceJoint, InterfaceLaw
 from exu_press.numerics.arrays import Array
 
@@ -47,13 +47,15 @@ class SpatialRevolute(InterfaceJoint):
         journal, bearing = self.journal, self.bearing
         journal.move(q, q_t)
         bearing.move(q, q_t)
-        self._a = axis = turned(bearing.rotation, self._axis)
+        self._a = axis = rotate(bearing.rotation, self._axis)
         p, b = journal.position, bearing.position
         apart = p[0] - b[0], p[1] - b[1], p[2] - b[2]
         height = dot(axis, apart)
         # the bearing's force acts beside the journal
         self._along = along = axis[0] * height, axis[1] * height, axis[2] * height
-        e, n = self._across((apart[0] - along[0], apart[1] - along[1], apart[2] - along[2]))
+        e, n = self._eccentricity_and_normal(
+            (apart[0] - along[0], apart[1] - along[1], apart[2] - along[2])
+        )
         t = cross(axis, n)
         self._n, self._t = n, t
         aside = cross(along, bearing.angular_velocity)
@@ -119,7 +121,7 @@ class SpatialRevolute(InterfaceJoint):
         """Return a vector of the joint's plane at the last `add_force` in the global frame."""
         return _sum(along_n, self._n, along_t, self._t)
 
-    def _across(self, apart: Vector) -> tuple[float, Vector]:
+    def _eccentricity_and_normal(self, apart: Vector) -> tuple[float, Vector]:
         """Return eccentricity and normal for how far the centres lie apart across the axis, m."""
         e = sqrt(dot(apart, apart))
         return e, (apart[0] / e, apart[1] / e, apart[2] / e) if e > 0.0 else _normal_to(self._a)

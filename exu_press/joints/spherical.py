@@ -91,8 +91,8 @@ class SpatialSpherical:
     def memory(self) -> list[Any]:
         """Return the memory of the steps before, numbers in lists."""
         vectors = self._bristle, self._next_bristle, self._sliding, self._sliding_before
-        told = [None if vector is None else vector.tolist() for vector in vectors]
-        return [self._step, self.path.memory(), told, self._approach.memory()]
+        vectors_as_lists = [None if vector is None else vector.tolist() for vector in vectors]
+        return [self._step, self.path.memory(), vectors_as_lists, self._approach.memory()]
 
     def recall(self, memory: list[Any]) -> None:
         """Take over the memory of another joint of its kind, in the state of the last forces."""
@@ -130,8 +130,8 @@ class SpatialSpherical:
         rates[6:, ball.shape[1] :] = socket_omega
         by_place, by_rates = self._film.partials()
         matrix = -rates.T @ (by_q * by_place @ rates[:3] + by_q_t * by_rates @ rates)
-        found = np.asarray(matrix).ravel()
-        return found + self._of_contact(by_q, by_q_t) if self._touching else found
+        entries = np.asarray(matrix).ravel()
+        return entries + self._of_contact(by_q, by_q_t) if self._touching else entries
 
     def _of_contact(self, by_q: float, by_q_t: float) -> Array:
         """Return the part of the contact in the Jacobian."""
@@ -199,7 +199,7 @@ class SpatialSpherical:
         if not isinstance(self._friction, LuGre):
             return 0.0
         before, after = (
-            self._friction.stored(float(np.linalg.norm(z)))
+            self._friction.stored_energy(float(np.linalg.norm(z)))
             for z in (self._bristle, self._next_bristle)
         )
         return 0.5 * (self._normal + self._normal_before) * (after - before)

@@ -61,7 +61,7 @@ class SphericalFilm:
         v_n = float(n @ self._swept)
         aside = self._swept - v_n * n
         speed = float(np.sqrt(aside @ aside))
-        self._t = -aside / speed if speed > 0.0 else _across(n)
+        self._t = -aside / speed if speed > 0.0 else _unit_normal_to(n)
         self._eps_w = 2.0 * speed / c
         response = self._film.law(e / c, v_n / c, self._eps_w)
         self._response = response
@@ -97,8 +97,8 @@ class SphericalFilm:
         by_e = np.outer(q * (r_eps * n + t_eps * t), n)
         flat = np.eye(3) - np.outer(n, n)
         if e > 0.0:  # force and speed as they are, seen from a direction that turns
-            by_e += _turned(n, flat, self.force) / e
-            by_e -= by_swept @ _turned(n, flat, self._swept) / e
+            by_e += _rotation_derivative(n, flat, self.force) / e
+            by_e -= by_swept @ _rotation_derivative(n, flat, self._swept) / e
         by_swept = self._secant(by_e, by_swept)
         by_e = by_e - by_swept @ cross_matrix(self._mean)
         apart = cross_matrix(self._apart)
@@ -136,11 +136,11 @@ class SphericalFilm:
         return by_swept + np.outer(rest, change) / square
 
 
-def _turned(n: Array, flat: Array, vector: Array) -> Array:
+def _rotation_derivative(n: Array, flat: Array, vector: Array) -> Array:
     """Return (n x d) x vector by d, for d across n."""
     return np.asarray(float(n @ vector) * flat - np.outer(n, flat @ vector))
 
 
-def _across(n: Array) -> Array:
-    found = np.cross(n, np.eye(3)[int(np.argmin(np.abs(n)))])
-    return np.asarray(found / np.sqrt(found @ found))
+def _unit_normal_to(n: Array) -> Array:
+    normal = np.cross(n, np.eye(3)[int(np.argmin(np.abs(n)))])
+    return np.asarray(normal / np.sqrt(normal @ normal))

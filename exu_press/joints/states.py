@@ -55,5 +55,5 @@ class States:
                 numbers += joint.rubbing
                 rubbed = 2
             if len(self.lengths) == i:
-                self.lengths.append([*(len(part) for part in state.vectors), 1, 1, 1, rubbed])
+                self.lengths.append([*(len(vector) for vector in state.vectors), 1, 1, 1, rubbed])
         self.numbers.fromlist(numbers)

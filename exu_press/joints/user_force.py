@@ -88,10 +88,12 @@ class UserForceElement:
         ]
         self._idle = [[0.0] * len(joint.indices) ** 2 for joint in self.joints]
         self._pack = Struct(f"{len(entries)}d").pack
-        kept = [i for i, (row, column) in enumerate(entries) if row >= 0 and column >= 0]
-        self._kept = np.array(kept) if len(kept) < len(entries) else None  # all but the ground's
-        self._triplets = np.zeros((len(kept), 3))
-        self._triplets[:, :2] = [entries[i] for i in kept]
+        moving = [i for i, (row, column) in enumerate(entries) if row >= 0 and column >= 0]
+        self._kept = (
+            np.array(moving) if len(moving) < len(entries) else None
+        )  # all but the ground's
+        self._triplets = np.zeros((len(moving), 3))
+        self._triplets[:, :2] = [entries[i] for i in moving]
         if self.item is None:
             forces: Any = self._forces
             jacobian: Any = self._jacobian
@@ -149,8 +151,8 @@ class UserForceElement:
             _state_in(joint, q, q_t)
         self._last = q, q_t
         self._step = None if memory["step"] is None else tuple(memory["step"])
-        for joint, each in zip(self.joints, memory["joints"], strict=True):
-            joint.recall(each)
+        for joint, joint_memory in zip(self.joints, memory["joints"], strict=True):
+            joint.recall(joint_memory)
 
     def _check_start(self, q: list[float], called: Callable[[ClearanceJoint], str]) -> None:
         """Raise InputError for a joint that is further out in a state than its laws hold."""
@@ -223,7 +225,7 @@ class UserForceElement:
         entries = matrix.reshape(-1)
         q, q_t = self._last
         blocks = self._partials(self._time, q, q_t, by_q, by_q_t)
-        for joint, block, (kept, within, first) in zip(
+        for joint, block, (moving, within, first) in zip(
             self.joints, blocks, self._within, strict=True
         ):
             if block is None:
@@ -234,7 +236,7 @@ class UserForceElement:
                     block, (size, size)
                 )
             else:
-                entries[within] += np.asarray(block)[kept]  # no entry is there twice
+                entries[within] += np.asarray(block)[moving]  # no entry is there twice
 
     def _entries_within(
         self, joint: ClearanceJoint, size: int
@@ -248,10 +250,10 @@ class UserForceElement:
             at[start:] = self._mbs.GetNodeODE2Index(node) + np.arange(self.size - start)
         indices = np.array(joint.indices)
         rows, columns = (axis.ravel() for axis in np.meshgrid(indices, indices, indexing="ij"))
-        kept = np.flatnonzero((rows >= 0) & (columns >= 0))  # all but the ground's
+        moving = np.flatnonzero((rows >= 0) & (columns >= 0))  # all but the ground's
         together = bool((indices >= 0).all()) and bool((np.diff(at[indices]) == 1).all())
         first = int(at[indices[0]]) if together else -1
-        return kept, at[rows[kept]] * size + at[columns[kept]], first
+        return moving, at[rows[moving]] * size + at[columns[moving]], first
 
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Any:
         """Return the generalised forces of all joints, a list as Exudyn passes and takes it.

@@ -184,10 +184,10 @@ class WornJoint(PlanarJoint):
         turns[0, 2], turns[1, 2] = -w_j * j_x, -w_j * j_y
         turns[0, 5], turns[1, 5] = w_b * b_x, w_b * b_y
         both = by_q * (by_place @ moves + by_rate @ turns) + by_q_t * (by_rate @ moves)
-        found = -(moves.T @ both)
-        found[2, 2] += by_q * (j_x * f_x + j_y * f_y)
-        found[5, 5] -= by_q * (b_x * f_x + b_y * f_y)
-        return [float(value) for value in found.ravel()]
+        matrix = -(moves.T @ both)
+        matrix[2, 2] += by_q * (j_x * f_x + j_y * f_y)
+        matrix[5, 5] -= by_q * (b_x * f_x + b_y * f_y)
+        return [float(value) for value in matrix.ravel()]
 
     def _response(self, i: int, load: Load) -> tuple[Array, Array]:
         """Return an interface's force and moments by s = (x, y, phi_J, phi_B) and by its rates.
@@ -206,21 +206,21 @@ class WornJoint(PlanarJoint):
         by_e = by_turn = 0.0
         if film is not None:
             normal, turned = np.array([n_x, n_y, 0.0, 0.0]), across
-            place = across / e if e > 0.0 else 0.0 * across
-            bent = np.outer(across, place)
+            angle_gradient = across / e if e > 0.0 else 0.0 * across
+            bent = np.outer(across, angle_gradient)
             scale = self._open(film, at[2])
             partials = self._partials(i, load)
             by_e, by_turn = film.shear_partials(response, w_j, w_b)
             self._close(film, scale)
         else:
             normal, turned = np.array([n_x, n_y, j_1, b_1]), np.array([-n_y, n_x, j_2, b_2])
-            place = turned / (e + j_2 + b_2)  # the angle at which they touch, by s
-            bent = np.outer(turned, place) - np.diag([0.0, 0.0, j_2, b_2])
+            angle_gradient = turned / (e + j_2 + b_2)  # the angle at which they touch, by s
+            bent = np.outer(turned, angle_gradient) - np.diag([0.0, 0.0, j_2, b_2])
             partials = interface.partials(response, e, w_j, w_b)
         (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = partials
-        worn = (j_1 + b_1) * place - own
+        worn = (j_1 + b_1) * angle_gradient - own
         closing = rates @ bent
-        sliding = -(rates[0] * n_x + rates[1] * n_y) * place
+        sliding = -(rates[0] * n_x + rates[1] * n_y) * angle_gradient
         along_n = n_e * normal + n_r * closing + n_v * sliding
         along_t = t_e * normal + t_r * closing + t_v * sliding
         rate_n = n_r * normal + n_v * across + [0.0, 0.0, n_wj, n_wb]
@@ -239,7 +239,7 @@ class WornJoint(PlanarJoint):
             along_t = along_t - t_v * w_b * worn
         lever_j, lever_b, slope_j, slope_b = interface.arms(e)
         levers = np.array([-n_y, n_x, lever_j, lever_b])
-        leaning = np.outer(np.array([-n_x, -n_y, 0.0, 0.0]), place)
+        leaning = np.outer(np.array([-n_x, -n_y, 0.0, 0.0]), angle_gradient)
         leaning[2] += slope_j * further
         leaning[3] += slope_b * further
         by_place = (

@@ -56,8 +56,10 @@ class Coupling:
     >>> brake.torque(0.01, 2.0, 100.0)  # turned by 0.01 rad, and at 2 rad/s: slips
     100.0
     >>> brake.accept(1.0, 0.01, 2.0, 100.0)
-    >>> round(brake.torque(0.01, 0.0, 100.0), 1), brake.beyond(0.00995, 0.0, 100.0) < 0.0  # sticks
-    (99.9, True)
+    >>> round(brake.torque(0.01, 0.0, 100.0), 1)
+    99.9
+    >>> brake.excess_torque(0.00995, 0.0, 100.0) < 0.0  # it sticks
+    True
     """
 
     stiffness: float
@@ -80,7 +82,7 @@ class Coupling:
         twist = self._twist + angle - self._angle
         return coupling_torque(twist, rate, capacity, self.stiffness, self.damping)
 
-    def beyond(self, angle: float, rate: float, capacity: float) -> float:
+    def excess_torque(self, angle: float, rate: float, capacity: float) -> float:
         """Return by how much sticking would ask for more than the capacity, N m: then it slips."""
         twist = self._twist + angle - self._angle
         return abs(self.stiffness * twist + self.damping * rate) - capacity
@@ -88,7 +90,7 @@ class Coupling:
     def accept(self, step: float, angle: float, rate: float, capacity: float) -> None:
         """Keep the state at the end of a step, s: surfaces that slip twist no further."""
         torque = self.torque(angle, rate, capacity)
-        if self.beyond(angle, rate, capacity) <= 0.0:
+        if self.excess_torque(angle, rate, capacity) <= 0.0:
             self._twist += angle - self._angle
         elif step > 0.0:  # k x + d (x - x_before) / h is the torque
             slow = self.damping / step

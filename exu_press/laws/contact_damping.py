@@ -126,8 +126,8 @@ class Approach:
             speed, gap = rate, -penetration
         elif gap > 0.0:
             if rate > 0.0:  # else it has turned already
-                part = gap / (gap + penetration)
-                speed = math.sqrt(speed * speed + part * (rate * rate - speed * speed))
+                fraction = gap / (gap + penetration)
+                speed = math.sqrt(speed * speed + fraction * (rate * rate - speed * speed))
             gap = 0.0
         self._next = speed, gap
         return speed
@@ -251,12 +251,14 @@ def hysteretic(
         "Flores et al. 2011: towards 0 chi grows without bound",
     )
     positive(slowest_impact=slowest_impact)
-    wanted = chi(restitution)
+    damping_factor = chi(restitution)
 
     def damping(
         _penetration: float, rate: float, impact_speed: float, elastic: float, slope: float
     ) -> tuple[float, float, float]:
-        per_rate = wanted / (slowest_impact if impact_speed <= slowest_impact else impact_speed)
+        per_rate = damping_factor / (
+            slowest_impact if impact_speed <= slowest_impact else impact_speed
+        )
         return elastic * per_rate * rate, slope * per_rate * rate, elastic * per_rate
 
     return NormalContact(stiffness, damping, needs_impact_speed=True, tension=tension)

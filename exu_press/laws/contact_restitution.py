@@ -105,17 +105,17 @@ def delivered_restitution(contact: NormalContact, mass: float, speed: float) -> 
         _, stiffness, damping = contact.force(state[0] * depth, state[1] * speed, speed)
         return [[0.0, 1.0], [-stiffness * depth / inertia, -damping * speed / inertia]]
 
-    def released(_time: float, state: tuple[float, float]) -> float:
+    def separation(_time: float, state: tuple[float, float]) -> float:
         return state[0]
 
-    released.terminal = True  # type: ignore[attr-defined]
-    released.direction = -1.0  # type: ignore[attr-defined]
+    separation.terminal = True  # type: ignore[attr-defined]
+    separation.direction = -1.0  # type: ignore[attr-defined]
     bounce = solve_ivp(
         motion,
         (0.0, 1e9),
         (0.0, 1.0),
         "LSODA",
-        events=released,
+        events=separation,
         jac=jacobian,
         rtol=1e-9,
         atol=1e-12,

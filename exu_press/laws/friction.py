@@ -323,15 +323,15 @@ class LuGre:
     def damping(self, v: float) -> tuple[float, float]:
         """sigma_1(v) [s/m] and its derivative [s^2/m^2]."""
         falling = self.sigma_1 / (PASSIVE * self.mu_kinetic)  # 1 / v_d
-        part = falling * v
-        found = self.sigma_1 * exp(-part * part)
-        return found, -2.0 * falling * falling * v * found
+        scaled_velocity = falling * v
+        coefficient = self.sigma_1 * exp(-scaled_velocity * scaled_velocity)
+        return coefficient, -2.0 * falling * falling * v * coefficient
 
     def rate(self, v: float, z: float) -> float:
         """z_dot [m/s] of the bristle's differential equation."""
         return v - self.sigma_0 * abs(v) * z / self._curve(v)[0]
 
-    def stored(self, z: float) -> float:
+    def stored_energy(self, z: float) -> float:
         """Energy of a bristle per normal force, J/N."""
         return 0.5 * self.sigma_0 * z * z
 

@@ -39,31 +39,31 @@ class LoadCurve:
             self._x = (last, *self.places, first)
             self._f = (self.forces[-1], *self.forces, self.forces[0])
             shifts = (-period, 0.0, period)
-            self._corners = tuple(place + shift for shift in shifts for place in self.places)
+            self._corners = tuple(point + shift for shift in shifts for point in self.places)
 
-    def __call__(self, place: float) -> float:
+    def __call__(self, x_value: float) -> float:
         """Return the force, N; of a place that is no number, none either."""
         x, f = self._x, self._f
-        place = self._within(place)
-        if place != place:
-            return place
-        if place <= x[0]:
+        x_value = self._in_period(x_value)
+        if x_value != x_value:
+            return x_value
+        if x_value <= x[0]:
             return f[0]
-        if place >= x[-1]:
+        if x_value >= x[-1]:
             return f[-1]
-        after = bisect_right(x, place)
-        part = (place - x[after - 1]) / (x[after] - x[after - 1])
-        return f[after - 1] + part * (f[after] - f[after - 1])
+        after = bisect_right(x, x_value)
+        fraction = (x_value - x[after - 1]) / (x[after] - x[after - 1])
+        return f[after - 1] + fraction * (f[after] - f[after - 1])
 
     def corner_after(self, place: float, close: float = 0.0) -> float:
         """Return the next point's place, infinity behind the last; points `close` by are left."""
-        within = self._within(place)
+        within = self._in_period(place)
         after = bisect_right(self._corners, within + close)
         return place + self._corners[after] - within if after < len(self._corners) else math.inf
 
     def corner_before(self, place: float, close: float = 0.0) -> float:
         """Return the point before a place, minus infinity before the first."""
-        within = self._within(place)
+        within = self._in_period(place)
         before = bisect_left(self._corners, within - close)
         return place + self._corners[before - 1] - within if before else -math.inf
 
@@ -81,7 +81,7 @@ class LoadCurve:
         width = self._x[i + 1] - self._x[i]
         return (self._f[i + 1] - self._f[i]) / width if width else 0.0
 
-    def _within(self, place: float) -> float:
+    def _in_period(self, place: float) -> float:
         """Return a place in the period that begins with the first point."""
         if self.period is None:
             return place

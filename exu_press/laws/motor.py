@@ -74,9 +74,11 @@ def kloss(
     per_speed = -1.0 / (no_load_speed * breakdown_slip)
 
     def torque(speed: float) -> tuple[float, float]:
-        part = (1.0 - speed / no_load_speed) / breakdown_slip
-        below = 1.0 + part * part
-        return twice * (part / below), twice * per_speed * (1.0 - part * part) / below / below
+        relative_slip = (1.0 - speed / no_load_speed) / breakdown_slip
+        denominator = 1.0 + relative_slip * relative_slip
+        return twice * (relative_slip / denominator), twice * per_speed * (
+            1.0 - relative_slip * relative_slip
+        ) / denominator / denominator
 
     return torque
 

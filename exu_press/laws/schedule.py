@@ -137,9 +137,9 @@ class Schedule:
             speed: of the crank, rad/s, from which corners over the angle are foreseen.
         """
         soonest = min((at for at in (*self.starts, *self.stops) if at > time), default=math.inf)
-        left = self.to_stop_angle(angle)
-        if speed > 0.0 and NEAR < left < math.inf:
-            soonest = min(soonest, time + left / speed)
+        remaining = self.to_stop_angle(angle)
+        if speed > 0.0 and NEAR < remaining < math.inf:
+            soonest = min(soonest, time + remaining / speed)
         start = (self._clutch_on, self._brake_off)
         stop = (self._clutch_on, self._clutch_off, self._brake_on)
         for ramp in start if self.running else stop:
@@ -147,11 +147,11 @@ class Schedule:
                 continue
             command = self._start if ramp in start else self._stop
             since = command.since(ramp, time, angle)
-            for place in (ramp.begin, ramp.end):
-                if not ramp.over_angle and place > since:
-                    soonest = min(soonest, command.time + place)
-                elif ramp.over_angle and speed > 0.0 and place > since + NEAR:
-                    soonest = min(soonest, time + (place - since) / speed)
+            for edge in (ramp.begin, ramp.end):
+                if not ramp.over_angle and edge > since:
+                    soonest = min(soonest, command.time + edge)
+                elif ramp.over_angle and speed > 0.0 and edge > since + NEAR:
+                    soonest = min(soonest, time + (edge - since) / speed)
         return soonest
 
     def accept(self, time: float, angle: float) -> None:
@@ -168,8 +168,8 @@ class Schedule:
 
     def memory(self) -> list[float]:
         """Return the commands so far, as numbers."""
-        given = self._start.time, self._start.angle, self._stop.time, self._stop.angle
-        return [float(self.running), *given]
+        commands = self._start.time, self._start.angle, self._stop.time, self._stop.angle
+        return [float(self.running), *commands]
 
     def recall(self, memory: Sequence[float]) -> None:
         """Take over another's memory."""

@@ -138,8 +138,8 @@ class Cut:
         if phase == "cut":
             return 0.0 - sheet.stripping_force(penetration, rate)
         if phase == "cracking":
-            left = 1.0 - self._since(time, penetration, rate) / sheet.crack_time
-            return sheet.curve.forces[-1] * min(1.0, max(0.0, left))
+            remaining = 1.0 - self._since(time, penetration, rate) / sheet.crack_time
+            return sheet.curve.forces[-1] * min(1.0, max(0.0, remaining))
         if penetration >= self._deepest or self._deepest <= self._elastic:
             return sheet.curve(penetration)
         unloaded = sheet.curve(self._deepest) - self._stiffness * (self._deepest - penetration)
@@ -165,10 +165,10 @@ class Cut:
             loose = self._deepest - sheet.curve(self._deepest) / self._stiffness
             corners = [*(x for x in sheet.curve.places if x > self._deepest), self._deepest, loose]
         ahead = [x - penetration for x in corners if (x - penetration) * rate > close * abs(rate)]
-        left = sheet.fracture - penetration
-        if phase == "whole" and 0.0 <= left <= close and rate > 0.0:
-            return time + left / rate + sheet.crack_time  # as good as fractured
-        return min((time + way / rate for way in ahead), default=math.inf)
+        remaining = sheet.fracture - penetration
+        if phase == "whole" and 0.0 <= remaining <= close and rate > 0.0:
+            return time + remaining / rate + sheet.crack_time  # as good as fractured
+        return min((time + distance / rate for distance in ahead), default=math.inf)
 
     def accept(self, time: float, penetration: float, rate: float) -> None:
         """Keep the state at the end of a step."""

@@ -114,7 +114,7 @@ class Pressed:
         angle, rate = (cast(float, self._mbs.GetObjectOutput(self.item, kind)) for kind in kinds)
         capacity = self.capacity(time)
         turned_back = self.state == SLIPS and self._way * rate <= 0.0
-        slips = not turned_back and self.coupling.beyond(angle, rate, capacity) > 0.0
+        slips = not turned_back and self.coupling.excess_torque(angle, rate, capacity) > 0.0
         self._way = math.copysign(1.0, self.coupling.torque(angle, rate, capacity))
         self._slope = (rate - self._rate) / step if step > 0.0 else 0.0
         self._rate = rate

@@ -14,8 +14,8 @@ def lengths(vectors: Array) -> Array:
 
     Column by column: NumPy's norm of short rows takes ten times as long, and finds the same.
     """
-    first, *others = vectors.T
-    squares = first * first
-    for column in others:
+    first_column, *further_columns = vectors.T
+    squares = first_column * first_column
+    for column in further_columns:
         squares += column * column
     return np.asarray(np.sqrt(squares, out=squares))

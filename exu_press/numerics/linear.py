@@ -70,9 +70,9 @@ class Equations:
         if self._small:
             return self.solve(np.eye(size, count, -first)).dot
 
-        def solved(right: Array) -> Array:
+        def solve_block(right: Array) -> Array:
             whole = np.zeros((size, right.shape[1]))
             whole[first : first + count] = right
             return self.solve(whole)
 
-        return solved
+        return solve_block

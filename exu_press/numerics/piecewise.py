@@ -19,9 +19,11 @@ def hermite(x: Array, values: Array, slopes: Array) -> Array:
     """Return the coefficients (4, ..., n - 1) that meet values and slopes (..., n) at x (n,)."""
     step = np.diff(x)
     chord = np.diff(values) / step
-    left, right = slopes[..., :-1], slopes[..., 1:]
-    square = (3.0 * chord - 2.0 * left - right) / step
-    return np.stack([values[..., :-1], left, square, (left + right - 2.0 * chord) / step**2])
+    left_slope, right_slope = slopes[..., :-1], slopes[..., 1:]
+    square = (3.0 * chord - 2.0 * left_slope - right_slope) / step
+    return np.stack(
+        [values[..., :-1], left_slope, square, (left_slope + right_slope - 2.0 * chord) / step**2]
+    )
 
 
 def spline(
@@ -49,9 +51,11 @@ def spline(
             matrix[end, [a, b]] = 2.0, 1.0
             right[..., end] = 3.0 * chord[..., near]
         else:
-            outer, other = step[near] ** -2, step[next_one] ** -2
-            matrix[end, [a, b, c]] = outer, outer - other, -other
-            right[..., end] = 2.0 * (outer * chord[..., near] - other * chord[..., next_one])
+            outer_weight, inner_weight = step[near] ** -2, step[next_one] ** -2
+            matrix[end, [a, b, c]] = outer_weight, outer_weight - inner_weight, -inner_weight
+            right[..., end] = 2.0 * (
+                outer_weight * chord[..., near] - inner_weight * chord[..., next_one]
+            )
     slopes = np.asarray(np.linalg.solve(matrix, right.reshape(-1, len(x)).T).T, float)
     return hermite(x, values, slopes.reshape(values.shape))
 
@@ -68,10 +72,10 @@ def evaluate(x: Array, coefficients: Array, at: Array | float, derivative: int =
     Returns:
         (..., m), or (...) at one place.
     """
-    left = np.searchsorted(x, at, side="right") - 1
-    left = np.minimum(np.maximum(left, 0), len(x) - 2)
-    u = at - x[left]
-    c0, c1, c2, c3 = (c[..., left] for c in coefficients)
+    interval = np.searchsorted(x, at, side="right") - 1
+    interval = np.minimum(np.maximum(interval, 0), len(x) - 2)
+    u = at - x[interval]
+    c0, c1, c2, c3 = (c[..., interval] for c in coefficients)
     if derivative:
         return np.asarray((3.0 * c3 * u + 2.0 * c2) * u + c1)
     return np.asarray(((c3 * u + c2) * u + c1) * u + c0)
@@ -79,11 +83,11 @@ def evaluate(x: Array, coefficients: Array, at: Array | float, derivative: int =
 
 def integral(x: Array, values: Array) -> Array:
     """Return the integral (n,) from x[0] to each x (n,), straight between the values (n,)."""
-    found, steps = np.zeros(len(x)), np.diff(x)
+    running_sum, steps = np.zeros(len(x)), np.diff(x)
     steps *= 0.5
     steps *= values[1:] + values[:-1]
-    np.cumsum(steps, out=found[1:])
-    return found
+    np.cumsum(steps, out=running_sum[1:])
+    return running_sum
 
 
 def slopes(x: Array, values: Array) -> Array:
@@ -91,11 +95,11 @@ def slopes(x: Array, values: Array) -> Array:
 
     Part by part: of a long record its dozen arrays would not stay near the processor.
     """
-    found = np.empty(len(x))
+    gradient = np.empty(len(x))
     for begin in range(0, len(x), AT_ONCE):
         end = begin + AT_ONCE
         first = max(begin - 1, 0)
-        found[begin:end] = np.gradient(values[first : end + 1], x[first : end + 1])[
+        gradient[begin:end] = np.gradient(values[first : end + 1], x[first : end + 1])[
             begin - first : end - first
         ]
-    return found
+    return gradient

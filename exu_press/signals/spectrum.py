@@ -71,7 +71,7 @@ def amplitude_spectrum(
     finer = _amplitudes(x, values, window, 2 * number)[1][: len(amplitude)]
     every = np.unique([*range(0, len(x), 2), len(x) - 1])
     coarser = _amplitudes(x[every], values[every], window, number)[1]
-    error = max(float(np.abs(other - amplitude).max()) for other in (finer, coarser))
+    error = max(float(np.abs(refined - amplitude).max()) for refined in (finer, coarser))
     return Spectrum(frequency, amplitude, error, window, _lobe(window) / span, number)
 
 
@@ -82,8 +82,8 @@ def _amplitudes(x: Array, values: Array, window: str, cells: int) -> tuple[Array
     means = cell_means(x, values, edges)
     frequency, power = periodogram(means, rate, window, detrend="constant", scaling="spectrum")
     inner = slice(1, (cells + 1) // 2)
-    found = np.sqrt(2.0 * power[inner]) / np.sinc(frequency[inner] / rate)
-    return np.asarray(frequency[inner]), np.asarray(found)
+    amplitude = np.sqrt(2.0 * power[inner]) / np.sinc(frequency[inner] / rate)
+    return np.asarray(frequency[inner]), np.asarray(amplitude)
 
 
 def _lobe(window: str) -> float:
@@ -136,10 +136,10 @@ def spectrogram(x: Array, values: Array, width: float, *, cells: int | None = No
         get_window("hann", length), max(1, length // 4), rate, scale_to="magnitude"
     )
     first, last = transform.lower_border_end[1], transform.upper_border_begin(number)[1]
-    found = np.abs(transform.stft_detrend(means, "constant", p0=first, p1=last))
+    transformed = np.abs(transform.stft_detrend(means, "constant", p0=first, p1=last))
     frequency = transform.f[1:-1]
     # one-sided: half of a sine's amplitude is at the negative frequency
-    amplitude = 2.0 * found[1:-1] / np.sinc(frequency / rate)[:, None]
+    amplitude = 2.0 * transformed[1:-1] / np.sinc(frequency / rate)[:, None]
     centres = x[0] + transform.t(number, p0=first, p1=last)
     return Spectrogram(np.asarray(centres), np.asarray(frequency), amplitude, length / rate)
 
@@ -169,8 +169,8 @@ def cell_means(x: Array, values: Array, edges: Array) -> Array:
             f"cells from {edges[0]:g} to {edges[-1]:g}: allowed are {x[0]:g} to {x[-1]:g}"
         )
     at = np.clip(edges, x[0], x[-1])
-    left = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
-    beyond = at - x[left]
-    slope = (values[left + 1] - values[left]) / (x[left + 1] - x[left])
-    area = integral(x, values)[left] + beyond * (values[left] + 0.5 * beyond * slope)
+    interval = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
+    beyond = at - x[interval]
+    slope = (values[interval + 1] - values[interval]) / (x[interval + 1] - x[interval])
+    area = integral(x, values)[interval] + beyond * (values[interval] + 0.5 * beyond * slope)
     return np.asarray(np.diff(area) / np.diff(edges))

@@ -46,7 +46,7 @@ def test_what_slips_has_its_capacity_and_holds_with_it_when_it_stops():
     for _ in range(100):
         angle += 1e-3
         assert coupling.torque(angle, 1.0, 100.0) == 100.0
-        assert coupling.beyond(angle, 1.0, 100.0) > 0.0
+        assert coupling.excess_torque(angle, 1.0, 100.0) > 0.0
         coupling.accept(1e-3, angle, 1.0, 100.0)
     assert coupling.torque(angle, 0.0, 100.0) == pytest.approx(100.0, rel=1e-3)
     assert coupling.torque(angle - 5e-4, 0.0, 100.0) == pytest.approx(50.0, rel=1e-3)

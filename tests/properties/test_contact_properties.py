@@ -171,8 +171,8 @@ def test_a_bristle_makes_no_energy(friction, history):
     for v, h in history:
         mu, _, following = friction.advance(v, z, h, v_start)
         work, end = work_on_a_bristle(friction, v if v_start is None else v_start, v, z, h)
-        stored = friction.stored(following) - friction.stored(z)
-        size = friction.mu_static * h * max(abs(v), abs(v_start or v)) + friction.stored(z)
+        stored = friction.stored_energy(following) - friction.stored_energy(z)
+        size = friction.mu_static * h * max(abs(v), abs(v_start or v)) + friction.stored_energy(z)
         assert following == pytest.approx(end, rel=1e-6, abs=1e-9 / friction.sigma_0)
         assert work - stored >= -1e-9 * size
         assert mu * v - friction.stored_power(v, following) >= -1e-12 * abs(mu * v)

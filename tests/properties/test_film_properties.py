@@ -6,7 +6,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from exu_press.laws.film import ball, dissipated, finite, pi_film, pinkus, short, with_asperities
+from exu_press.laws.film import (
+    ball,
+    dissipated_power,
+    finite,
+    pi_film,
+    pinkus,
+    short,
+    with_asperities,
+)
 
 FILMS = {
     "pinkus": pinkus(),
@@ -40,7 +48,7 @@ def test_finite_and_dissipative(law, gap, eps_dot, eps_w):
     force = law(1.0 - gap, eps_dot, eps_w)
     assert all(map(math.isfinite, force))
     size = math.hypot(force[0], force[1]) * math.hypot(eps_dot, eps_w)
-    assert dissipated(force, eps_dot, eps_w) >= -1e-9 * size
+    assert dissipated_power(force, eps_dot, eps_w) >= -1e-9 * size
 
 
 @EVERY
@@ -66,7 +74,7 @@ def test_mixed_film_holds_at_any_penetration(law, eps, eps_dot, eps_w):
     force = law(eps, eps_dot, eps_w)
     assert all(map(math.isfinite, force))
     size = math.hypot(force[0], force[1]) * math.hypot(eps_dot, eps_w)
-    assert dissipated(force, eps_dot, eps_w) >= -1e-9 * size
+    assert dissipated_power(force, eps_dot, eps_w) >= -1e-9 * size
 
 
 @pytest.mark.parametrize("law", FILMS.values(), ids=FILMS.keys())

@@ -3,7 +3,7 @@
 from exu_press.laws.film.asperities import pad_with_asperities, with_asperities
 from exu_press.laws.film.ball import BallFilm, ball, socket_drag
 from exu_press.laws.film.catalogue import FILM_LAWS, FilmEntry
-from exu_press.laws.film.contract import FilmForce, FilmLaw, dissipated, film_scale
+from exu_press.laws.film.contract import FilmForce, FilmLaw, dissipated_power, film_scale
 from exu_press.laws.film.finite_bearing import finite
 from exu_press.laws.film.long_bearing import pi_film, pinkus
 from exu_press.laws.film.plane_pad import PadFilm, PadLaw, plane_pad
@@ -18,7 +18,7 @@ __all__ = [
     "PadFilm",
     "PadLaw",
     "ball",
-    "dissipated",
+    "dissipated_power",
     "film_scale",
     "finite",
     "pad_with_asperities",

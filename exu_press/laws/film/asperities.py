@@ -76,7 +76,7 @@ def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
     )
     onset = 1.0 - onset_ratio
 
-    def mixed(eps: float, eps_dot: float, eps_w: float) -> FilmForce:
+    def mixed_law(eps: float, eps_dot: float, eps_w: float) -> FilmForce:
         if not eps > onset:
             return law(eps, eps_dot, eps_w)
         effective, slope, bend = effective_ratio(eps, onset_ratio)
@@ -99,7 +99,7 @@ def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
             slope * shear_eps,
         )
 
-    return mixed
+    return mixed_law
 
 
 def pad_with_asperities(law: PadLaw, onset: float) -> PadLaw:
@@ -125,28 +125,28 @@ def pad_with_asperities(law: PadLaw, onset: float) -> PadLaw:
     """
     positive(onset=onset)
 
-    def mixed(h_1: float, h_2: float, rate_1: float, rate_2: float, sliding: float) -> PadFilm:
+    def mixed_law(h_1: float, h_2: float, rate_1: float, rate_2: float, sliding: float) -> PadFilm:
         if h_1 >= onset and h_2 >= onset:
             return law(h_1, h_2, rate_1, rate_2, sliding)
         open_1, slope_1, bend_1 = _open_gap(h_1, onset)
         open_2, slope_2, bend_2 = _open_gap(h_2, onset)
         f = law(open_1, open_2, slope_1 * rate_1, slope_2 * rate_2, sliding)
         more_1, more_2 = bend_1 * rate_1, bend_2 * rate_2
-        found = [slope_1 * f[0], slope_2 * f[1], f[2]]
+        film = [slope_1 * f[0], slope_2 * f[1], f[2]]
         for row, factor in ((3, slope_1), (8, slope_2), (13, 1.0)):
             by_1, by_2, by_rate_1, by_rate_2, by_sliding = f[row : row + 5]
-            found += [
+            film += [
                 factor * (by_1 * slope_1 + by_rate_1 * more_1),
                 factor * (by_2 * slope_2 + by_rate_2 * more_2),
                 factor * by_rate_1 * slope_1,
                 factor * by_rate_2 * slope_2,
                 factor * by_sliding,
             ]
-        found[3] += bend_1 * f[0]
-        found[9] += bend_2 * f[1]
-        return tuple(found)
+        film[3] += bend_1 * f[0]
+        film[9] += bend_2 * f[1]
+        return tuple(film)
 
-    return mixed
+    return mixed_law
 
 
 def _open_gap(gap: float, onset: float) -> tuple[float, float, float]:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from exu_press.laws.contact_parameters import demand
 from exu_press.laws.film.asperities import effective_ratio, with_asperities
 from exu_press.laws.film.contract import FilmLaw
-from exu_press.laws.film.tabulated import interpolated, tabulated
+from exu_press.laws.film.tabulated import interpolation_table, tabulated_law
 
 __all__ = ["NARROWEST_CAP", "WIDEST_CAP", "BallFilm", "ball", "socket_drag"]
 
@@ -105,19 +105,19 @@ def ball(cap_angle: float = WIDEST_CAP, onset_ratio: float | None = None) -> Bal
         "Reynolds' equation, tabulated",
     )
     across, spin = socket_drag(cap_angle)
-    law = tabulated(interpolated(TABLE, "angle", cap_angle), across)
+    law = tabulated_law(interpolation_table(TABLE, "angle", cap_angle), across)
     if onset_ratio is None:
         return BallFilm(law, spin)
     onset = 1.0 - onset_ratio
 
-    def mixed(eps: float) -> tuple[float, float]:
+    def mixed_spin(eps: float) -> tuple[float, float]:
         if not eps > onset:
             return spin(eps)
         effective, slope, _ = effective_ratio(eps, onset_ratio)
         j, d_j = spin(effective)
         return j, slope * d_j
 
-    return BallFilm(with_asperities(law, onset_ratio), mixed)
+    return BallFilm(with_asperities(law, onset_ratio), mixed_spin)
 
 
 def socket_drag(
@@ -176,12 +176,12 @@ def socket_drag(
         d_plain = (slope - plain) / eps
         return plain, squared, d_plain, (d_plain - 2.0 * eps * squared) / square
 
-    def across(eps: float) -> tuple[float, float]:
+    def drag_across(eps: float) -> tuple[float, float]:
         plain, squared, d_plain, d_squared = integrals(eps)
         return 2.0 * math.pi * (plain + squared), 2.0 * math.pi * (d_plain + d_squared)
 
-    def along(eps: float) -> tuple[float, float]:
+    def drag_along(eps: float) -> tuple[float, float]:
         plain, squared, d_plain, d_squared = integrals(eps)
         return 4.0 * math.pi * (plain - squared), 4.0 * math.pi * (d_plain - d_squared)
 
-    return across, along
+    return drag_across, drag_along

@@ -6,7 +6,7 @@ from typing import Final
 
 from exu_press.laws.contact_parameters import positive
 
-__all__ = ["AROUND", "AT_REST", "OUTSIDE", "FilmForce", "FilmLaw", "dissipated", "film_scale"]
+__all__ = ["AROUND", "AT_REST", "OUTSIDE", "FilmForce", "FilmLaw", "dissipated_power", "film_scale"]
 
 FilmForce = tuple[float, float, float, float, float, float, float, float, float, float]
 """f_r, f_t, then df_r and df_t by eps, eps_dot and eps_w: three of f_r first, then three of f_t.
@@ -61,7 +61,7 @@ def film_scale(viscosity: float, length: float, radius: float, clearance: float)
     return viscosity * length * radius**3 / clearance**2
 
 
-def dissipated(force: FilmForce, eps_dot: float, eps_w: float) -> float:
+def dissipated_power(force: FilmForce, eps_dot: float, eps_w: float) -> float:
     r"""Power that a film's pressure takes out of its mechanism, divided by P c.
 
     .. math:: D = -f_r \dot\varepsilon + \tfrac12 f_t\, \varepsilon W \ge 0   \quad [1/s^2]
@@ -73,7 +73,7 @@ def dissipated(force: FilmForce, eps_dot: float, eps_w: float) -> float:
     Examples
     --------
     >>> from exu_press.laws.film import pi_film
-    >>> round(dissipated(pi_film()(0.0, 1.0, 0.0), 1.0, 0.0) / math.pi, 12)
+    >>> round(dissipated_power(pi_film()(0.0, 1.0, 0.0), 1.0, 0.0) / math.pi, 12)
     6.0
     """
     return 0.5 * force[1] * eps_w - force[0] * eps_dot

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from exu_press.laws.contact_parameters import demand
 from exu_press.laws.film.contract import FilmLaw
-from exu_press.laws.film.tabulated import interpolated, tabulated
+from exu_press.laws.film.tabulated import interpolation_table, tabulated_law
 
 __all__ = ["finite"]
 
@@ -69,4 +69,4 @@ def finite(length_to_diameter: float) -> FilmLaw:
         "0.1 <= length_to_diameter <= 4; narrower: short, wider: pi_film",
         "Reynolds' equation, tabulated",
     )
-    return tabulated(interpolated(TABLE, "ratio", length_to_diameter))
+    return tabulated_law(interpolation_table(TABLE, "ratio", length_to_diameter))

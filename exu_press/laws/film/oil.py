@@ -90,8 +90,8 @@ def barus(viscosity: float, coefficient: float, pressure: float) -> tuple[float,
     .. [1] Barus, C. Isothermals, isopiestics and isometrics relative to viscosity. Am. J. Sci. 45
        (1893) 87-96.
     """
-    found = viscosity * math.exp(coefficient * pressure)
-    return found, coefficient * found
+    viscosity_under_pressure = viscosity * math.exp(coefficient * pressure)
+    return viscosity_under_pressure, coefficient * viscosity_under_pressure
 
 
 def roelands(viscosity: float, coefficient: float, pressure: float) -> tuple[float, float]:
@@ -131,8 +131,8 @@ def roelands(viscosity: float, coefficient: float, pressure: float) -> tuple[flo
     reference, above = 1.96e8, math.log(viscosity) + 9.67
     z = coefficient * reference / above
     ratio = 1.0 + pressure / reference
-    found = viscosity * math.exp(above * (ratio**z - 1.0))
-    return found, found * coefficient * ratio ** (z - 1.0)
+    viscosity_under_pressure = viscosity * math.exp(above * (ratio**z - 1.0))
+    return viscosity_under_pressure, viscosity_under_pressure * coefficient * ratio ** (z - 1.0)
 
 
 def film_temperature(

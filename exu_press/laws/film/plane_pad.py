@@ -110,16 +110,16 @@ def plane_pad(length: float, width: float) -> PadLaw:
         "0.01 to 100",
         "Kantorovich's method",
     )
-    kappa, fullness = _across(ratio)
+    kappa, fullness = _crosswise_shape(ratio)
     root = math.sqrt(12.0 * length**3 * width * fullness)
     half = 0.5 / length
-    places = [0.5 - 0.5 * math.cos(math.pi * i / CELLS) for i in range(CELLS + 1)]
-    sizes = [after - before for before, after in pairwise(places)]
+    positions = [0.5 - 0.5 * math.cos(math.pi * i / CELLS) for i in range(CELLS + 1)]
+    sizes = [after - before for before, after in pairwise(positions)]
     nodes: list[Node] = []
     for i in range(1, CELLS):
-        share, place = 0.5 * (sizes[i - 1] + sizes[i]), places[i]
-        rear, front = root * share * (1.0 - place), root * share * place
-        nodes.append((place, rear, front, kappa * share, 2.0 / sizes[i - 1]))
+        share, position = 0.5 * (sizes[i - 1] + sizes[i]), positions[i]
+        rear, front = root * share * (1.0 - position), root * share * position
+        nodes.append((position, rear, front, kappa * share, 2.0 / sizes[i - 1]))
     last = 2.0 / sizes[-1]
 
     def law(h_1: float, h_2: float, rate_1: float, rate_2: float, sliding: float) -> PadFilm:
@@ -129,10 +129,10 @@ def plane_pad(length: float, width: float) -> PadLaw:
             return OUTSIDE
         tilt = h_2 - h_1
         wedge = half * sliding * tilt
-        f_1, f_2, a_11, a_12, a_22, by_11, by_12, by_21, by_22 = _pressed(
+        f_1, f_2, a_11, a_12, a_22, by_11, by_12, by_21, by_22 = _pressure_forces(
             h_1, h_2, rate_1 - wedge, rate_2 - wedge, nodes, last
         )
-        shear, shear_1, shear_2 = _sheared(h_1, h_2, length * width)
+        shear, shear_1, shear_2 = _shear_integral(h_1, h_2, length * width)
         # v_1 and v_2 change with the tilt and with the sliding
         both_1, both_2 = a_11 + a_12, a_12 + a_22
         along = half * sliding
@@ -164,7 +164,7 @@ def plane_pad(length: float, width: float) -> PadLaw:
     return law
 
 
-def _across(ratio: float) -> tuple[float, float]:
+def _crosswise_shape(ratio: float) -> tuple[float, float]:
     """Return kappa of the equation along the pad, and (int phi)^2 / (w int phi^2) of the shape."""
     x = 0.5 * math.sqrt(10.0) * ratio
     if x < 0.05:  # else digits are lost: a parabola, and its error to the first order in x^2
@@ -175,7 +175,7 @@ def _across(ratio: float) -> tuple[float, float]:
     return 5.0 * (flat - steep) / square, mean * mean / square
 
 
-def _pressed(
+def _pressure_forces(
     h_1: float, h_2: float, v_1: float, v_2: float, nodes: list[Node], last: float
 ) -> Pressed:
     """Return both ends' forces by pressure, minus their derivatives by v, and those by h.
@@ -203,9 +203,9 @@ def _from_rear(
     gaps = [h_1]
     flows: list[float] = []
     pivots: list[float] = []
-    ones: list[float] = []  # eliminated, of the sources that v_1 and v_2 alone would be
-    twos: list[float] = []
-    gap, one, two, pivot = h_1, 0.0, 0.0, 1.0
+    rear_sources: list[float] = []  # eliminated, of the sources that v_1 and v_2 alone would be
+    front_sources: list[float] = []
+    gap, rear_response, front_response, pivot = h_1, 0.0, 0.0, 1.0
     count, ahead = len(nodes), h_1 + tilt * nodes[0][0]
     flow = nodes[0][4] * gap * gap * ahead * ahead / (gap + ahead)
     before = 0.0
@@ -220,45 +220,58 @@ def _from_rear(
         back = before / pivot if i > 0 else 0.0
         flow = cell * gap * gap * ahead * ahead / (gap + ahead)
         now = before + flow + kappa * gap * gap * gap - back * before
-        one, two = rear + back * one, front + back * two
-        if not (v_1 * one + v_2 * two < 0.0 or at_rest):
+        rear_response, front_response = rear + back * rear_response, front + back * front_response
+        if not (v_1 * rear_response + v_2 * front_response < 0.0 or at_rest):
             break
         pivot = now
         gaps.append(gap)
         flows.append(before)
         pivots.append(pivot)
-        ones.append(one)
-        twos.append(two)
-    full = len(ones)
+        rear_sources.append(rear_response)
+        front_sources.append(front_response)
+    full = len(rear_sources)
     if full == 0:
         return NOTHING
     # behind the last full node lies the end, or a node without pressure
     gaps.append(ahead if full == count else gap)
-    place = 1.0 if full == count else nodes[full][0]
+    position = 1.0 if full == count else nodes[full][0]
     flows.append(flow if full == count else before)
     a_11 = a_12 = a_22 = by_1 = by_2 = 0.0
-    one = two = 0.0
+    rear_response = front_response = 0.0
     for i in range(full - 1, -2, -1):
-        one_ahead, two_ahead, place_ahead = one, two, place
+        rear_ahead, front_ahead, position_ahead = rear_response, front_response, position
         gap, ahead, flow = gaps[i + 1], gaps[i + 2], flows[i + 1]
         if i >= 0:
-            place, rear, front, kappa, _ = nodes[i]
-            one = (ones[i] + flow * one_ahead) / pivots[i]
-            two = (twos[i] + flow * two_ahead) / pivots[i]
-            a_11 += rear * one
-            a_12 += front * one
-            a_22 += front * two
-            stiff = 3.0 * kappa * gap * gap * (1.0 - place) * (v_1 * one + v_2 * two)
-            by_1 += stiff * one
-            by_2 += stiff * two
+            position, rear, front, kappa, _ = nodes[i]
+            rear_response = (rear_sources[i] + flow * rear_ahead) / pivots[i]
+            front_response = (front_sources[i] + flow * front_ahead) / pivots[i]
+            a_11 += rear * rear_response
+            a_12 += front * rear_response
+            a_22 += front * front_response
+            stiff = (
+                3.0
+                * kappa
+                * gap
+                * gap
+                * (1.0 - position)
+                * (v_1 * rear_response + v_2 * front_response)
+            )
+            by_1 += stiff * rear_response
+            by_2 += stiff * front_response
         else:
-            one = two = place = 0.0
+            rear_response = front_response = position = 0.0
         # the cell ahead: how its flow changes with the gap at the rear end
-        d_one, d_two, both = one_ahead - one, two_ahead - two, 1.0 / (gap + ahead)
-        change = (1.0 - place) * (2.0 / gap - both) + (1.0 - place_ahead) * (2.0 / ahead - both)
-        change *= flow * (v_1 * d_one + v_2 * d_two)
-        by_1 += change * d_one
-        by_2 += change * d_two
+        d_rear, d_front, both = (
+            rear_ahead - rear_response,
+            front_ahead - front_response,
+            1.0 / (gap + ahead),
+        )
+        change = (1.0 - position) * (2.0 / gap - both) + (1.0 - position_ahead) * (
+            2.0 / ahead - both
+        )
+        change *= flow * (v_1 * d_rear + v_2 * d_front)
+        by_1 += change * d_rear
+        by_2 += change * d_front
     f_1, f_2 = -a_11 * v_1 - a_12 * v_2, -a_12 * v_1 - a_22 * v_2
     # forces are of degree -3 in the gaps
     return (
@@ -274,19 +287,22 @@ def _from_rear(
     )
 
 
-def _sheared(h_1: float, h_2: float, area: float) -> tuple[float, float, float]:
+def _shear_integral(h_1: float, h_2: float, area: float) -> tuple[float, float, float]:
     """Return the integral of 1 / h over the pad, m, and its derivatives by both gaps."""
-    mean, part = 0.5 * (h_1 + h_2), (h_2 - h_1) / (h_1 + h_2)
-    if abs(part) < ALIKE:  # artanh(p) / p, and its derivative
-        square = part * part
-        whole, slope = 1.0 + square / 3.0 + 0.2 * square * square, part * (2.0 / 3.0 + 0.8 * square)
+    mean, taper = 0.5 * (h_1 + h_2), (h_2 - h_1) / (h_1 + h_2)
+    if abs(taper) < ALIKE:  # artanh(p) / p, and its derivative
+        square = taper * taper
+        whole, slope = (
+            1.0 + square / 3.0 + 0.2 * square * square,
+            taper * (2.0 / 3.0 + 0.8 * square),
+        )
     else:
-        whole = math.atanh(part) / part
-        slope = (1.0 / (1.0 - part * part) - whole) / part
+        whole = math.atanh(taper) / taper
+        slope = (1.0 / (1.0 - taper * taper) - whole) / taper
     shear, total = area * whole / mean, h_1 + h_2
-    by_mean, by_part = -0.5 * shear / mean, area * slope / mean
+    by_mean, by_taper = -0.5 * shear / mean, area * slope / mean
     return (
         shear,
-        by_mean - by_part * 2.0 * h_2 / (total * total),
-        by_mean + by_part * 2.0 * h_1 / (total * total),
+        by_mean - by_taper * 2.0 * h_2 / (total * total),
+        by_mean + by_taper * 2.0 * h_1 / (total * total),
     )

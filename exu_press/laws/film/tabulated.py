@@ -9,7 +9,7 @@ from typing import Literal
 
 from exu_press.laws.film.contract import AROUND, AT_REST, OUTSIDE, FilmForce, FilmLaw
 
-__all__ = ["interpolated", "tabulated"]
+__all__ = ["interpolation_table", "tabulated_law"]
 
 _Patch = tuple[float, ...]  # 16 coefficients, the power of x outside, that of y inside
 
@@ -19,7 +19,7 @@ Drag = Callable[[float], tuple[float, float]]
 """j(eps) and dj by eps."""
 
 
-def tabulated(table: _Table, drag: Drag | None = None) -> FilmLaw:
+def tabulated_law(table: _Table, drag: Drag | None = None) -> FilmLaw:
     r"""Film law from an interpolated table of ln E and m.
 
     .. math::
@@ -33,7 +33,7 @@ def tabulated(table: _Table, drag: Drag | None = None) -> FilmLaw:
 
     Parameters
     ----------
-    table : from `interpolated`
+    table : from `interpolation_table`
     drag : j(eps) of the sheared film and its derivative; a journal's unless given
 
     Returns
@@ -120,7 +120,7 @@ def _cubic(p: _Patch, x: float, y: float) -> tuple[float, float, float]:
 
 
 @lru_cache(maxsize=32)  # a scene is made, checked and changed with the same bearing
-def interpolated(file: Path, over: str, at: float) -> _Table:
+def interpolation_table(file: Path, over: str, at: float) -> _Table:
     """Return knots of -ln(1 - eps) and of the direction, and the patches of ln E and m between.
 
     Both are bicubic splines, twice differentiable.

@@ -9,7 +9,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
 from exu_press import InputError
-from exu_press.laws.film import ball, dissipated, socket_drag
+from exu_press.laws.film import ball, dissipated_power, socket_drag
 from tabulation.reynolds_sphere import solve_cap
 
 CAPS = [math.pi / 4, 1.2, math.pi / 2]
@@ -160,7 +160,7 @@ def test_derivatives_against_differences(cap_angle, onset):
                 assert response[found] == pytest.approx(slope, rel=1e-3, abs=1e-3 * size)
         slope = (law(eps + step, *at[1:])[8] - law(eps - step, *at[1:])[8]) / (2.0 * step)
         assert response[9] == pytest.approx(slope, rel=1e-3, abs=1e-4)
-        assert dissipated(response, at[1], at[2]) >= 0.0
+        assert dissipated_power(response, at[1], at[2]) >= 0.0
 
 
 @pytest.mark.parametrize("cap_angle", CAPS)

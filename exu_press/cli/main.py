@@ -6,12 +6,14 @@ import signal
 import sys
 import warnings
 from collections.abc import Sequence
+from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
+from typing import TextIO
 
 import exu_press
-from exu_press.errors import InputError
+from exu_press.errors import DISK_FULL, DiskFullError, InputError
 
 __all__ = ["main"]
 
@@ -36,6 +38,9 @@ COMMANDS = (
 )
 """Modules beside this one; the one that is asked for is loaded, which takes up to a second."""
 
+STOPPED = 3
+"""Exit status of a command that could not get to its end."""
+
 INTERRUPTED = 130
 CLOSED_PIPE = 141
 """Exit statuses that a shell gives a program that SIGINT or SIGPIPE ended."""
@@ -45,12 +50,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command.
 
     Returns:
-        0 at its end, 2 for wrong input, 3 if an integration stopped early; 130 after Ctrl-C, 141
-        where the reader of the output has gone.
+        0 at its end, 2 for wrong input, 3 if an integration stopped early or a disk is full; 130
+        after Ctrl-C, 141 where the reader of the output has gone.
     """
+    _open_closed_streams()
+    os.environ.pop("MPLBACKEND", None)  # pictures go to files: no window of matplotlib is opened
     try:
         status = _execute(arguments)
         sys.stdout.flush()
+    except DiskFullError as error:
+        print(f"exu-press: {error}", file=sys.stderr)
+        return STOPPED
     except InputError as error:
         print(f"exu-press: {error}", file=sys.stderr)
         return 2
@@ -58,15 +68,37 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("exu-press: interrupted", file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        for stream in (sys.stdout, sys.stderr):  # Python flushes them once more at its end
-            os.dup2(nowhere, stream.fileno())
+        _discard(sys.stdout, sys.stderr)
         return CLOSED_PIPE
     except OSError as error:  # of a path that no system takes, a disk that is full, and the like
-        said = InputError(f"{error.filename or 'the system'}: {error.strerror or error}")
-        print(f"exu-press: {said}", file=sys.stderr)
-        return 2
+        full = error.errno in DISK_FULL
+        where = error.filename or ("standard output" if full else "the system")
+        print(f"exu-press: {InputError(f'{where}: {error.strerror or error}')}", file=sys.stderr)
+        if full:
+            _discard(sys.stdout)
+        return STOPPED if full else 2
     return status
+
+
+def _discard(*streams: TextIO) -> None:
+    """Send what streams still hold to the null device: Python flushes them once more at its end."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in streams:
+        with suppress(OSError):  # no stream of the system
+            os.dup2(nowhere, stream.fileno())
+
+
+def _open_closed_streams() -> None:
+    """Open the standard streams that a caller closed (as `>&-` does) on the null device.
+
+    Else a file that is opened later takes the number of one of them, and is printed into.
+    """
+    for name, number, mode in (("stdin", 0, "r"), ("stdout", 1, "w"), ("stderr", 2, "w")):
+        with suppress(OSError):
+            os.fstat(number)
+            continue
+        os.open(os.devnull, os.O_RDWR)  # takes the least free number, which is this one
+        setattr(sys, name, os.fdopen(number, mode, encoding="utf-8", closefd=False))
 
 
 def _loaded(name: str) -> ModuleType:

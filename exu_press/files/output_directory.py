@@ -1,23 +1,26 @@
 """A directory for results: known to be writable before anything is run, never half a file in it."""
 
 import json
-import os
+import secrets
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError
+from exu_press.errors import DISK_FULL, DiskFullError, InputError
 
 __all__ = [
     "FORMATS",
     "PICTURES",
     "check_writable",
     "output_directory",
+    "refuse_link",
     "remove_pictures",
     "replacing",
+    "subdirectory",
     "write_json",
+    "writing",
 ]
 
 FORMATS = (".png", ".svg", ".pdf")
@@ -37,18 +40,47 @@ PICTURES = {
 
 
 def output_directory(path: str | Path) -> Path:
-    """Return a directory that exists and can be written to; raise InputError if it cannot."""
+    """Return a directory that exists and can be written to.
+
+    Raises:
+        InputError: it cannot.
+    """
     directory = Path(path)
     try:
         directory.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=directory):
             pass
     except OSError as error:
+        if error.errno in DISK_FULL:
+            raise DiskFullError(directory, error.strerror) from None
         raise InputError(
             f"--out {directory}: cannot be written to ({error.strerror}); "
             "allowed is a directory that exists or can be made"
         ) from None
     return directory
+
+
+def subdirectory(directory: Path, name: str) -> Path:
+    """Return a directory inside an output directory, made where there is none.
+
+    Raises:
+        InputError: it is a link, through which files outside would be written, or cannot be made.
+    """
+    refuse_link(directory / name)
+    return output_directory(directory / name)
+
+
+def refuse_link(path: Path) -> None:
+    """Refuse a link inside an output directory: what is written through it lands elsewhere.
+
+    Raises:
+        InputError: the path is a symbolic link, whether or not it leads anywhere.
+    """
+    if path.is_symlink():
+        raise InputError(
+            f"{path}: is a link to {path.readlink()}, which lies elsewhere; inside an output "
+            "directory nothing is written through links: remove it, or take another directory"
+        )
 
 
 def remove_pictures(directory: Path, command: str) -> None:
@@ -59,18 +91,38 @@ def remove_pictures(directory: Path, command: str) -> None:
 
 
 @contextmanager
-def replacing(path: Path) -> Iterator[Path]:
-    """Yield a temporary name beside `path`; on success it takes the place of `path`.
+def writing(path: Path) -> Iterator[None]:
+    """Turn an OSError of writing a file into one error that names the file.
 
-    Whatever goes wrong, an existing file stays as it was and no half file is left. OSError becomes
-    InputError.
+    Raises:
+        DiskFullError: there is no room left.
+        InputError: the file cannot be written for another reason.
     """
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        yield partial
-        partial.replace(path)
+        yield
     except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror})") from None
+        if error.errno in DISK_FULL:
+            raise DiskFullError(path, error.strerror) from None
+        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Yield a temporary file beside `path`; on success it takes the place of `path`.
+
+    Whatever goes wrong, an existing file stays as it was and no half file is left. The temporary
+    file has a random name and is made anew, so that no link that lies there is followed; a link at
+    `path` is replaced itself.
+
+    Raises:
+        InputError: as of `writing`.
+    """
+    partial = path.with_name(f".{path.name[:40]}.{secrets.token_hex(8)}.part")
+    try:
+        with writing(path):
+            partial.touch(exist_ok=False)
+            yield partial
+            partial.replace(path)
     finally:
         with suppress(OSError):  # on a file system that became read-only
             partial.unlink(missing_ok=True)
@@ -86,11 +138,8 @@ def check_writable(path: Path) -> None:
         raise InputError(f"{path}: there is no directory {path.parent}")
     if path.is_dir():
         raise InputError(f"{path}: is a directory; allowed is a file")
-    try:
-        with tempfile.TemporaryFile(dir=path.parent):
-            pass
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror})") from None
+    with writing(path), tempfile.TemporaryFile(dir=path.parent):
+        pass
 
 
 def write_json(path: Path, data: Any) -> None:

@@ -1,7 +1,6 @@
 """Many independent runs of one function, in processes or on Dask; finished ones are never lost."""
 
-from exu_press.parallel.lock import locked
 from exu_press.parallel.run import FILE, Batch, Chain, run_batch
 from exu_press.parallel.task import Row
 
-__all__ = ["FILE", "Batch", "Chain", "Row", "locked", "run_batch"]
+__all__ = ["FILE", "Batch", "Chain", "Row", "run_batch"]

@@ -2,11 +2,14 @@
 
 import json
 import os
+import stat
 from contextlib import AbstractContextManager
+from io import FileIO
 from pathlib import Path
 from typing import TypedDict
 
 from exu_press.errors import InputError
+from exu_press.files.output_directory import refuse_link, writing
 from exu_press.parallel.task import FAILED, TIME_LIMIT, WORKER_DIED, Row
 from exu_press.schema.stored import from_json
 
@@ -43,15 +46,15 @@ class RowFile(AbstractContextManager["RowFile", None]):
         self._path = path
         self._found: dict[str, tuple[Row, float | None]] = {}
         try:
-            text = path.read_bytes() if path.exists() else b""
+            self._file = _opened(path)
+            text = self._file.read()
             *lines, torn = text.split(b"\n")
             for number, line in enumerate(lines, start=1):
                 self._read(number, line)
             if torn and not torn.startswith(b"{"):
                 self._read(len(lines) + 1, torn)
             if torn:
-                os.truncate(path, len(text) - len(torn))
-            self._file = path.open("ab")
+                self._file.truncate(len(text) - len(torn))
         except OSError as error:
             raise InputError(f"{path}: cannot be opened ({error.strerror})") from None
 
@@ -88,13 +91,32 @@ class RowFile(AbstractContextManager["RowFile", None]):
         """
         record: Record = {"key": key, "time_limit": time_limit, "row": row}
         line = json.dumps(record, separators=(",", ":"), allow_nan=False) + "\n"
-        try:
-            self._file.write(line.encode())
-            self._file.flush()
+        with writing(self._path):
+            left = memoryview(line.encode())
+            while left:
+                left = left[self._file.write(left) :]
             os.fsync(self._file.fileno())
-        except OSError as error:
-            raise InputError(f"{self._path}: cannot be written ({error.strerror})") from None
         self._found[key] = row, time_limit
 
     def __exit__(self, *_: object) -> None:
         self._file.close()
+
+
+def _opened(path: Path) -> FileIO:
+    """Return a file to read and to append to, made where there is none; no link is followed.
+
+    Raises:
+        InputError: it is a link, has a second name, or is no file.
+        OSError: it cannot be opened.
+    """
+    refuse_link(path)
+    flags = os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK
+    number = os.open(path, flags, 0o666)
+    about = os.fstat(number)
+    if not stat.S_ISREG(about.st_mode) or about.st_nlink > 1:
+        os.close(number)
+        raise InputError(
+            f"{path}: is no file of its own (a device, or one of several names of a file); allowed "
+            "is a copy of it, or another directory"
+        )
+    return os.fdopen(number, "r+b", buffering=0)  # what a full disk does not take is not kept

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any, Protocol, Self
 
 from exu_press.errors import InputError
+from exu_press.files.lock import locked
 from exu_press.files.output_directory import output_directory
-from exu_press.parallel.lock import locked
 from exu_press.parallel.processes import Processes
 from exu_press.parallel.rows import RowFile
 from exu_press.parallel.task import TIME_LIMIT, Function, Row, Task, name_of, task_of

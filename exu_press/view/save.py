@@ -1,6 +1,8 @@
 """An animation as .mp4, .gif or numbered .png files, and a single picture; without a display."""
 
+import errno
 import itertools
+import os
 import re
 import shutil
 import subprocess
@@ -12,7 +14,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from PIL import Image
 
-from exu_press.errors import InputError
+from exu_press.errors import DiskFullError, InputError
 from exu_press.files.output_directory import check_writable, replacing
 from exu_press.mechanism.shapes import COLOURS as BODIES
 from exu_press.plots.style import COLOURS
@@ -151,6 +153,8 @@ def _write_mp4(path: Path, partial: Path, frames: Iterator[Image.Image], fps: fl
     _, said = _feed(process, itertools.chain([first], frames))
     if process.returncode:
         last = (said.decode(errors="replace").strip().splitlines() or ["no message"])[-1]
+        if os.strerror(errno.ENOSPC) in last:
+            raise DiskFullError(path)
         raise InputError(f"--save {path}: ffmpeg failed ({last})")
 
 

@@ -41,6 +41,35 @@ def test_a_closed_pipe_is_quiet(tmp_path):
     assert (tmp_path / "run.nc").exists()
 
 
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+def test_closed_streams_are_no_error(tmp_path, closed):
+    """What is opened later does not take their numbers, nor what is printed."""
+    arguments = "run slider_crank --set revolutions=0.01 --no-pictures --out ."
+    script = f"{COMMAND} {arguments} {closed}"
+    done = subprocess.run(["bash", "-c", script], cwd=tmp_path, capture_output=True, timeout=60)
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert exu_press.Result.load(tmp_path / "run.nc").completed
+
+
+def test_a_full_disk_under_the_output_is_said(tmp_path):
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run([COMMAND, "doctor"], stdout=full, stderr=subprocess.PIPE, timeout=60)
+    assert done.returncode == 3
+    assert done.stderr == b"exu-press: standard output: No space left on device\n"
+
+
+def test_a_display_that_matplotlib_does_not_know_is_not_needed(tmp_path):
+    arguments = ["run", "slider_crank", "--set", "revolutions=0.01", "--no-error", "--quiet"]
+    done = subprocess.run(
+        [COMMAND, *arguments, "--out", str(tmp_path)],
+        env={**os.environ, "MPLBACKEND": "nonsense"},
+        capture_output=True,
+        timeout=60,
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert (tmp_path / "slider.png").is_file()
+
+
 def test_ctrl_c_while_the_commands_are_loaded():
     code = """
 import os, signal, sys, exu_press.cli

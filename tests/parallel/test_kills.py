@@ -11,7 +11,8 @@ import batch_functions
 import pytest
 
 from exu_press import InputError
-from exu_press.parallel import locked, run_batch
+from exu_press.files.lock import locked
+from exu_press.parallel import run_batch
 
 RUNS = 24
 

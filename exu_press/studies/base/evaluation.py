@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError
+from exu_press.files.output_directory import output_directory, subdirectory
 from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import COMPLETED, Row
 from exu_press.quantities import quantity_of
@@ -154,7 +155,8 @@ def with_errors_of(
 ) -> list[Row]:
     """Return the rows of scenes with their errors."""
     plain = dataclasses.replace(study, errors=True, save_runs=False)
-    with Runs(plain, Path(directory) / CHECKED, label="errors", **how) as runs:
+    checked = subdirectory(output_directory(directory), CHECKED)
+    with Runs(plain, checked, label="errors", **how) as runs:
         return runs.of(scenes)
 
 

@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Any, Self
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import output_directory, write_json
-from exu_press.parallel import FILE, Batch, Row, locked
+from exu_press.files.lock import locked
+from exu_press.files.output_directory import output_directory, subdirectory, write_json
+from exu_press.parallel import FILE, Batch, Row
 from exu_press.parallel.task import Function
 from exu_press.quantities import own_modules, values_of
 from exu_press.result import Result
@@ -93,9 +94,8 @@ class Runs(Batch):
         errors = {"errors": True} if self._study.errors else {}
         arguments: list[dict[str, Any]] = [{"scene": s.to_dict(), **errors} for s in scenes]
         for each, file in zip(arguments, files, strict=False):
-            path = self.directory / file
-            output_directory(path.parent)
-            each["save"] = str(path.resolve())
+            inside = subdirectory(self.directory, str(Path(file).parent))
+            each["save"] = str(inside.resolve() / Path(file).name)
         return self.rows(arguments)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import output_directory, write_json
+from exu_press.files.output_directory import subdirectory, write_json
 from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import Row
 from exu_press.scene import Scene
@@ -253,8 +253,8 @@ def _save(report: Report, directory: Path) -> None:
     write_csv(directory / "trials.csv", columns)
     scenes = report.scenes
     scenes[report.chosen].save(directory / "chosen.toml", overwrite=True)
-    output_directory(directory / "front")
-    for old in (directory / "front").glob("*.toml"):
+    front = subdirectory(directory, "front")
+    for old in front.glob("*.toml"):
         old.unlink()
     for number, scene in enumerate(scenes, 1):
-        scene.save(directory / "front" / f"{number:02}.toml", overwrite=True)
+        scene.save(front / f"{number:02}.toml", overwrite=True)

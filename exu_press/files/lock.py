@@ -1,0 +1,38 @@
+"""One directory belongs to one command at a time."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+
+from exu_press.errors import InputError
+from exu_press.files.output_directory import refuse_link, writing
+
+__all__ = ["locked"]
+
+
+@contextmanager
+def locked(directory: Path) -> Iterator[Path]:
+    """Keep other processes out of a directory, and yield it; a killed process frees it.
+
+    May be nested.
+
+    Raises:
+        InputError: another process has it, or its lock file is a link.
+    """
+    file = directory.resolve() / ".lock"
+    refuse_link(file)
+    lock = FileLock(file, timeout=0, is_singleton=True)
+    with writing(file):
+        try:
+            lock.acquire()
+        except Timeout:
+            raise InputError(
+                f"{directory}: another run is writing here; allowed is to wait for it, or another "
+                "directory"
+            ) from None
+    try:
+        yield directory
+    finally:
+        lock.release()

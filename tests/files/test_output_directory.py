@@ -1,0 +1,141 @@
+"""What is written below --out: whole or not at all, never through a link, one command at a time."""
+
+import errno
+import os
+import subprocess
+import sys
+
+import pytest
+
+from exu_press import InputError
+from exu_press.cli import main
+from exu_press.errors import DiskFullError
+from exu_press.files.lock import locked
+from exu_press.files.output_directory import output_directory, replacing, subdirectory
+
+SECRET = '{"token": "secret"}'
+
+RUN = ["run", "slider_crank", "--set", "revolutions=0.01", "--no-error", "--no-pictures", "--quiet"]
+
+STUDY = """
+save_runs = true
+[scene]
+mechanism = "slider_crank"
+revolutions = 0.01
+[keys]
+speed_rpm = [100.0]
+"""
+
+
+@pytest.fixture
+def victim(tmp_path):
+    """A file outside the output directory, which must stay as it is."""
+    file = tmp_path / "victim.json"
+    file.write_text(SECRET)
+    yield file
+    assert file.read_text() == SECRET
+
+
+@pytest.fixture
+def out(tmp_path):
+    (tmp_path / "out").mkdir()
+    return tmp_path / "out"
+
+
+def test_a_file_has_the_usual_rights(tmp_path):
+    with replacing(tmp_path / "new") as partial:
+        partial.write_text("new")
+    (tmp_path / "usual").touch()
+    assert (tmp_path / "new").stat().st_mode == (tmp_path / "usual").stat().st_mode
+
+
+def test_a_temporary_name_is_not_known_beforehand(tmp_path):
+    names = set()
+    for _ in range(3):
+        with replacing(tmp_path / ("n" * 250)) as partial:
+            names.add(partial.name)
+    assert len(names) == 3
+
+
+def test_a_link_that_lies_at_the_temporary_name_is_not_followed(victim, out, monkeypatch):
+    monkeypatch.setattr("secrets.token_hex", lambda count: "0" * count)
+    (out / ".run.nc.00000000.part").symlink_to(victim)
+    with pytest.raises(InputError, match="cannot be written"), replacing(out / "run.nc"):
+        pass
+
+
+@pytest.mark.parametrize("name", ["run.nc", "summary.json"])
+def test_a_link_in_the_place_of_a_result_is_replaced(victim, out, name):
+    (out / name).symlink_to(victim)
+    assert main([*RUN, "--out", str(out)]) == 0
+    assert not (out / name).is_symlink()
+
+
+@pytest.mark.parametrize("name", ["runs.jsonl", ".lock", "runs"])
+@pytest.mark.parametrize("target", ["victim.json", "nothing", "directory"])
+def test_a_study_writes_through_no_link(victim, out, tmp_path, name, target, capsys):
+    (tmp_path / "directory").mkdir()
+    (out / name).symlink_to(tmp_path / target)
+    (tmp_path / "study.toml").write_text(STUDY)
+    arguments = ["sweep", str(tmp_path / "study.toml"), "--workers", "1", "--no-pictures"]
+    assert main([*arguments, "--quiet", "--out", str(out)]) == 2
+    assert f"{out / name}: is a link" in capsys.readouterr().err
+    assert not (tmp_path / "nothing").exists()
+    assert not [*(tmp_path / "directory").iterdir()]
+
+
+def test_rows_go_into_no_file_that_has_another_name(victim, out, tmp_path, capsys):
+    """A hard link cannot be told from the file itself: both are one file of two names."""
+    os.link(victim, out / "runs.jsonl")
+    (tmp_path / "study.toml").write_text(STUDY)
+    assert main(["sweep", str(tmp_path / "study.toml"), "--quiet", "--out", str(out)]) == 2
+    assert "no file of its own" in capsys.readouterr().err
+
+
+def test_rows_wait_for_no_pipe(out, tmp_path, capsys):
+    os.mkfifo(out / "runs.jsonl")
+    (tmp_path / "study.toml").write_text(STUDY)
+    assert main(["sweep", str(tmp_path / "study.toml"), "--quiet", "--out", str(out)]) == 2
+    assert "no file of its own" in capsys.readouterr().err
+
+
+def test_the_output_directory_itself_may_be_a_link(out, tmp_path):
+    (tmp_path / "link").symlink_to(out)
+    assert main([*RUN, "--out", str(tmp_path / "link")]) == 0
+    assert (out / "run.nc").is_file()
+    with pytest.raises(InputError, match="is a link"):
+        subdirectory(tmp_path, "link")
+
+
+def test_a_directory_is_known_by_any_of_its_names(out, monkeypatch):
+    monkeypatch.chdir(out.parent)
+    with locked(output_directory("out")) as first, locked(out) as second:
+        assert first.resolve() == second.resolve()
+
+
+LIMITED = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+from exu_press.cli import main
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def test_a_disk_that_is_full_is_named_and_ends_with_3(out):
+    """A limit on the size of files stands for it, as a test may not make file systems."""
+    done = subprocess.run(
+        [sys.executable, "-c", LIMITED, *RUN, "--out", str(out)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == 3
+    assert done.stderr == f"exu-press: {out / 'run.nc'}: cannot be written (File too large)\n"
+    assert [file.name for file in out.iterdir() if file.name != ".lock"] == []
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT])
+def test_a_full_disk_is_an_error_of_its_own(tmp_path, number):
+    with pytest.raises(DiskFullError, match=r"new: cannot be written"), replacing(tmp_path / "new"):
+        raise OSError(number, os.strerror(number))
+    assert not [*tmp_path.iterdir()]

@@ -50,7 +50,7 @@ def fit_report(file: Path) -> str:
 
 def _key(name: str, one: dict[str, Any]) -> list[str]:
     ends = [
-        f"{one[end]:.6g}" + (" (the range's)" if one[f"{end}_is_the_range's"] else "")
+        f"{one[end]:.6g}" + (f" ({remark})" if (remark := one[f"{end}_remark"]) else "")
         for end in ("low", "high")
     ]
     return [name, unit_of(name), f"{one['value']:.6g}", *ends]

@@ -30,7 +30,7 @@ def optimum(tmp_path):
 @pytest.fixture
 def fitted(tmp_path):
     key = {"value": 3.0, "low": 2.0, "high": 4.0}
-    key |= {"low_is_the_range's": True, "high_is_the_range's": False}
+    key |= {"low_remark": "end of the range", "high_remark": ""}
     number = {"name": "<i>force", "value": 10.0, "uncertainty": 2.0, "computed": 13.0}
     told = {
         "keys": {"speed_rpm": key},
@@ -83,7 +83,7 @@ def test_measured_and_computed_lie_over_each_other(fitted, browser):
         )
         assert scroll <= width
         assert "<i>force" in page.inner_text("body")
-        assert "2 (the range's)" in page.inner_text("body")
+        assert "2 (end of the range)" in page.inner_text("body")
         assert "own error is up to 0.6 of an uncertainty" in page.inner_text("body")
 
 

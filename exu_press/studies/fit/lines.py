@@ -8,6 +8,7 @@ from scipy.stats import chi2
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
 from exu_press.studies.fit.determined import Direction
+from exu_press.studies.fit.profile import OPEN
 from exu_press.studies.fit.run import Report
 from exu_press.studies.sweep.units import shown_unit, with_unit
 from exu_press.terminal.columns import columns
@@ -54,13 +55,12 @@ def _keys(report: Report) -> list[str]:
         low, high = report.low[name], report.high[name]
         digits = _digits(best, low, high)
         ends = [
-            f"{significant(end, digits)}{' (end of the range)' * open_}"
-            for end, open_ in zip((low, high), report.open[name], strict=True)
+            significant(end, digits) + (f" ({remark})" if remark else "")
+            for end, remark in zip((low, high), report.remarks[name], strict=True)
         ]
         symmetric = abs((high - best) - (best - low)) < NEARLY * (high - low)
-        known = not any(report.open[name])
-        word = "" if symmetric or not known else "not symmetric"
-        if all(report.open[name]):
+        word = "" if symmetric or any(report.remarks[name]) else "not symmetric"
+        if report.remarks[name] == (OPEN, OPEN):
             word = "not determined"
         rows.append((with_unit(name), significant(best, digits), f"{ends[0]} to {ends[1]}", word))
     return columns(rows)

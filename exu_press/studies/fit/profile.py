@@ -1,19 +1,22 @@
 """Confidence intervals by profile likelihood: the other keys are fitted again at each value."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import lsq_linear
+from scipy.optimize import brentq, lsq_linear
 from scipy.stats import chi2
 
 from exu_press.numerics.arrays import Array
 from exu_press.studies.fit.jacobian import Evaluate
 from exu_press.studies.fit.minimum import Minimum
 
-__all__ = ["Interval", "between", "profile"]
+__all__ = ["OPEN", "End", "Interval", "between", "profile"]
 
-NEAR = 0.03
-"""Error in the root of the rise of chi-square at which an end is found, relative."""
+OPEN, NOT_CONVERGED = "end of the range", "not converged"
+
+BRACKET = 0.05
+"""Distance of values inside and outside an interval at its end, over the outer one's from the best."""
 
 GAIN = 0.02
 """Fall of chi-square that a further fit of the other keys would have to promise."""
@@ -24,10 +27,27 @@ BETTER = 0.05
 DENSE = 200
 """Values of the key of a curve between the points of a profile."""
 
-MOST_ENDS = 8
+MOST_ENDS = 12
+"""Values tried on one side before the end is bracketed, and as many after."""
+
 MOST_FITS = 6
 REACH = 0.25
 """Largest step of the other keys over their range."""
+
+
+@dataclass(frozen=True)
+class End:
+    """One end of an interval.
+
+    Attributes:
+        value: of the scaled key.
+        remark: OPEN where it is the range's own end, beyond which chi-square may be as good;
+            NOT_CONVERGED where no value outside the interval that runs is as near to one inside as
+            BRACKET: the end is the nearest value outside then, or the range's own.
+    """
+
+    value: float
+    remark: str = ""
 
 
 @dataclass(frozen=True)
@@ -36,15 +56,12 @@ class Interval:
 
     Attributes:
         low, high: ends.
-        low_open, high_open: an end is the range's own: beyond it, chi-square may be as good.
         points: value of the key and chi-square above the minimum's, increasing, (points, 2).
         better: a point with a lower chi-square than the minimum's, if one was met.
     """
 
-    low: float
-    high: float
-    low_open: bool
-    high_open: bool
+    low: End
+    high: End
     points: Array
     better: Minimum | None = None
 
@@ -74,8 +91,8 @@ def between(points: Array, best: float, most: float) -> tuple[Array, Array]:
 def profile(evaluate: Evaluate, best: Minimum, jacobian: Array, key: int, level: float) -> Interval:
     """Return the interval of one key.
 
-    Both ends are looked for by secants of the root of chi-square's rise, which is straight where
-    the model is linear: two or three fits of the other keys a side.
+    Each end is bracketed by values inside and outside: the root of chi-square's rise is straight
+    where the model is linear.
 
     Args:
         evaluate: see Evaluate.
@@ -85,44 +102,67 @@ def profile(evaluate: Evaluate, best: Minimum, jacobian: Array, key: int, level:
         level: as 0.95.
     """
     rise = float(np.sqrt(chi2.ppf(level, 1)))
-    points = [(float(best.x[key]), 0.0)]
-    better: Minimum | None = None
-    ends, is_open = [], []
+    fits = [best]
+
+    def root(value: float) -> float:
+        """Return the root of chi-square's rise; infinite where runs fail."""
+        fitted = _conditional(evaluate, best, jacobian, key, value)
+        if fitted is None:
+            return float("inf")
+        fits.append(fitted)
+        return float(np.sqrt(max(fitted.chi_square - best.chi_square, 0.0)))
+
     free = [k for k in range(len(best.x)) if k != key]
     slope = _slope(jacobian, key, free)
-    for sign, bound in ((-1.0, 0.0), (1.0, 1.0)):
-        room = abs(bound - best.x[key])
-        inner, outer = (0.0, 0.0), None  # distance, root of the rise
-        distance = min(rise / slope, room) if slope > 0.0 else room
-        end, open_ = best.x[key] + sign * room, True
-        for _ in range(MOST_ENDS):
-            if distance <= 0.0:
-                break
-            fitted = _conditional(evaluate, best, jacobian, key, best.x[key] + sign * distance)
-            if fitted is None:  # runs fail there: as if it could not be
-                outer = distance, np.inf
-                distance = 0.5 * (inner[0] + distance)
-                continue
-            above = fitted.chi_square - best.chi_square
-            if above < -BETTER and (better is None or fitted.chi_square < better.chi_square):
-                better = fitted
-            root = float(np.sqrt(max(above, 0.0)))
-            points.append((float(fitted.x[key]), above))
-            if root >= rise * (1.0 - NEAR):
-                open_, end = False, best.x[key] + sign * _between(inner, (distance, root), rise)
-                if root <= rise * (1.0 + NEAR) or distance - inner[0] < 1e-4:
-                    break
-                outer = distance, root
-            else:
-                inner = distance, root
-                if distance >= room:
-                    open_, end = True, bound
-                    break
-            distance = _next(inner, outer, rise, room)
-        ends.append(float(end))
-        is_open.append(open_)
-    table = np.array(sorted(points))
-    return Interval(ends[0], ends[1], is_open[0], is_open[1], table, better)
+    first = rise / slope if slope > 0.0 else 1.0
+    low, high = (_end(root, float(best.x[key]), bound, first, rise) for bound in (0.0, 1.0))
+    points = sorted((float(fit.x[key]), fit.chi_square - best.chi_square) for fit in fits)
+    lowest = min(fits, key=lambda fit: fit.chi_square)
+    better = lowest if lowest.chi_square < best.chi_square - BETTER else None
+    return Interval(low, high, np.array(points), better)
+
+
+def _end(
+    root: Callable[[float], float], best: float, bound: float, distance: float, rise: float
+) -> End:
+    """Return one end of an interval.
+
+    Args:
+        root: of chi-square's rise at a value of the key.
+        best: value of the key at the minimum.
+        bound: end of the range on this side.
+        distance: from the best at which the end is expected.
+        rise: root at the end.
+    """
+    room = abs(bound - best)
+    if room == 0.0:
+        return End(bound, OPEN)
+    sign = np.sign(bound - best)
+    roots = {0.0: 0.0}
+
+    def excess(distance: float) -> float:
+        """Return the root less its value at the end, over it, at most 1."""
+        if distance not in roots:
+            value = bound if distance == room else best + sign * distance
+            roots[distance] = root(float(value))
+        return min(roots[distance] / rise - 1.0, 1.0)
+
+    farthest = min(distance, room)
+    while len(roots) <= MOST_ENDS and excess(farthest) < 0.0:
+        if farthest == room:
+            return End(bound, OPEN)
+        expected = farthest * 1.02 * rise / max(roots[farthest], 1e-9)
+        farthest = min(max(expected, 1.05 * farthest), 3.0 * farthest, room)
+    if excess(farthest) < 0.0:
+        return End(bound, NOT_CONVERGED)
+    inside = max(d for d, r in roots.items() if r < rise)
+    brentq(excess, inside, farthest, xtol=1e-12, rtol=BRACKET, maxiter=MOST_ENDS, disp=False)
+    inner = max(d for d, r in roots.items() if r < rise)
+    outer = min(d for d in roots if d > inner)
+    if outer - inner > BRACKET * outer or np.isinf(roots[outer]):
+        return End(float(best + sign * outer), NOT_CONVERGED)
+    between_them = np.interp(rise, [roots[inner], roots[outer]], [inner, outer])
+    return End(float(best + sign * between_them))
 
 
 def _slope(jacobian: Array, key: int, free: list[int]) -> float:
@@ -131,26 +171,6 @@ def _slope(jacobian: Array, key: int, free: list[int]) -> float:
     if free:
         column = column - others @ np.linalg.lstsq(others, column, rcond=1e-10)[0]
     return float(np.linalg.norm(column))
-
-
-def _between(inner: tuple[float, float], outer: tuple[float, float], rise: float) -> float:
-    """Return the distance at which the root reaches the rise, on the straight line between."""
-    (d1, r1), (d2, r2) = inner, outer
-    return d1 + (d2 - d1) * min(1.0, (rise - r1) / (r2 - r1)) if r2 > r1 else d2
-
-
-def _next(
-    inner: tuple[float, float], outer: tuple[float, float] | None, rise: float, room: float
-) -> float:
-    """Return the distance to try next."""
-    if outer is None:
-        factor = min(3.0, 1.02 * rise / inner[1]) if inner[1] > 0.0 else 3.0
-        return min(inner[0] * max(factor, 1.05), room)
-    if not np.isfinite(outer[1]):
-        return 0.5 * (inner[0] + outer[0])
-    guess = _between(inner, outer, rise)
-    part = 0.1 * (outer[0] - inner[0])
-    return float(np.clip(guess, inner[0] + part, outer[0] - part))
 
 
 def _conditional(

@@ -37,7 +37,7 @@ class Report:
         study: whose report this is.
         values: key -> best value.
         low, high: key -> ends of its interval.
-        open: key -> whether its low and its high end are those of its range.
+        remarks: key -> what a reader has to know of the low and of the high end; mostly empty.
         minima: other minima too, best first.
         lost: starts that led nowhere.
         determined: identifiability of the keys.
@@ -55,7 +55,7 @@ class Report:
     values: dict[str, float]
     low: dict[str, float]
     high: dict[str, float]
-    open: dict[str, tuple[bool, bool]]
+    remarks: dict[str, tuple[str, str]]
     minima: list[Minimum]
     lost: int
     determined: Determined
@@ -96,8 +96,8 @@ class Report:
                 "value": value,
                 "low": self.low[name],
                 "high": self.high[name],
-                "low_is_the_range's": self.open[name][0],
-                "high_is_the_range's": self.open[name][1],
+                "low_remark": self.remarks[name][0],
+                "high_remark": self.remarks[name][1],
             }
             for name, value in self.values.items()
         }
@@ -251,9 +251,12 @@ def _report(
     return Report(
         study=study,
         values=problem.point(best.x),
-        low={name: value(n, intervals[n].low) for n, name in enumerate(names)},
-        high={name: value(n, intervals[n].high) for n, name in enumerate(names)},
-        open={n: (i.low_open, i.high_open) for n, i in zip(names, intervals, strict=True)},
+        low={name: value(n, intervals[n].low.value) for n, name in enumerate(names)},
+        high={name: value(n, intervals[n].high.value) for n, name in enumerate(names)},
+        remarks={
+            name: (interval.low.remark, interval.high.remark)
+            for name, interval in zip(names, intervals, strict=True)
+        },
         minima=minima,
         lost=lost,
         determined=determined(derivative, study.fit.level),

@@ -6,7 +6,7 @@ import pytest
 from exu_press.studies.fit.determined import determined
 from exu_press.studies.fit.jacobian import LARGEST, STEP, jacobian, steps
 from exu_press.studies.fit.minimum import Minimum, evolved, screened, searched
-from exu_press.studies.fit.profile import profile
+from exu_press.studies.fit.profile import BRACKET, NOT_CONVERGED, OPEN, End, profile
 
 AT = np.linspace(0.0, 3.0, 8)
 UNCERTAINTY = 0.02
@@ -54,7 +54,7 @@ def test_intervals_hold_the_true_keys_as_often_as_they_say():
         found, derivative = fitted(evaluate)
         for key in range(2):
             one = profile(evaluate, found[0], derivative, key, 0.95)
-            held[key] += one.low <= TRUE[key] <= one.high
+            held[key] += one.low.value <= TRUE[key] <= one.high.value
     assert held / number == pytest.approx([0.95, 0.95], abs=3.5 * np.sqrt(0.95 * 0.05 / number))
 
 
@@ -67,10 +67,33 @@ def test_an_interval_that_is_not_symmetric_is_found_where_chi_square_has_risen()
     found, derivative = fitted(evaluate, 1)
     one = profile(evaluate, found[0], derivative, 0, 0.95)
     rise = 1.959964 * 0.03
-    assert one.high == pytest.approx(np.sqrt(0.04 + rise), rel=0.02)
-    assert one.low == 0.0
-    assert one.low_open  # 0.04 below is within the uncertainty
-    assert one.high - found[0].x[0] < 0.8 * (1.959964 * 0.03 / 0.4)
+    assert one.high.value == pytest.approx(np.sqrt(0.04 + rise), rel=0.001)
+    assert one.low == End(0.0, OPEN)  # 0.04 below is within the uncertainty
+    assert one.high.value - found[0].x[0] < 0.8 * (1.959964 * 0.03 / 0.4)
+
+
+@pytest.mark.parametrize("power", [1, 2, 3, 4, 6, 8])
+def test_an_end_is_where_chi_square_has_risen_however_late_it_rises(power):
+    def evaluate(points):
+        return 12.0 * np.abs(2.0 * points - 1.0) ** power * np.sign(points - 0.5)
+
+    best = Minimum(np.array([0.5]), np.zeros(1))
+    one = profile(evaluate, best, np.array([[24.0 * (power == 1)]]), 0, 0.95)
+    half = 0.5 * (1.959964 / 12.0) ** (1.0 / power)
+    assert (one.low.value, one.high.value) == pytest.approx((0.5 - half, 0.5 + half), abs=1e-3)
+    assert one.low.remark == one.high.remark == ""
+
+
+def test_an_end_that_was_not_bracketed_says_so_and_holds_all_that_is_allowed():
+    """Chi-square rises within a millionth of the range at the far end of a plateau."""
+
+    def evaluate(points):
+        return np.where(np.abs(points - 0.3) > 0.123456, 1e4, 0.0)
+
+    one = profile(evaluate, Minimum(np.array([0.3]), np.zeros(1)), np.array([[1e9]]), 0, 0.95)
+    assert one.low.value <= 0.3 - 0.123456
+    assert one.high.value >= 0.3 + 0.123456
+    assert one.low.remark == one.high.remark == NOT_CONVERGED
 
 
 def test_a_key_without_effect_and_two_that_act_as_one_are_named():
@@ -84,7 +107,7 @@ def test_a_key_without_effect_and_two_that_act_as_one_are_named():
     assert sorted(tuple(sorted(one.keys)) for one in told.open) == [(0, 2), (3,)]
     assert np.isfinite(told.deviation).tolist() == [False, True, False, False]
     one = profile(against(measured, model), found[0], derivative, 3, 0.95)
-    assert (one.low_open, one.high_open) == (True, True)
+    assert (one.low, one.high) == (End(0.0, OPEN), End(1.0, OPEN))
 
 
 def test_steps_grow_until_they_are_seen_beyond_the_errors():
@@ -108,8 +131,9 @@ def test_failed_runs_are_never_numbers():
     found, derivative = fitted(evaluate)
     assert found[0].x == pytest.approx(TRUE, abs=2e-3)
     assert np.isfinite(derivative).all()
-    one = profile(evaluate, found[0], derivative, 0, 0.999999)
-    assert one.high <= 0.75
+    one = profile(evaluate, found[0], derivative, 0, 0.999999999)
+    assert 0.75 < one.high.value <= 0.75 + BRACKET * (one.high.value - TRUE[0])
+    assert one.high.remark == NOT_CONVERGED
 
 
 def test_differential_evolution_finds_the_least_of_many_minima():

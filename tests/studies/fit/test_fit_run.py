@@ -74,7 +74,7 @@ def test_a_key_without_effect_is_named(tmp_path):
     report = fit(study(keys=keys, measured=given), tmp_path, workers=1)
     text = "\n".join(report_lines(report))
     assert "not determined: slider_crank.rod_inertia; over its whole range" in text
-    assert report.open["slider_crank.rod_inertia"] == (True, True)
+    assert report.remarks["slider_crank.rod_inertia"] == (OPEN, OPEN)
 
 
 @pytest.mark.long

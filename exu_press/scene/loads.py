@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError, prefixed
-from exu_press.files.two_columns import read_two_columns
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
 from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, SheetLoad, SpringLoad
 from exu_press.schema.checks import demand_known, demand_name, plain
+from exu_press.schema.two_columns import read_two_columns
 
 __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
 

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.files.two_columns import read_two_columns
 from exu_press.numerics.arrays import Array
 from exu_press.result import Result
 from exu_press.schema.checks import nearest
+from exu_press.schema.two_columns import read_two_columns
 
 __all__ = ["OVER", "CurveFile", "computed", "factor_to", "read_curve"]
 
@@ -104,7 +104,7 @@ def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array
 
 
 def factor_to(where: str, unit: str, wanted: str) -> float:
-    """Return the factor from a unit to another one.
+    """Return the factor from a unit to another one; a product is written with a space or without.
 
     Args:
         where: said of a fault.
@@ -114,16 +114,19 @@ def factor_to(where: str, unit: str, wanted: str) -> float:
     Raises:
         InputError: the two units are not of one kind.
 
-    >>> factor_to("a.csv", "mm/s", "m/s"), factor_to("a.csv", "kN", "N")
+    >>> factor_to("a.csv", "mm/s", "m/s"), factor_to("a.csv", "kNm", "N m")
     (0.001, 1000.0)
     """
-    unit = unit.strip().replace("\N{SUPERSCRIPT TWO}", "^2")
-    if unit == wanted:
+    unit = unit.strip().replace("\N{SUPERSCRIPT TWO}", "^2").replace("\N{DEGREE SIGN}", "deg")
+    forms = [wanted.replace(" ", sign) for sign in (" ", "", "*", "\N{MIDDLE DOT}")]
+    if unit in forms:
         return 1.0
-    if (unit, wanted) == ("rad", "deg"):
-        return 180.0 / math.pi
+    degrees = math.degrees(1.0)
+    for angle, other, factor in (("rad", "deg", degrees), ("deg", "rad", 1.0 / degrees)):
+        if unit in [form.replace(other, angle) for form in forms if other in form]:
+            return factor
     for prefix, factor in PREFIXES.items():
-        if unit == prefix + wanted:
+        if unit in [prefix + form for form in forms]:
             return factor
     raise InputError(
         f"{where} in {unit or 'no unit'}: allowed is {wanted or '1'}, also with a prefix as in "

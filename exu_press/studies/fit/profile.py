@@ -16,7 +16,7 @@ __all__ = ["OPEN", "End", "Interval", "between", "profile"]
 OPEN, NOT_CONVERGED = "end of the range", "not converged"
 
 BRACKET = 0.05
-"""Distance of values inside and outside an interval at its end, over the outer one's from the best."""
+"""Distance between values inside and outside an interval, over the outer one's from the best."""
 
 GAIN = 0.02
 """Fall of chi-square that a further fit of the other keys would have to promise."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, simulate
-from exu_press.studies.curve_file import CurveFile, computed, read_curve
+from exu_press.studies.curve_file import CurveFile, computed, factor_to, read_curve
 from exu_press.studies.fit.curve import Curve, matched
 
 AT = np.linspace(0.0, 2.0, 4001)
@@ -72,7 +72,7 @@ def test_bad_input(keys, said):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("t" * 140_000 + ",slider_velocity (m/s)\n0,1\n", "allowed is NAME"),
+        ("t" * 140_000 + ",slider_velocity (m/s)\n0,1\n", "allowed are two names"),
         (
             "# samples = " + "9" * 5000 + "\ntime (s),slider_velocity (m/s)\n" + 20 * "{},0\n",
             "states 9",
@@ -102,3 +102,25 @@ def test_a_curve_over_an_angle_that_falls_back_is_refused():
     with pytest.raises(InputError, match=rf"turns back at {most:.6g} deg, .* allowed is .* time"):
         computed("a.csv", passed, run)
     assert computed("a.csv", passed, forth)[2] == "m/s"
+
+
+@pytest.mark.parametrize(
+    ("unit", "wanted", "factor"),
+    [
+        ("kNm", "N m", 1e3),
+        ("N m", "N m", 1.0),
+        ("mN\N{MIDDLE DOT}m", "N m", 1e-3),
+        ("\N{DEGREE SIGN}", "deg", 1.0),
+        ("rad", "deg", 180.0 / np.pi),
+        ("\N{DEGREE SIGN}/s", "rad/s", np.pi / 180.0),
+        ("mm/s\N{SUPERSCRIPT TWO}", "m/s^2", 1e-3),
+    ],
+)
+def test_units_as_instruments_write_them(unit, wanted, factor):
+    assert factor_to("a.csv", unit, wanted) == pytest.approx(factor, rel=1e-15)
+
+
+@pytest.mark.parametrize(("unit", "wanted"), [("m N", "N m"), ("Nm", "N"), ("s", "rad"), ("", "m")])
+def test_a_unit_of_another_kind_is_refused(unit, wanted):
+    with pytest.raises(InputError, match=f"allowed is {wanted}"):
+        factor_to("a.csv", unit, wanted)

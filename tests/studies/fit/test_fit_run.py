@@ -7,6 +7,7 @@ from exu_press import InputError, Scene, simulate
 from exu_press.studies.base import load_study
 from exu_press.studies.fit import Fit, fit
 from exu_press.studies.fit.lines import report_lines
+from exu_press.studies.fit.profile import OPEN
 
 SLIDER, ROD = "slider_crank.slider_mass", "slider_crank.rod_mass"
 SCENE = Scene(

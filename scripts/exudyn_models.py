@@ -31,7 +31,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exu_press.parallel.child import ONE_THREAD
+from exu_press.parallel.workers import ONE_THREAD
 from exudyn_models.table import ENDED, Model, table
 
 FOLDERS = "main/pythonDev/Examples", "main/pythonDev/TestModels"

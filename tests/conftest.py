@@ -26,18 +26,18 @@ def few_new_processes():
     execnet's, which receives the names of tests: it keeps no lock that a copy waits for.
     """
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("exu_press.parallel.run.Processes", InProcess)
+        patch.setattr("exu_press.parallel.run.Workers", InProcess)
         if sys.platform == "linux":
-            patch.setattr("exu_press.verification.refinement._may_fork", lambda: True)
+            patch.setattr("exu_press.verification.refinement.may_copy", lambda: True)
         yield
 
 
 @pytest.fixture
 def processes(monkeypatch):
     """Real worker processes."""
-    from exu_press.parallel.processes import Processes
+    from exu_press.parallel.workers import Workers
 
-    monkeypatch.setattr("exu_press.parallel.run.Processes", Processes)
+    monkeypatch.setattr("exu_press.parallel.run.Workers", Workers)
 
 
 def pytest_configure(config):

@@ -5,15 +5,13 @@ import os
 import warnings
 from concurrent.futures import Future
 from contextlib import AbstractContextManager, redirect_stderr, redirect_stdout
-from importlib import import_module
 from pathlib import Path
 
-from exu_press.parallel.task import Row, Task, function_of
-from exu_press.parallel.worker import row_of
+from exu_press.parallel.task import Row, Task, row_of_task
 
 
 class InProcess(AbstractContextManager["InProcess", None]):
-    """Performs a task when it is handed over, as `worker` does; in place of `Processes`."""
+    """Performs a task when it is handed over, as a worker does; in place of `Workers`."""
 
     window = 1
 
@@ -29,9 +27,7 @@ class InProcess(AbstractContextManager["InProcess", None]):
             redirect_stderr(nowhere),
             warnings.catch_warnings(action="ignore"),
         ):
-            for module in task.modules:
-                import_module(module)
-            row = row_of(function_of(task.function), json.loads(task.arguments))
+            row = row_of_task(task)
         future.set_result(json.loads(json.dumps(row, allow_nan=False)))
         return future
 

@@ -6,14 +6,8 @@ body that turns about its middle axis.
 
 import dataclasses
 import math
-import multiprocessing
-import os
 import sys
-import warnings
 from collections.abc import Callable
-from contextlib import AbstractContextManager
-from multiprocessing.connection import Connection
-from pathlib import Path
 from typing import Any
 
 import exudyn as exu
@@ -26,6 +20,7 @@ from exu_press.integrate.problem import Problem
 from exu_press.integrate.scales import FoundScales
 from exu_press.numerics.arrays import Array
 from exu_press.terminal.progress import Progress
+from fe_models.processes import Child, ChildError
 
 __all__ = ["Run", "with_error"]
 
@@ -74,7 +69,7 @@ def with_error(
     _refuse_uncopied(problem.mbs)
     motion, finer = Motion(problem, settings), Motion(problem, settings)
 
-    def with_finer_steps() -> Outcome:
+    def with_finer_steps() -> tuple[str, Array, list[Array]]:
         integration = settings.timeIntegration
         shorter = math.sqrt(FINER)
         periods = (integration.endTime - integration.startTime) / (period or math.inf)
@@ -84,14 +79,20 @@ def with_error(
         integration.minimumStepSize *= shorter
         _write_nothing(problem.mbs, settings)
         most = math.ceil(max_steps / FINER)
-        return run(FINER * tolerance, finer.beside(watch), most, True)[0]
+        try:
+            outcome = run(FINER * tolerance, finer.beside(watch), most, True)[0]
+            why = "" if outcome.status.ended else f"{outcome.status.value}: {outcome.reason}"
+        except Exception as error:  # of the user's functions; the run itself tells its own
+            why = " ".join(str(error).partition("\n\nAt:")[0].split())  # without the calls
+        return why, np.array(finer.rows), _rows(problem.mbs)
 
-    with FinerRun(with_finer_steps, finer, problem.mbs) as copy:
+    with Child(with_finer_steps) as copy:
+        copy.request()
         outcome, scales = run(tolerance, motion.beside(watch), max_steps, quiet)
         if not outcome.status.ended:
             return outcome, scales
         with Progress("finer run", 1.0, "run", quiet=quiet) as progress:
-            found = copy.result()
+            found = _answer(copy)
             progress.update(1.0)
     error = _error(problem.mbs, scales, motion, found, AMPLIFIED * tolerance)
     return dataclasses.replace(outcome, error=error), scales
@@ -104,11 +105,6 @@ def _refuse_uncopied(mbs: exu.MainSystem) -> None:
             "errors = True: allowed on Linux, where a copy of the process does the finer run; "
             "build the system twice, and compare with a run of a quarter of the tolerance"
         )
-    if multiprocessing.current_process().daemon:
-        raise InputError(
-            "errors = True: allowed outside the processes of a multiprocessing.Pool, which may "
-            "have none of their own"
-        )
     container: Any = mbs.GetSystemContainer()
     if container.renderer.IsActive():
         raise InputError(
@@ -117,61 +113,19 @@ def _refuse_uncopied(mbs: exu.MainSystem) -> None:
         )
 
 
-class FinerRun(AbstractContextManager["FinerRun"]):
-    """A run in a copy of this process, which goes on meanwhile; none is left behind."""
+def _answer(copy: Child) -> tuple[str, Array, list[Array]]:
+    """Return why the finer run stopped early, or nothing, its motion and the rows of its sensors.
 
-    def __init__(self, run: Callable[[], Outcome], motion: Motion, mbs: exu.MainSystem) -> None:
-        """Start it.
-
-        Args:
-            run: does it.
-            motion: is told of its steps.
-            mbs: the system.
-        """
-        context = multiprocessing.get_context("fork")
-        self._answer, answer = context.Pipe(duplex=False)
-        self._process = context.Process(target=_perform, args=(answer, run, motion, mbs))
-        with warnings.catch_warnings():  # of threads: those of libraries wait for work
-            warnings.simplefilter("ignore", DeprecationWarning)
-            self._process.start()
-        answer.close()
-
-    def result(self) -> tuple[str, Array, list[Array]]:
-        """Return why it stopped early, or nothing, its motion and the rows of its sensors.
-
-        Ctrl-C ends it, and the run itself is not lost.
-        """
-        try:
-            found: tuple[str, Array, list[Array]] = self._answer.recv()
-            return found
-        except KeyboardInterrupt:
-            why = "interrupted"
-        except EOFError:
-            self._process.join()
-            why = f"its process ended with {self._process.exitcode}"
-        return why, np.zeros((0, 0)), []
-
-    def __exit__(self, *_: object) -> None:
-        """End it, whatever it does."""
-        self._process.kill()
-        self._process.join()
-        self._answer.close()
-
-
-def _perform(
-    answer: Connection, run: Callable[[], Outcome], motion: Motion, mbs: exu.MainSystem
-) -> None:
-    """Do a run and answer with its result, without a word."""
-    with Path(os.devnull).open("w", encoding="utf-8") as nowhere:
-        sys.stdout = sys.stderr = nowhere
-        for terminal in (1, 2):  # what is not written by Python
-            os.dup2(nowhere.fileno(), terminal)
-        try:
-            outcome = run()
-            why = "" if outcome.status.ended else f"{outcome.status.value}: {outcome.reason}"
-        except Exception as error:  # of the user's functions; the run itself tells its own
-            why = " ".join(str(error).partition("\n\nAt:")[0].split())  # without the calls
-    answer.send((why, np.array(motion.rows), _rows(mbs)))
+    Ctrl-C ends it, and the run itself is not lost.
+    """
+    try:
+        answer: tuple[str, Array, list[Array]] = copy.answer()
+        return answer
+    except KeyboardInterrupt:
+        why = "interrupted"
+    except ChildError as error:
+        why = f"its process ended: {error}"
+    return why, np.zeros((0, 0)), []
 
 
 def _write_nothing(mbs: exu.MainSystem, settings: exu.SimulationSettings) -> None:

@@ -6,8 +6,8 @@ from contextlib import AbstractContextManager
 from urllib.parse import urlsplit
 
 from exu_press.errors import InputError, required_package
-from exu_press.parallel.child import Child, perform, worker_died
 from exu_press.parallel.task import Row, Task
+from exu_press.parallel.workers import perform, worker, worker_died
 
 __all__ = ["Cluster", "perform_alone"]
 
@@ -99,7 +99,7 @@ def perform_alone(task: Task, time_limit: float | None) -> Row:
     share one Exudyn.
     """
     with contextlib.ExitStack() as processes:
-        return perform(task, lambda: processes.enter_context(Child(task)), time_limit)
+        return perform(task, lambda task: processes.enter_context(worker(task)), time_limit)
 
 
 def _check(address: str) -> None:

@@ -12,9 +12,9 @@ from typing import Any, Protocol, Self
 from exu_press.errors import InputError
 from exu_press.files.lock import locked
 from exu_press.files.output_directory import output_directory
-from exu_press.parallel.processes import Processes
 from exu_press.parallel.rows import RowFile
 from exu_press.parallel.task import TIME_LIMIT, Function, Row, Task, name_of, task_of
+from exu_press.parallel.workers import Workers
 from exu_press.terminal.progress import Progress
 
 __all__ = ["FILE", "Batch", "Chain", "run_batch"]
@@ -219,7 +219,7 @@ def _pool(
 ) -> AbstractContextManager[Pool, None]:
     """Return where tasks are performed."""
     if dask is None:
-        return Processes(workers, time_limit)
+        return Workers(workers, time_limit)
     from exu_press.parallel.cluster import Cluster
 
     return Cluster(dask, time_limit)

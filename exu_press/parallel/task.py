@@ -1,15 +1,17 @@
 """One run of a batch: function, arguments, versions, and a digest of its sources."""
 
 import hashlib
-import importlib
 import json
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from exu_press.errors import InputError
 from exu_press.installation.versions import version_of
 
 __all__ = [
@@ -22,6 +24,8 @@ __all__ = [
     "Task",
     "function_of",
     "name_of",
+    "row_of",
+    "row_of_task",
     "source_digest",
     "task_of",
     "versions",
@@ -95,7 +99,7 @@ def name_of(function: Function) -> str:
         ValueError: it is a lambda, a method, inside a function, or in the script that is run.
     """
     module, name = function.__module__, function.__qualname__
-    if module == "__main__" or getattr(importlib.import_module(module), name, None) is not function:
+    if module == "__main__" or getattr(import_module(module), name, None) is not function:
         raise ValueError(
             f"{module}.{name}: a worker cannot import it; allowed is a function at the top level "
             "of a module that is not the script itself"
@@ -106,8 +110,69 @@ def name_of(function: Function) -> str:
 def function_of(name: str) -> Function:
     """Return the function of "module:name"."""
     module, _, inner = name.partition(":")
-    function: Function = getattr(importlib.import_module(module), inner)
+    function: Function = getattr(import_module(module), inner)
     return function
+
+
+def row_of_task(task: Task, only_imports: bool = False) -> Row:
+    """Return a task's row, in a worker.
+
+    Args:
+        task: to be done.
+        only_imports: let it be, and import what it needs.
+
+    Raises:
+        InputError: its function cannot be imported here, or the versions here are others.
+    """
+    try:
+        for module in task.modules:
+            import_module(module)
+        function = function_of(task.function)
+    except Exception as error:
+        names = ", ".join((task.function, *task.modules))
+        raise InputError(
+            f"{names}: a worker cannot import it ({_in_a_line(error)}); allowed are modules in "
+            "folders that Python knows without the one where you work; PYTHONPATH names further "
+            "ones"
+        ) from None
+    here = versions(task.function, *task.modules)
+    if here != task.versions:
+        raise InputError(
+            f"a worker has {here}; allowed are the versions here, {dict(task.versions)}"
+        )
+    return {} if only_imports else row_of(function, json.loads(task.arguments))
+
+
+def row_of(function: Function, arguments: dict[str, Any]) -> Row:
+    """Return a function's row with status and reason, in strict JSON: null where it has no number.
+
+    An exception is a row too.
+    """
+    try:
+        row = {"status": COMPLETED, "reason": "", **function(arguments)}
+        return dict(_strict(row))
+    except Exception as error:
+        return {"status": FAILED, "reason": _in_a_line(error)}
+
+
+def _strict(data: Any) -> Any:
+    """Return data with null for NaN and infinity, and NumPy's numbers and arrays as Python's."""
+    if hasattr(data, "tolist"):
+        data = data.tolist()
+    if data is None or isinstance(data, (str, bool, int)):
+        return data
+    if isinstance(data, float):
+        return data if math.isfinite(data) else None
+    if isinstance(data, dict):
+        return {str(name): _strict(value) for name, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [_strict(value) for value in data]
+    raise TypeError(f"{type(data).__name__} in a row: allowed are numbers, texts, lists and dicts")
+
+
+def _in_a_line(error: Exception) -> str:
+    text = " ".join(str(error).split())
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
 
 def _canonical(data: Any) -> str:

@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
+from fe_models.temporary import TemporaryFolder
 
 __all__ = ["Changed", "OnDisk", "at_rows", "described", "on_disk", "part_of"]
 
@@ -32,8 +32,8 @@ class OnDisk(Mapping[str, Channel]):
     def __init__(self, directory: Path | None = None) -> None:
         """Start without a channel, in an empty directory, or in one that goes with this object."""
         self.count = 0
-        self._temporary = TemporaryDirectory(prefix="exu_press-") if directory is None else None
-        self._directory = directory or Path(self._temporary.name if self._temporary else "")
+        self._temporary = TemporaryFolder() if directory is None else None
+        self._directory = directory or (self._temporary.path if self._temporary else Path())
         self.begun: dict[str, Channel] = {}
         self._last: dict[str, Array] = {}  # value of each channel
 

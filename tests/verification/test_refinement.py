@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 
 from exu_press import Scene
-from exu_press.verification import refinement, refinement_process
-from exu_press.verification.refinement import OF_STEPS, PLANS, RefinementRuns, _may_fork, plan
+from exu_press.verification import refinement
+from exu_press.verification.refinement import OF_STEPS, PLANS, RefinementRuns, plan
+from fe_models.processes import may_copy
 
 SHORT = Scene(mechanism="slider_crank", revolutions=0.02)
 LONG = Scene(joints={"crank_pin": "dry", "balls": "dry"}, revolutions=100.0)
@@ -28,7 +29,7 @@ way = pytest.mark.parametrize(
 def by(monkeypatch):
     """Set how the process is started."""
     return lambda forks: monkeypatch.setattr(
-        "exu_press.verification.refinement._may_fork", lambda: forks
+        "exu_press.verification.refinement.may_copy", lambda: forks
     )
 
 
@@ -66,14 +67,15 @@ def test_the_nearest_one_is_first():
 
 @posix
 @way
-def test_no_process_and_no_file_is_left_behind(by, forks, monkeypatch):
+def test_no_process_and_no_file_is_left_behind(by, forks, monkeypatch, tmp_path):
     by(forks)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     monkeypatch.setattr(refinement, "plan", lambda _: {0.5: LONG, 8.0: LONG})
     begun = time.monotonic()
     with RefinementRuns(LONG) as refinements:
-        directory, processes = refinements._directory, [p.pid for p in refinements._processes]
+        processes = [child.pid for child, _ in refinements._children]
     assert time.monotonic() - begun < 10.0
-    assert not directory.exists()
+    assert not list(tmp_path.iterdir())
     assert len(processes) == 2
     for process in processes:
         with pytest.raises(ProcessLookupError):
@@ -89,8 +91,8 @@ def test_a_process_that_is_killed_says_so(by, forks, number, monkeypatch):
     scenes[(0.5, 4.0)[number]] = LONG
     monkeypatch.setattr(refinement, "plan", lambda _: scenes)
     with RefinementRuns(LONG) as refinements:
-        os.kill(refinements._processes[number].pid, signal.SIGTERM)
-        with pytest.raises(RuntimeError, match=r"refinement run failed \(-15\)"):
+        os.kill(refinements._children[number][0].pid, signal.SIGTERM)
+        with pytest.raises(RuntimeError, match=r"refinement run failed \(killed by SIGTERM\)"):
             list(refinements.results())
 
 
@@ -100,7 +102,7 @@ def test_what_goes_wrong_in_it_is_told(by, monkeypatch):
         raise ValueError("no oil")
 
     by(True)
-    monkeypatch.setattr(refinement_process, "run_once", fails)
+    monkeypatch.setattr(refinement, "run_once", fails)
     with (
         RefinementRuns(SHORT) as refinements,
         pytest.raises(RuntimeError, match="ValueError: no oil"),
@@ -112,7 +114,7 @@ def test_beside_another_thread_the_process_is_a_new_one():
     done = threading.Event()
     thread = threading.Thread(target=done.wait)
     thread.start()
-    assert not _may_fork()
+    assert not may_copy()
     done.set()
     thread.join()
 
@@ -131,13 +133,16 @@ def test_ctrl_c_ends_both_at_once(tmp_path):
     children = Path(f"/proc/{run.pid}/task/{run.pid}/children")
     while run.poll() is None and not children.read_text():
         time.sleep(0.02)
+    refinements = [int(number) for number in children.read_text().split()]
     time.sleep(0.3)
     os.killpg(run.pid, signal.SIGINT)
     _, said = run.communicate(timeout=30)
     assert "Traceback" not in said
     assert run.returncode in (3, 130)
-    with pytest.raises(ProcessLookupError):
-        os.killpg(run.pid, 0)
+    assert refinements
+    for number in refinements:
+        with pytest.raises(ProcessLookupError):
+            os.kill(number, 0)
 
 
 @pytest.mark.parametrize("joints", [{}, {"crank_pin": "lubricated"}])

@@ -1,0 +1,75 @@
+"""Temporary folders: each goes with its object, or after a kill at the start of the next one."""
+
+import contextlib
+import os
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+__all__ = ["TemporaryFolder"]
+
+BEGINNING = "exu_press_temporary_"
+"""Of the folders' names."""
+
+LOCK = ".lock"
+"""File in a folder that its process keeps locked; the system frees it, however the process ends."""
+
+
+class TemporaryFolder:
+    """A folder that is removed with this object, or by the next one if its process is killed."""
+
+    def __init__(self) -> None:
+        """Make it, and remove those that killed processes have left behind.
+
+        Raises:
+            OSError: it cannot be made.
+        """
+        for folder in Path(tempfile.gettempdir()).glob(f"{BEGINNING}*"):
+            _remove_abandoned(folder)
+        self._folder = tempfile.TemporaryDirectory(prefix=BEGINNING, ignore_cleanup_errors=True)
+        self.path = Path(self._folder.name)
+        new = self.path / f"{LOCK}.new"
+        self._lock = os.open(new, os.O_RDWR | os.O_CREAT | os.O_EXCL)
+        _lock(self._lock)
+        new.rename(self.path / LOCK)  # locked when others see it
+
+    def remove(self) -> None:
+        """Remove it."""
+        self._folder.cleanup()
+
+    def __enter__(self) -> Path:
+        """Return its path."""
+        return self.path
+
+    def __exit__(self, *_: object) -> None:
+        self.remove()
+
+    def __del__(self) -> None:
+        """Free the lock, which holds a file open."""
+        with contextlib.suppress(AttributeError, OSError):
+            os.close(self._lock)
+
+
+def _remove_abandoned(folder: Path) -> None:
+    """Remove a folder whose process has ended; one of another user cannot be locked."""
+    with contextlib.suppress(OSError):
+        lock = os.open(folder / LOCK, os.O_RDWR | getattr(os, "O_NOFOLLOW", 0))
+        try:
+            if _lock(lock) and not folder.is_symlink():
+                shutil.rmtree(folder, ignore_errors=True)
+        finally:
+            os.close(lock)
+
+
+def _lock(file: int) -> bool:
+    """Lock an open file without waiting; return whether that was possible."""
+    if sys.platform == "win32":
+        return False
+    import fcntl
+
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True

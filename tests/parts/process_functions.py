@@ -1,0 +1,53 @@
+"""What the tests of child processes let them do; a child imports it from here."""
+
+import json
+import os
+import re
+import sys
+import time
+from pathlib import Path
+
+from fe_models.errors import InputError
+
+
+def folder_of_json():
+    """Where a module of the standard library comes from, and the search path."""
+    return json.__file__, sys.path
+
+
+def square(x, report=lambda *values: None):
+    report("squares", x)
+    print("squaring", x)
+    return x * x
+
+
+def refuses():
+    raise InputError("no such thing")
+
+
+def fails():
+    raise ValueError("no\nnumber")
+
+
+def mourns():
+    print("about to go", flush=True)
+    os._exit(7)
+
+
+def deaf(mark):
+    """Compute for hours, like compiled code: no other thread of Python runs meanwhile."""
+    Path(mark).write_text(str(os.getpid()))
+    re.match("(a+)+$", "a" * 60 + "b")
+
+
+def holds(gigabytes):
+    return len(bytearray(int(gigabytes * 2**30)))
+
+
+def waits(seconds):
+    time.sleep(seconds)
+    return seconds
+
+
+def large(count):
+    return [bytes(2**20)] * count, os.getpid()

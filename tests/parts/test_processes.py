@@ -1,0 +1,215 @@
+"""Child processes: what they import, how they answer, and that none outlives its parent."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import process_functions
+import pytest
+
+from fe_models.errors import InputError
+from fe_models.processes import Child, ChildError, TimeLimitError, may_copy
+
+HERE = str(Path(__file__).parent)
+
+linux = pytest.mark.skipif(sys.platform != "linux", reason="no process is copied there")
+way = pytest.mark.parametrize("copied", [pytest.param(True, marks=linux, id="copy"), False])
+
+
+def child(name, copied=False, **options):
+    """Return a child that performs one of `process_functions`."""
+    function = getattr(process_functions, name)
+    return Child(function if copied else f"process_functions:{name}", **options)
+
+
+@way
+def test_requests_are_answered_in_their_order(copied, capfd):
+    with child("square", copied) as squares:
+        for x in range(20):
+            squares.request(x)
+        assert [squares.answer() for _ in range(20)] == [x * x for x in range(20)]
+        assert squares.alive
+    assert not squares.alive
+    assert capfd.readouterr() == ("", "")
+
+
+@way
+def test_a_child_goes_on_while_its_answers_wait(copied):
+    """Answers that no pipe holds do not keep it from the next request."""
+    with child("large", copied) as process:
+        for _ in range(2):
+            process.request(4)
+        time.sleep(0.5)
+        (first, number), (second, same) = process.answer(), process.answer()
+    assert len(first) == len(second) == 4 and number == same == process.pid
+
+
+@way
+def test_it_reports_while_it_computes(copied):
+    reports = []
+    with child("square", copied, progress=lambda *values: reports.append(values)) as squares:
+        squares.request(3)
+        assert squares.answer() == 9
+    assert reports == [("squares", 3)]
+
+
+@way
+@pytest.mark.parametrize(
+    ("name", "kind", "text"),
+    [
+        ("refuses", InputError, "no such thing"),
+        ("fails", ChildError, "ValueError: no number"),
+        ("mourns", ChildError, "exit status 7: about to go"),
+    ],
+)
+def test_what_goes_wrong_is_told(copied, name, kind, text):
+    with child(name, copied) as process:
+        process.request()
+        with pytest.raises(kind) as told:
+            process.answer()
+    assert str(told.value) == text
+
+
+@way
+def test_a_killed_child_says_so(copied):
+    with child("waits", copied) as process:
+        process.request(60.0)
+        os.kill(process.pid, signal.SIGKILL)
+        with pytest.raises(ChildError, match="killed by SIGKILL"):
+            process.answer()
+
+
+@way
+def test_limits_of_time_and_memory(copied, tmp_path):
+    with child("deaf", copied) as process:
+        process.request(str(tmp_path / "mark"))
+        with pytest.raises(TimeLimitError, match=r"stopped after 0\.5 s"):
+            process.answer(0.5)
+    with child("holds", copied, memory=2 * 2**30) as process:
+        process.request(4.0)
+        with pytest.raises(ChildError, match="MemoryError"):
+            process.answer()
+
+
+def test_a_function_that_is_not_there_is_a_failure():
+    with Child("no_such_module:function") as process:
+        process.request()
+        with pytest.raises(ChildError, match="No module named 'no_such_module'"):
+            process.answer()
+
+
+ASKS = """
+from fe_models.processes import Child
+print("the script runs")
+with Child("process_functions:folder_of_json") as child:
+    child.request()
+    print(*child.answer(), sep="\\n")
+"""
+
+
+@pytest.mark.parametrize("way", ["script", "-m", "-c"])
+def test_a_child_runs_no_script_and_nothing_of_the_working_folder(way, tmp_path):
+    """A json.py where one works is imported by nobody; folders that the user names are searched."""
+    work, other = tmp_path / "work", tmp_path / "other"
+    work.mkdir()
+    other.mkdir()
+    (work / "json.py").write_text("print('hostile')\n")
+    (other / "asking.py").write_text(ASKS)
+    command = {
+        "script": [str(other / "asking.py")],
+        "-m": ["-m", "asking"],
+        "-c": ["-c", "import asking"],
+    }[way]
+    named = os.pathsep.join([HERE, str(other)])
+    done = subprocess.run(
+        [sys.executable, *command],
+        env={**os.environ, "PYTHONPATH": named, "PYTHONSAFEPATH": ""},
+        cwd=work,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    assert lines.count("the script runs") == 1
+    assert Path(lines[-2]).parent.name == "json" and str(work) not in lines[-1]
+    assert HERE in lines[-1] and str(other) in lines[-1]
+    assert done.stdout.count("hostile") == 0
+
+
+PARENT = """
+import sys; sys.path[:] = {path!r}
+import os, process_functions
+from fe_models.processes import Child
+function = process_functions.deaf if {copied} else "process_functions:deaf"
+with Child(function) as child:
+    child.request({mark!r})
+    child.answer()
+"""
+
+
+@way
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.SIGSEGV])
+def test_no_child_outlives_its_parent(copied, how, tmp_path):
+    """Not even one in compiled code, in which no other thread of Python runs."""
+    mark = tmp_path / "mark"
+    code = PARENT.format(path=[HERE, *sys.path], copied=copied, mark=str(mark))
+    parent = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL)
+    end = time.monotonic() + 30.0
+    while not (mark.exists() and mark.read_text()):
+        assert time.monotonic() < end and parent.poll() is None
+        time.sleep(0.01)
+    number = int(mark.read_text())
+    assert runs(number)
+    parent.send_signal(how)
+    parent.wait()
+    end = time.monotonic() + 10.0
+    while runs(number):
+        assert time.monotonic() < end, "still there"
+        time.sleep(0.01)
+
+
+def runs(number):
+    """Return whether a process is there and is no zombie."""
+    try:
+        state = Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[0]
+    except FileNotFoundError:
+        return False
+    return state != "Z"
+
+
+def test_without_linux_a_closed_pipe_ends_a_child(tmp_path):
+    """The portable way alone, as on systems that kill no orphans."""
+    functions = tmp_path / "functions.py"
+    functions.write_text(
+        "import os, time\n"
+        "def runs_on(mark):\n"
+        "    import ctypes; ctypes.CDLL(None).prctl(1, 0)\n"  # nothing kills it
+        "    open(mark, 'w').write(str(os.getpid()))\n"
+        "    time.sleep(600.0)\n"
+    )
+    mark = tmp_path / "mark"
+    code = (
+        f"import sys; sys.path[:] = {[str(tmp_path), *sys.path]!r}\n"
+        "from fe_models.processes import Child\n"
+        "child = Child('functions:runs_on')\n"
+        f"child.request({str(mark)!r}); child.answer()"
+    )
+    parent = subprocess.Popen([sys.executable, "-c", code])
+    end = time.monotonic() + 30.0
+    while not (mark.exists() and mark.read_text()):
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    parent.kill()
+    parent.wait()
+    number, end = int(mark.read_text()), time.monotonic() + 10.0
+    while runs(number):
+        assert time.monotonic() < end, "still there"
+        time.sleep(0.01)
+
+
+def test_beside_ngsolve_there_is_no_copy(monkeypatch):
+    monkeypatch.setitem(sys.modules, "ngsolve", object())
+    assert not may_copy()

@@ -1,0 +1,68 @@
+"""Temporary folders go with their objects, and those of killed processes with the next one."""
+
+import gc
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from fe_models.temporary import TemporaryFolder
+
+
+@pytest.fixture(autouse=True)
+def base(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    return tmp_path
+
+
+def test_a_folder_goes_with_its_object(base):
+    folder = TemporaryFolder()
+    (folder.path / "values").write_text("1")
+    assert list(base.iterdir()) == [folder.path]
+    del folder
+    gc.collect()
+    assert not list(base.iterdir())
+
+
+def left_by_a_kill(base):
+    """Return the folder of a process that is killed."""
+    code = (
+        f"import tempfile, sys; tempfile.tempdir = {str(base)!r}\n"
+        "from fe_models.temporary import TemporaryFolder\n"
+        "folder = TemporaryFolder(); (folder.path / 'values').write_text('1')\n"
+        "print(folder.path, flush=True); sys.stdin.read()"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    folder = Path(process.stdout.readline().strip())
+    with TemporaryFolder():
+        assert (folder / "values").exists()  # its process lives
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    assert (folder / "values").exists()
+    return folder
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="folders are not locked there")
+def test_what_a_killed_process_leaves_goes_at_the_next_start(base):
+    folder = left_by_a_kill(base)
+    with TemporaryFolder() as other:
+        assert list(base.iterdir()) == [other]
+    assert not folder.exists()
+
+
+def test_no_link_is_followed(base, tmp_path):
+    """A folder, or a lock, that is a link to somewhere else is let be."""
+    precious = tmp_path / "precious"
+    precious.mkdir()
+    (precious / ".lock").write_text("")
+    (base / "exu_press_temporary_a").symlink_to(precious)
+    (base / "exu_press_temporary_b").mkdir()
+    (base / "exu_press_temporary_b" / ".lock").symlink_to(precious / ".lock")
+    with TemporaryFolder():
+        pass
+    assert (precious / ".lock").exists()
+    assert (base / "exu_press_temporary_b").exists()

@@ -175,7 +175,7 @@ class GuidewayFilm:
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
         if accepted:
-            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, 0.0)
+            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, 0.0, 0.0)
         self._step = step
 
     def reset(self) -> None:

@@ -467,11 +467,23 @@ class InterfaceJoint:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
         if accepted:
             depth = self._motion[0] - self.contact_onset
-            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth)
+            memory = self._contact_memory() if depth > 0.0 else 0.0
+            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth, memory)
         self._step = step
         for interface in self.interfaces:
             interface.drift = self.path.drift
             interface.begin_step(step, accepted)
+
+    def _contact_memory(self) -> float:
+        """Return damping over stiffness of the normal force at the last `add_force`, s."""
+        e, _, _, w_j, w_b = self._motion
+        stiffness = damping = 0.0
+        for interface, load in zip(self.interfaces, self._loads, strict=True):
+            if load is not None:
+                by_e, by_e_dot = interface.partials(load[4], e, w_j, w_b)[0][:2]
+                stiffness -= by_e
+                damping -= by_e_dot
+        return damping / stiffness if stiffness > 0.0 else 0.0
 
     def reset(self) -> None:
         """Forget everything."""

@@ -66,13 +66,23 @@ class SpatialSpherical:
         """Keep bristle deflection and approach speed of the last step if it was accepted."""
         if accepted:
             depth = self._e - self.contact_onset
-            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth)
+            memory = self._contact_memory() if self._touching else 0.0
+            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth, memory)
             self._in_bristles += self._into_bristles()
             self._bristle = self._next_bristle
             self._sliding_before = self._sliding
             self._normal_before = self._normal
             self._approach.accept()
         self._step = step
+
+    def _contact_memory(self) -> float:
+        """Return damping over stiffness of the normal force at the last `add_force`, s."""
+        stiffness, damping = self._law[1:]
+        if self._film is not None:
+            by_place, by_rates = self._film.partials()
+            stiffness -= float(self._n @ by_place[:3] @ self._n)
+            damping -= float(self._n @ by_rates[:3, :3] @ self._n)
+        return damping / stiffness if stiffness > 0.0 else 0.0
 
     def reset(self) -> None:
         """Relax the bristle."""

@@ -327,8 +327,7 @@ def _bearing_eccentricity(
         low = dry[0].clearance if len(dry) == len(interfaces) else 0.0
     if not abs(exerted(low)) < wanted <= abs(exerted(high)):
         return None
-    while high - low > 1e-15 + 1e-12 * high:
-        middle = 0.5 * (low + high)
+    while low < (middle := 0.5 * (low + high)) < high:  # a penetration may be its last digits
         if abs(exerted(middle)) < wanted:
             low = middle
         else:

@@ -146,7 +146,7 @@ CLEARANCE, LIMIT = 1e-4, 1e-9
 def error_of(missed, *, place, contact_onset=CLEARANCE, drift=math.inf, step=1e-4):
     """The error of a step in which a joint at rest is found `missed` away from its place."""
     path = Path()
-    path.go_on(place, (0.0, 0.0), step, depth=0.0)
+    path.go_on(place, (0.0, 0.0), step, depth=0.0, memory=0.0)
     there = tuple(p + m for p, m in zip(place, missed, strict=True))
     joint = SimpleNamespace(
         clearance=CLEARANCE,

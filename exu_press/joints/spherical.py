@@ -55,6 +55,7 @@ class SpatialSpherical:
         self._sliding_before: Array | None = None
         self._normal = self._normal_before = self._in_bristles = 0.0
         self._e = self._step = 0.0
+        self._touching = False
         self.reset()
 
     @property

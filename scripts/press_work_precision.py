@@ -17,7 +17,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from exu_press import Result, Scene, simulate
-from exu_press.plots.style import COLOURS, DPI, styled
+from exu_press.plots.style import COLOURS, DPI, with_style
 from exu_press.result.windows import revolutions_of
 from exu_press.terminal.columns import columns
 
@@ -102,7 +102,7 @@ def table(found: list[Row]) -> str:
     return "\n".join(columns([(*head, "processor time, s"), *lines]))
 
 
-@styled
+@with_style
 def picture(found: dict[str, list[Row]]) -> Figure:
     """Return error over processor time, a panel a press."""
     figure = Figure(figsize=(11.0, 4.2), layout="constrained")

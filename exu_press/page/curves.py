@@ -15,7 +15,7 @@ __all__ = ["Curve", "curves_of", "shown_unit"]
 
 WORDS = {"x": "x", "y": "y", "z": "z", "angle": "angle"}
 
-PEAKS = {(each.place, each.curve): each for each in CATALOGUE if each.curve}
+PEAKS = {(quantity.place, quantity.curve): quantity for quantity in CATALOGUE if quantity.curve}
 """Place and curve -> the quantity that is its extreme."""
 
 
@@ -66,7 +66,9 @@ def curves_of(result: Result) -> list[Curve]:
         places += _body(result, index, body)
     used = {curve.channel for curve in places} | {"time", "crank_angle"}
     rest = [name for name in sorted(result.channels) if name not in used]
-    peaks = {curve: each.name for (place, curve), each in PEAKS.items() if place is Place.RUN}
+    peaks = {
+        curve: quantity.name for (place, curve), quantity in PEAKS.items() if place is Place.RUN
+    }
     whole = [curve for name in rest for curve in _plain(result, name, "Mechanism", "", peaks)]
     return [*whole, *places]
 
@@ -149,10 +151,18 @@ def _plain(
     if channel.axis in ("plane", "space"):
         columns, peak = tuple(range(count)), peaks.get(name, "")
         yield Curve(name, group, label, channel.unit, name, columns, peak=peak)
-    for column, part in enumerate(AXES.get(channel.axis) or map(str, range(count))):
-        one = f"{name}:{part}"
-        words = f"{label}, {WORDS.get(part, f'on {part}')}"
-        yield Curve(one, group, words, channel.unit, name, (column,), peak=peaks.get(one, ""))
+    for column, component in enumerate(AXES.get(channel.axis) or map(str, range(count))):
+        component_name = f"{name}:{component}"
+        words = f"{label}, {WORDS.get(component, f'on {component}')}"
+        yield Curve(
+            component_name,
+            group,
+            words,
+            channel.unit,
+            name,
+            (column,),
+            peak=peaks.get(component_name, ""),
+        )
 
 
 def _words(name: str) -> str:

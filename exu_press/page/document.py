@@ -13,7 +13,7 @@ from typing import Any
 
 from exu_press.plots.typesetting import typeset
 
-__all__ = ["Live", "data_element", "document_of", "escaped", "has_library", "scripts", "styles"]
+__all__ = ["Live", "data_element", "document_of", "escape", "has_library", "scripts", "styles"]
 
 HERE = Path(__file__).parent / "static"
 
@@ -36,14 +36,14 @@ class Live:
     def policy(self) -> str:
         """The page's content security policy: these scripts alone, and no request to anywhere."""
         hashes = [base64.b64encode(hashlib.sha256(s.encode()).digest()) for s in self.scripts]
-        allowed = " ".join(f"'sha256-{each.decode()}'" for each in hashes)
+        allowed = " ".join(f"'sha256-{digest.decode()}'" for digest in hashes)
         return (
             f"default-src 'none'; script-src {allowed}; style-src 'unsafe-inline'; "
             "img-src data: blob:; font-src data:; form-action 'none'; base-uri 'none'"
         )
 
 
-def escaped(text: str) -> str:
+def escape(text: str) -> str:
     """Return a text as HTML has it, with the signs that units are printed with."""
     return html.escape(typeset(text))
 

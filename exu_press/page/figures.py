@@ -223,9 +223,16 @@ def _parallel() -> Any:
         )
     axes = ColumnDataSource({"x": [], "low": [], "high": []}, name="parallel-axes")
     made.segment("x", "low", "x", "high", source=axes, line_color="#767676", line_width=1.2)
-    kept = ColumnDataSource({"x": [], "low": [], "high": []}, name="parallel-kept")
+    selected_range = ColumnDataSource({"x": [], "low": [], "high": []}, name="parallel-kept")
     made.segment(
-        "x", "low", "x", "high", source=kept, line_color=CHOSEN, line_width=7, line_alpha=0.55
+        "x",
+        "low",
+        "x",
+        "high",
+        source=selected_range,
+        line_color=CHOSEN,
+        line_width=7,
+        line_alpha=0.55,
     )
     words = ColumnDataSource({"x": [], "y": [], "text": [], "align": []}, name="parallel-words")
     made.text(

@@ -8,7 +8,7 @@ from exu_press.page.document import (
     Live,
     data_element,
     document_of,
-    escaped,
+    escape,
     has_library,
     scripts,
     styles,
@@ -75,14 +75,14 @@ def lines_viewer(panels: Sequence[Panel]) -> Live | None:
 def _head(panel: Panel, number: int) -> str:
     """Return a panel's place with its words; texts stand outside the library's canvas."""
     legend = "".join(
-        f'<span class="value" style="--run: {colour_of(place)}">{escaped(line.label)}</span> '
-        for place, line in enumerate(panel.lines)
+        f'<span class="value" style="--run: {colour_of(index)}">{escape(line.label)}</span> '
+        for index, line in enumerate(panel.lines)
     )
-    title = escaped(panel.title)
+    title = escape(panel.title)
     return (
         f"<h3>{title}</h3><p>{legend}</p>"
         f'<div id="lines-{number}" class="plot" role="img" aria-label="{title}"></div>'
-        f'<p class="told">across: {escaped(panel.across)}; up: {escaped(panel.up)} '
+        f'<p class="told">across: {escape(panel.across)}; up: {escape(panel.up)} '
         f'<output id="at-{number}"></output></p>'
     )
 
@@ -100,8 +100,8 @@ def _figure(panel: Panel) -> Any:
     if heights:
         margin = 0.08 * (max(heights) - min(heights)) or 0.08 * abs(heights[0]) or 1.0
         made.y_range = Range1d(start=min(heights) - margin, end=max(heights) + margin)
-    for place, line in enumerate(panel.lines):
-        colour = colour_of(place)
+    for number, line in enumerate(panel.lines):
+        colour = colour_of(number)
         if line.points:
             made.scatter([*line.x], [*line.y], size=5, color=colour, alpha=0.8)
         else:

@@ -26,7 +26,7 @@ def impacts(result: Result) -> tuple[list[dict[str, Any]], int]:
     An impact begins where surfaces begin to touch and ends where they part, and has the largest
     force in between (N); times in s.
     """
-    found: list[dict[str, Any]] = []
+    impact_list: list[dict[str, Any]] = []
     for name in result.clearance_joints:
         joint, described = result.joints[name], result.scene.joints[name]
         if described.onset is None:
@@ -36,7 +36,7 @@ def impacts(result: Result) -> tuple[list[dict[str, Any]], int]:
         size = lengths(joint.force)
         for begin, end in zip(edges[::2], edges[1::2], strict=True):
             peak = begin + int(np.argmax(size[begin:end]))
-            found.append(
+            impact_list.append(
                 {
                     "joint": name,
                     "from": float(result.time[begin]),
@@ -45,8 +45,8 @@ def impacts(result: Result) -> tuple[list[dict[str, Any]], int]:
                     "force": float(size[peak]),
                 }
             )
-    largest = sorted(found, key=lambda impact: -impact["force"])[:MOST_IMPACTS]
-    return sorted(largest, key=lambda impact: impact["from"]), len(found) - len(largest)
+    largest = sorted(impact_list, key=lambda impact: -impact["force"])[:MOST_IMPACTS]
+    return sorted(largest, key=lambda impact: impact["from"]), len(impact_list) - len(largest)
 
 
 def dead_centres(result: Result) -> list[dict[str, Any]]:
@@ -73,15 +73,15 @@ def values_on(result: Result, curve: Curve, *, as_read: bool = False) -> Array:
         values = values[:, curve.body]
     if values.ndim == 2:
         chosen = values[:, list(curve.columns)]
-        one = len(curve.columns) == 1
-        values = chosen[:, 0] if one else lengths(chosen)
+        single = len(curve.columns) == 1
+        values = chosen[:, 0] if single else lengths(chosen)
     return np.asarray(curve.offset + curve.factor * values)
 
 
 def peaks(result: Result, curves: Iterable[Curve]) -> dict[str, dict[str, Any]]:
     """Return, by curve, the peak that a quantity states, with its error and its bounds, SI."""
     known = values_of(result)
-    found = {}
+    peak_of_curve = {}
     for curve in curves:
         value = known.get(curve.peak)
         if value is None or value.value is None:
@@ -89,7 +89,7 @@ def peaks(result: Result, curves: Iterable[Curve]) -> dict[str, dict[str, Any]]:
         values = values_on(result, curve, as_read=True)
         at = int(np.argmin(values) if curve.least else np.argmax(np.abs(values)))
         sign = -1.0 if values[at] < 0.0 <= value.value else 1.0
-        found[curve.name] = {
+        peak_of_curve[curve.name] = {
             "at": float(result.time[at]),
             "value": sign * float(value.value),
             "low": None if value.low is None else sign * float(value.low),
@@ -98,4 +98,4 @@ def peaks(result: Result, curves: Iterable[Curve]) -> dict[str, dict[str, Any]]:
             "determined": value.determined,
             "quantity": value.name,
         }
-    return found
+    return peak_of_curve

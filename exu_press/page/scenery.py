@@ -25,7 +25,7 @@ def scenery(result: Result) -> dict[str, Any]:
         {
             "name": name,
             "label": _label(name),
-            "outline": _rounded(shape.outline),
+            "outline": _round_points(shape.outline),
             "colour": shape.colour,
             "layer": front.layer(name),
         }
@@ -37,8 +37,8 @@ def scenery(result: Result) -> dict[str, Any]:
         "box": [*front.low.tolist(), *front.high.tolist()],
         "bodies": bodies,
         "joints": [_joint(result, mechanism, name) for name in result.joints],
-        "magnified": _magnified(result),
-        "rails": [_rounded(rail) for rail in front.rails()],
+        "magnified": _joints_to_magnify(result),
+        "rails": [_round_points(rail) for rail in front.rails()],
         "pivots": [[*map(float, joint.at)] for joint in mechanism.joints if joint.on_frame],
         "ends": [
             {
@@ -71,7 +71,7 @@ def _joint(result: Result, mechanism: Mechanism, name: str) -> dict[str, Any]:
     return {
         "name": name,
         "label": joint_in_words(name),
-        "body": [one.name for one in mechanism.bodies].index(body),
+        "body": [mechanism_body.name for mechanism_body in mechanism.bodies].index(body),
         "turns": joint.journal != GROUND,
         "at": [*map(float, point)],
         "kind": record.kind,
@@ -80,12 +80,12 @@ def _joint(result: Result, mechanism: Mechanism, name: str) -> dict[str, Any]:
     }
 
 
-def _magnified(result: Result) -> list[str]:
+def _joints_to_magnify(result: Result) -> list[str]:
     """Return the joints that are magnified first: those with the largest forces."""
     loose = sorted(result.clearance_joints, key=lambda name: (result.joints[name].spherical, name))
     return list(busiest([result], loose, "eccentricity", MAGNIFIED)[0])
 
 
-def _rounded(points: Array) -> list[list[float]]:
+def _round_points(points: Array) -> list[list[float]]:
     """Return points to a hundredth of a millimetre."""
     return [[round(float(x), 5), round(float(y), 5)] for x, y in points]

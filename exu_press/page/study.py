@@ -86,16 +86,16 @@ def _column(column: Column, blocks: Blocks) -> dict[str, Any]:
         ]
     else:
         numbers = list(column.values)
-    found: dict[str, Any] = {
+    entry: dict[str, Any] = {
         "name": column.name,
         "head": column.head,
         "texts": texts,
         "values": blocks.add(_numbers(numbers), "f8"),
     }
     if column.low is not None and column.high is not None:
-        found["low"] = blocks.add(_numbers(column.low), "f8")
-        found["high"] = blocks.add(_numbers(column.high), "f8")
-    return found
+        entry["low"] = blocks.add(_numbers(column.low), "f8")
+        entry["high"] = blocks.add(_numbers(column.high), "f8")
+    return entry
 
 
 def _numbers(values: Sequence[float | None]) -> Any:

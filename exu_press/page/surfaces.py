@@ -19,7 +19,7 @@ ENOUGH = 1e-3
 
 def surfaces(result: Result, blocks: Blocks) -> list[dict[str, Any]]:
     """Return the surfaces of a run's flexible bodies and the modes that show in it."""
-    found = []
+    surface_entries = []
     for body, surface in result.surfaces.items():
         coordinates = np.abs(result[f"{body}_modes"]).max(axis=0)
         moved = np.abs(surface.modes).max(axis=(0, 1)) * coordinates
@@ -28,23 +28,23 @@ def surfaces(result: Result, blocks: Blocks) -> list[dict[str, Any]]:
             stressed = np.abs(surface.stress).max(axis=(0, 1)) * coordinates
         shows = (moved > ENOUGH * moved.max()) | (stressed > ENOUGH * stressed.max())
         modes = np.flatnonzero(shows)
-        found.append(
+        surface_entries.append(
             {
                 "body": body,
                 "index": result.bodies.index(body),
                 "modes": [int(mode) for mode in modes],
                 "nodes": blocks.add(surface.nodes),
                 "triangles": blocks.add(surface.triangles, "u4"),
-                "shapes": _rounded(surface.modes[:, :, modes], blocks),
-                "stress": _rounded(surface.stress[:, :, modes], blocks)
+                "shapes": _store_as_integers(surface.modes[:, :, modes], blocks),
+                "stress": _store_as_integers(surface.stress[:, :, modes], blocks)
                 if len(surface.stress)
                 else None,
             }
         )
-    return found
+    return surface_entries
 
 
-def _rounded(values: NDArray[np.float32], blocks: Blocks) -> dict[str, Any]:
+def _store_as_integers(values: NDArray[np.float32], blocks: Blocks) -> dict[str, Any]:
     """Store (s, components, modes) as integers, each mode with a scale of its own."""
     scale = np.abs(values).max(axis=(0, 1)) / STEPS
     whole = np.round(values / np.where(scale > 0.0, scale, 1.0)).astype(np.int16)

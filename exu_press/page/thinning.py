@@ -26,7 +26,7 @@ class Thinning:
     every: int
 
     @property
-    def kept(self) -> NDArray[np.intp]:
+    def steps(self) -> NDArray[np.intp]:
         """Steps at whose instants the page has values: the first and the middle of every block."""
         if self.every == 1:
             return np.arange(self.count)
@@ -38,7 +38,7 @@ class Thinning:
     def extremes(self, values: Array) -> Array:
         """Return the least and the largest values of blocks, in their order, from (n,) or (n, k).
 
-        They stand at the instants of `kept`, less than a block from where they were.
+        They stand at the instants of `steps`, less than a block from where they were.
         """
         if self.every == 1:
             return values
@@ -47,8 +47,8 @@ class Thinning:
         padded = np.concatenate([values, np.repeat(values[-1:], missing, axis=0)])
         padded = padded.reshape(blocks, self.every, -1)
         both = np.sort(np.stack([padded.argmin(axis=1), padded.argmax(axis=1)], axis=1), axis=1)
-        found = np.take_along_axis(padded, both, axis=1)
-        return np.asarray(found.reshape(2 * blocks, *values.shape[1:]))
+        extreme_values = np.take_along_axis(padded, both, axis=1)
+        return np.asarray(extreme_values.reshape(2 * blocks, *values.shape[1:]))
 
     def vectors(self, values: Array) -> Array:
         """Return the shortest and the longest vectors (m, k) of blocks, in their order."""

@@ -42,26 +42,26 @@ def viewer(
     from exu_press.page.figures import curve_panels
 
     blocks = Blocks()
-    shown = {n: run if spans is None else window(run, *spans[n]) for n, run in results.items()}
+    windowed = {n: run if spans is None else window(run, *spans[n]) for n, run in results.items()}
     curves = {label: curves_of(result) for label, result in results.items()}
     thinned = thinning(
-        [len(result.time) for result in shown.values()],
-        [sum(result[name][0].size for name in result) for result in shown.values()],
+        [len(result.time) for result in windowed.values()],
+        [sum(result[name][0].size for name in result) for result in windowed.values()],
     )
     runs = [
         {
             "label": label,
             "colour": colour_of(index),
-            **_recorded(shown[label], curves[label], thinned[index], blocks),
-            **_marked(result, curves[label], shown[label]),
+            **_record_entry(windowed[label], curves[label], thinned[index], blocks),
+            **_marks(result, curves[label], windowed[label]),
             "scenery": scenery(result),
-            "surfaces": surfaces(shown[label], blocks),
+            "surfaces": surfaces(windowed[label], blocks),
         }
         for index, (label, result) in enumerate(results.items())
     ]
     data = {
         "runs": runs,
-        "groups": _groups(shown, curves),
+        "groups": _groups(windowed, curves),
         "first": _first(results, curves),
         **curve_panels(tuple(run["colour"] for run in runs)),
     }
@@ -69,11 +69,11 @@ def viewer(
     return Live(body, scripts(*SCRIPTS), styles())
 
 
-def _recorded(
+def _record_entry(
     result: Result, curves: list[Curve], thinned: Thinning, blocks: Blocks
 ) -> dict[str, Any]:
     """Return the page's part of a run's record."""
-    kept = thinned.kept
+    steps = thinned.steps
     stored = {
         channel: blocks.add(_columns(result.channels[channel], thinned))
         for channel in dict.fromkeys(curve.channel for curve in curves)
@@ -81,25 +81,25 @@ def _recorded(
     return {
         "count": thinned.count,
         "every": thinned.every,
-        "time": blocks.add(result.time[kept], "f8"),
-        "angle": blocks.add(np.degrees(result["crank_angle"][kept]), "f8"),
+        "time": blocks.add(result.time[steps], "f8"),
+        "angle": blocks.add(np.degrees(result["crank_angle"][steps]), "f8"),
         "channels": stored,
         "curves": {curve.name: _recipe(result, curve, thinned) for curve in curves},
     }
 
 
-def _marked(result: Result, curves: list[Curve], shown: Result) -> dict[str, Any]:
+def _marks(result: Result, curves: list[Curve], windowed: Result) -> dict[str, Any]:
     """Return the marks in the part of a run that is shown; read from all of it."""
-    begin, end = float(shown.time[0]), float(shown.time[-1])
-    found, more = impacts(result)
+    begin, end = float(windowed.time[0]), float(windowed.time[-1])
+    impact_list, more = impacts(result)
     stated = peaks(result, curves)
     horizon, settled = result.info.get("horizon"), 60.0 / result.scene.speed_rpm
     settled *= result.scene.settled
     return {
-        "peaks": {name: one for name, one in stated.items() if begin <= one["at"] <= end},
-        "impacts": [one for one in found if begin <= one["peak"] <= end],
+        "peaks": {name: mark for name, mark in stated.items() if begin <= mark["at"] <= end},
+        "impacts": [mark for mark in impact_list if begin <= mark["peak"] <= end],
         "unmarked": more,
-        "ends": [one for one in dead_centres(result) if begin <= one["at"] <= end],
+        "ends": [mark for mark in dead_centres(result) if begin <= mark["at"] <= end],
         "horizon": None if horizon is None or horizon > end else max(horizon, begin),
         "settled": settled if settled > begin else 0.0,
     }
@@ -116,7 +116,7 @@ def _columns(channel: Channel, thinned: Thinning) -> Array:
         return flat
     if channel.axis == "":
         return thinned.extremes(flat)
-    together = flat[thinned.kept] if channel.axis == "pose" else thinned.vectors(flat)
+    together = flat[thinned.steps] if channel.axis == "pose" else thinned.vectors(flat)
     return np.concatenate([together, thinned.extremes(flat)], axis=1)
 
 
@@ -138,18 +138,24 @@ def _groups(
     results: Mapping[str, Result], curves: Mapping[str, list[Curve]]
 ) -> list[dict[str, Any]]:
     """Return the curves that any of the runs has, by their groups, with their units."""
-    found: dict[str, dict[str, Any]] = {}
+    curve_entries: dict[str, dict[str, Any]] = {}
     for label, result in results.items():
         for curve in curves[label]:
             entry = {"name": curve.name, "group": curve.group, "label": curve.label}
-            one = found.setdefault(curve.name, {**entry, "si": curve.unit, "largest": 0.0})
+            curve_entry = curve_entries.setdefault(
+                curve.name, {**entry, "si": curve.unit, "largest": 0.0}
+            )
             values = values_on(result, curve)
-            one["largest"] = max(one["largest"], float(np.abs(values).max()))
+            curve_entry["largest"] = max(curve_entry["largest"], float(np.abs(values).max()))
     groups: dict[str, list[dict[str, Any]]] = {}
-    for one in found.values():
-        unit, factor = shown_unit(one.pop("si"), one.pop("largest"))
-        one |= {"unit": typeset(unit), "factor": factor, "label": typeset(one["label"])}
-        groups.setdefault(one.pop("group"), []).append(one)
+    for curve_entry in curve_entries.values():
+        unit, factor = shown_unit(curve_entry.pop("si"), curve_entry.pop("largest"))
+        curve_entry |= {
+            "unit": typeset(unit),
+            "factor": factor,
+            "label": typeset(curve_entry["label"]),
+        }
+        groups.setdefault(curve_entry.pop("group"), []).append(curve_entry)
     return [{"label": group, "curves": members} for group, members in groups.items()]
 
 
@@ -157,9 +163,9 @@ def _first(results: Mapping[str, Result], curves: Mapping[str, list[Curve]]) -> 
     richest = max(results.values(), key=lambda result: len(result.clearance_joints))
     names = richest.clearance_joints or tuple(richest.joints)
     drawn, _ = busiest([richest], sorted(names), "force", 1)
-    known = {curve.name for some in curves.values() for curve in some}
-    wanted = [*FIRST, *(f"{name}_force" for name in drawn)]
-    return [name for name in wanted if name in known] or sorted(known)[:1]
+    known = {curve.name for curve_list in curves.values() for curve in curve_list}
+    preferred = [*FIRST, *(f"{name}_force" for name in drawn)]
+    return [name for name in preferred if name in known] or sorted(known)[:1]
 
 
 LAYOUT = """

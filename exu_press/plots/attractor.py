@@ -6,11 +6,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.headed import headed_figure
 from exu_press.plots.spectrum import draw_spectrum
-from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, styled
+from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, with_style
 from exu_press.plots.sweep_words import words as in_words
-from exu_press.plots.typesetting import typeset, wrapped
+from exu_press.plots.title import figure_with_title
+from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe
 from exu_press.studies.attractor import Attractor
 from exu_press.studies.spectrum import Spectra, spectra
@@ -20,14 +20,14 @@ __all__ = ["attractor_figure"]
 ORDERS = 30
 
 
-@styled
+@with_style
 def attractor_figure(found: Attractor) -> Figure:
     """Return eight panels, of the first joint with clearance and the most scattered figure."""
     low, high = found.per_second[1:]
     exponent = f"in [{low:.3g}, {high:.3g}]" if np.isfinite(low) else f"below {high:.3g}"
     words = f"{describe([found.scene], 160)}\nperiod: {found.period}; largest Lyapunov exponent "
     words += f"{exponent} 1/s"
-    figure = headed_figure("In the long run", words, (18.0, 8.6))
+    figure = figure_with_title("In the long run", words, (18.0, 8.6))
     panels = figure.subplots(2, 4)
     loose = next(iter(found.scene.joints.with_clearance), None)
     if found.points.shape[1] > 1:
@@ -46,7 +46,7 @@ def attractor_figure(found: Attractor) -> Figure:
     _frequencies(panels[1, 0], each)
     _orders(panels[1, 1], each)
     name, values = max(found.figures.items(), key=lambda one: _scatter(one[1]))
-    label = wrapped(", ".join(part for part in (in_words(name), found.units[name]) if part))
+    label = wrap_text(", ".join(part for part in (in_words(name), found.units[name]) if part))
     _histogram(panels[1, 2], label, values)
     _by_revolution(panels[1, 3], label, values, found.skip)
     return figure

@@ -9,10 +9,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import log_axis
-from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, SHADE, colour_of, styled
-from exu_press.plots.sweep_words import in_unit, labelled
+from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, SHADE, colour_of, with_style
+from exu_press.plots.sweep_words import in_unit, label_with_unit
+from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe
 from exu_press.studies.base import Row
@@ -25,14 +25,14 @@ MARKERS = {"up": "^", "down": "v", "from the start": "o"}
 MOST_TICKS = 9
 
 
-@styled
+@with_style
 def bifurcation_figure(report: Report) -> Figure:
     """Return the diagram of one key: eccentricity on the section, period, exponent over it."""
     study, values = report.study, report.study.values
     own = study.bifurcation
     text = f"{describe([study.scene_at({study.name: v}) for v in values], 110)}\n"
     text += f"{own.revolutions} revolutions after {own.skip} at each of {len(values)} values"
-    figure = headed_figure("Bifurcation diagram", text, (9.5, 9.0))
+    figure = figure_with_title("Bifurcation diagram", text, (9.5, 9.0))
     points, period, exponent = figure.subplots(3, 1, sharex=True, height_ratios=[3.0, 1.2, 1.5])
     handles = []
     shown, unit = in_unit(study.name, np.array(values))
@@ -66,7 +66,7 @@ def bifurcation_figure(report: Report) -> Figure:
     points.set_ylabel("eccentricity x / clearance, first joint")
     points.legend(handles=handles, loc="best")
     points.margins(y=0.1)
-    exponent.set_xlabel(plain(labelled(study.name, unit)))
+    exponent.set_xlabel(plain(label_with_unit(study.name, unit)))
     if len(values) > 2 and values[0] > 0.0 and values[-1] > 10.0 * values[0]:
         log_axis(exponent, "x", shown)
     else:
@@ -81,7 +81,7 @@ def bifurcation_figures(report: Report) -> dict[str, Figure]:
     return {"bifurcation": figure(report)}
 
 
-@styled
+@with_style
 def period_map_figure(report: Report) -> Figure:
     """Return a row of two maps for each way: the period, and the upper end of the exponent."""
     study = report.study
@@ -91,7 +91,7 @@ def period_map_figure(report: Report) -> Figure:
     own = study.bifurcation
     text += f"{own.revolutions} revolutions after {own.skip} at each of {len(points)}"
     text += " points; the exponent is the upper end of its interval"
-    figure = headed_figure("Map of periods", text, (11.5, 1.8 + 4.2 * len(report.ways)))
+    figure = figure_with_title("Map of periods", text, (11.5, 1.8 + 4.2 * len(report.ways)))
     ends = [row["exponent"][2] for branch in report.branches for row in branch.rows
             if row["status"] == "completed"]  # fmt: skip
     most = max(map(abs, ends), default=0.0) or 1.0
@@ -164,6 +164,6 @@ def _axis(panel: Axes, which: str, name: str, values: Array) -> None:
     numbers, unit = in_unit(name, values)
     every = -(-len(numbers) // MOST_TICKS)
     ticks = np.arange(0, len(numbers), every)
-    label = plain(labelled(name, unit))
+    label = plain(label_with_unit(name, unit))
     panel.set(**{f"{which}ticks": ticks, f"{which}label": label})
     panel.set(**{f"{which}ticklabels": [f"{numbers[k]:.4g}" for k in ticks]})

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from exu_press.plots.peaks import with_error
-from exu_press.plots.typesetting import cut
+from exu_press.plots.typesetting import shorten
 from exu_press.plots.words import joint_in_words
 from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE
 from exu_press.quantities.reading import Reading
@@ -115,13 +115,15 @@ def sides_alike(results: Iterable[Result], channel: str) -> bool:
 
     They are mirror images: the sideways component has the opposite sign.
     """
-    other = mirror(channel)
+    mirrored = mirror(channel)
     for result in results:
-        if channel in result and other in result:
-            one, two = result[channel], result[other]
-            if one.ndim == 2:
-                two = two * np.where(np.arange(two.shape[1]) == 0, -1.0, 1.0)
-            if np.abs(one - two).max() > ALIKE * np.abs(one).max():
+        if channel in result and mirrored in result:
+            values, mirrored_values = result[channel], result[mirrored]
+            if values.ndim == 2:
+                mirrored_values = mirrored_values * np.where(
+                    np.arange(mirrored_values.shape[1]) == 0, -1.0, 1.0
+                )
+            if np.abs(values - mirrored_values).max() > ALIKE * np.abs(values).max():
                 return False
     return True
 
@@ -136,12 +138,12 @@ def joint_titles(
         names: of the joints, the one to show of two sides first.
         quantity: end of the name of the joint's channel.
     """
-    shown: dict[str, str] = {}
+    titles: dict[str, str] = {}
     for name in names:
-        channel, title = f"{name}_{quantity}", cut(joint_in_words(name), TITLE)
+        channel, title = f"{name}_{quantity}", shorten(joint_in_words(name), TITLE)
         if mirror(channel) != channel and sides_alike(results, channel):
-            if mirror(channel).removesuffix(f"_{quantity}") in shown:
+            if mirror(channel).removesuffix(f"_{quantity}") in titles:
                 continue
             title = f"{title.partition(',')[0]}, each side"
-        shown[name] = title
-    return shown
+        titles[name] = title
+    return titles

@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.decimate import decimate
-from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import crank_angle_axis
+from exu_press.plots.title import figure_with_title
 from exu_press.plots.words import describe, early_stops
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
@@ -38,7 +38,7 @@ def new_figure(heading: str, results: Mapping[str, Result], size: tuple[float, f
     letters = int(12.5 * size[0])
     scenes = [result.scene for result in results.values()]
     lines = [describe(scenes, letters), early_stops(results, letters)]
-    return headed_figure(heading, "\n".join(filter(None, lines)), size)
+    return figure_with_title(heading, "\n".join(filter(None, lines)), size)
 
 
 def crank_degrees(result: Result) -> Array:
@@ -84,8 +84,8 @@ def angle_words(results: Mapping[str, Result]) -> str:
 
 def dead_centres(results: Mapping[str, Result]) -> dict[str, float]:
     """Return the ideal slider's dead centres, deg, where the mechanisms have the same."""
-    found = {mechanism_of(result.scene).dead_centres for result in results.values()}
-    both = found.pop() if len(found) == 1 else None
+    angles = {mechanism_of(result.scene).dead_centres for result in results.values()}
+    both = angles.pop() if len(angles) == 1 else None
     if both is None:
         return {}
     top, bottom = (round(float(np.degrees(angle)), 3) % 360.0 for angle in both)
@@ -95,8 +95,8 @@ def dead_centres(results: Mapping[str, Result]) -> dict[str, float]:
 def curve(axes: Axes, result: Result, values: Array, **line: Any) -> None:
     """Draw values (n,) over the crank angle; a cross ends the curve of a run that stopped early."""
     angle = crank_degrees(result)
-    kept = decimate(angle, values)
-    (drawn,) = axes.plot(angle[kept], values[kept], **{"solid_joinstyle": "round", **line})
+    indices = decimate(angle, values)
+    (drawn,) = axes.plot(angle[indices], values[indices], **{"solid_joinstyle": "round", **line})
     if not result.completed:
         axes.plot(
             angle[-1:],

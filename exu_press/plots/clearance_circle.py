@@ -160,10 +160,10 @@ def _free_corner(points: Array, half: float) -> tuple[float, float, float, float
     """Return the bounds, in parts of the panel, of the corner with the fewest points in it."""
     size, gap = 0.27, 0.025
     corners = [(x, y) for y in (1 - gap - size - 0.05, gap) for x in (1 - gap - size, gap)]
-    place = (points / half + 1.0) / 2.0
+    positions = (points / half + 1.0) / 2.0
 
     def crowd(corner: tuple[float, float]) -> int:
-        inside = (place > np.array(corner) - gap) & (place < np.array(corner) + size + gap)
+        inside = (positions > np.array(corner) - gap) & (positions < np.array(corner) + size + gap)
         return int(np.count_nonzero(inside.all(axis=1)))
 
     return (*min(corners, key=crowd), size, size)

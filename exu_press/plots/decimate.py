@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["BINS", "decimate", "travelled", "visible_segments"]
+__all__ = ["BINS", "decimate", "distance_travelled", "visible_segments"]
 
 BINS = 1500
 """About two bins a pixel in a panel over half a picture's width."""
@@ -28,18 +28,18 @@ def decimate(x: Array, *curves: Array, bins: int = BINS) -> NDArray[np.intp]:
     count = len(x)
     if count <= 4 * bins:
         return np.arange(count)
-    way = travelled(x)
-    bin_of = np.minimum((way / (way[-1] / bins or 1.0)).astype(int), bins - 1)
+    path_length = distance_travelled(x)
+    bin_of = np.minimum((path_length / (path_length[-1] / bins or 1.0)).astype(int), bins - 1)
     starts = np.flatnonzero(np.diff(bin_of, prepend=-1))
     ends = np.append(starts[1:], count) - 1
-    kept = [starts, ends]
+    indices = [starts, ends]
     for curve in curves:
         order = np.lexsort((curve, bin_of))
-        kept += [order[starts], order[ends]]
-    return np.unique(np.concatenate(kept))
+        indices += [order[starts], order[ends]]
+    return np.unique(np.concatenate(indices))
 
 
-def travelled(x: Array) -> Array:
+def distance_travelled(x: Array) -> Array:
     """Return the way from the first of places (n,) to each, whatever the direction, (n,)."""
     return np.append(0.0, np.cumsum(np.abs(np.diff(x))))
 
@@ -59,8 +59,8 @@ def visible_segments(points: Array, pixel: float) -> NDArray[np.intp]:
     """
     cells = np.round(points / pixel).astype(int)
     moved = np.flatnonzero((np.diff(cells, axis=0) != 0).any(axis=1)) + 1
-    kept = np.concatenate([[0], moved])
-    segments = np.stack([kept[:-1], kept[1:]], axis=1)
+    points_kept = np.concatenate([[0], moved])
+    segments = np.stack([points_kept[:-1], points_kept[1:]], axis=1)
     ends = cells[segments].reshape(-1, 4)[::-1]  # the last of each comes first
     _, unique = np.unique(ends, axis=0, return_index=True)
     return np.asarray(segments[np.sort(len(segments) - 1 - unique)])

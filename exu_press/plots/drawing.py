@@ -15,10 +15,10 @@ from exu_press.mechanism.parts import GROUND
 from exu_press.mechanism.shapes import shapes_of
 from exu_press.mechanism.transmission import alike
 from exu_press.numerics.arrays import Array
-from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import spread
-from exu_press.plots.style import GREY, RUN, colour_of, styled
-from exu_press.plots.typesetting import cut, plain, wrapped
+from exu_press.plots.style import GREY, RUN, colour_of, with_style
+from exu_press.plots.title import figure_with_title
+from exu_press.plots.typesetting import plain, shorten, wrap_text
 
 __all__ = ["drawing_figure"]
 
@@ -41,7 +41,7 @@ MOST_TRANSMISSIONS = 6
 """More joints than this are not told apart by colours; those with the smallest angles are drawn."""
 
 
-@styled
+@with_style
 def drawing_figure(examined: Examination, text: str, speed: float | None = None) -> Figure:
     """Return the drawing with names and, where the crank turns, curves over the crank angle.
 
@@ -53,7 +53,7 @@ def drawing_figure(examined: Examination, text: str, speed: float | None = None)
         text: about it, in lines.
         speed: of the crank, rad/s; velocities are per radian of the crank without it.
     """
-    figure = headed_figure(f"Drawing of {plain(examined.mechanism.name)}", text, (14.0, 8.6))
+    figure = figure_with_title(f"Drawing of {plain(examined.mechanism.name)}", text, (14.0, 8.6))
     if examined.stroke is None:
         _draw(figure.subplots(), examined)
         return figure
@@ -144,12 +144,12 @@ def _draw_names(axes: Axes, examined: Examination) -> None:
         for body in mechanism.bodies
     }
     wrong = [n for n in bodies if n.removesuffix(" (guided)") in examined.wrong_bodies]
-    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
-    room = 0.45 * max(right - left, top - bottom)
-    short = max(0.0, 0.5 * (0.9 * (right - left + 2.0 * room) - (top - bottom)))
-    axes.set(xlim=(left - room, right + room), ylim=(bottom - short, top + short))
-    _column(axes, joints, wrong_joints, left - 0.02 * room, "right")
-    _column(axes, bodies, wrong, right + 0.02 * room, "left")
+    (left_edge, right_edge), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    room = 0.45 * max(right_edge - left_edge, top - bottom)
+    short = max(0.0, 0.5 * (0.9 * (right_edge - left_edge + 2.0 * room) - (top - bottom)))
+    axes.set(xlim=(left_edge - room, right_edge + room), ylim=(bottom - short, top + short))
+    _column(axes, joints, wrong_joints, left_edge - 0.02 * room, "right")
+    _column(axes, bodies, wrong, right_edge + 0.02 * room, "left")
 
 
 def _column(
@@ -157,7 +157,7 @@ def _column(
 ) -> None:
     """Write names in a column, spread over the height of the drawing."""
     low, high = axes.get_ylim()
-    lines = {name: wrapped(name.replace("_", "_ "), LETTERS).replace("_ ", "_") for name in named}
+    lines = {name: wrap_text(name.replace("_", "_ "), LETTERS).replace("_ ", "_") for name in named}
     most = max((text.count("\n") + 1 for text in lines.values()), default=1)
     heights = spread([float(at[1]) for at in named.values()], 0.033 * most * (high - low))
     for (name, at), y in zip(named.items(), heights, strict=True):
@@ -208,7 +208,7 @@ def _curves(panels: Sequence[Axes], examined: Examination, speed: float | None) 
     curves = alike(examined.transmission)
     for index, (name, values) in enumerate(curves[:MOST_TRANSMISSIONS]):
         degrees = np.degrees(values)
-        transmission.plot(angle, degrees, color=colour_of(index), label=plain(cut(name, SHORT)))
+        transmission.plot(angle, degrees, color=colour_of(index), label=plain(shorten(name, SHORT)))
     transmission.axhspan(0.0, LEAST_ANGLE, color=WRONG, alpha=0.06, linewidth=0)
     transmission.set(title="Transmission angle", ylabel="deg", ylim=(0.0, 92.0))
     transmission.set_yticks([0, 30, 60, 90])

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from exu_press.plots.busiest import joint_titles
 from exu_press.plots.canvas import angle_axis, curve, legend_above, new_figure
 from exu_press.plots.scales import note
-from exu_press.plots.style import COLOURS, GREY, colour_of, styled
-from exu_press.plots.typesetting import cut
+from exu_press.plots.style import COLOURS, GREY, colour_of, with_style
+from exu_press.plots.typesetting import shorten
 from exu_press.quantities.energy import energy_residual
 from exu_press.result import Result
 
@@ -35,7 +35,7 @@ BALANCE_LINES: dict[str, dict[str, Any]] = {
 }
 
 
-@styled
+@with_style
 def energy_figure(result: Result) -> Figure:
     """Return the energy balance of a run since its start, J.
 
@@ -64,9 +64,12 @@ def energy_figure(result: Result) -> Figure:
 def _losses(axes: Axes, result: Result) -> None:
     """Draw each joint's dissipated energy; two balls that do the same, guides, modes as one."""
     names = [name.removesuffix("_loss") for name in result if name.endswith("_loss")]
-    others = [name for name in names if name not in result.joints]
-    modes = [name for name in others if name.endswith("_modes")]
-    together = {"guides": [name for name in others if name not in modes], "damping of modes": modes}
+    not_joints = [name for name in names if name not in result.joints]
+    modes = [name for name in not_joints if name.endswith("_modes")]
+    together = {
+        "guides": [name for name in not_joints if name not in modes],
+        "damping of modes": modes,
+    }
     order = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
     titles = joint_titles([result], order, "loss")
     most = sorted(titles, key=lambda name: -float(result[f"{name}_loss"][-1]))[:MOST_LOSSES]
@@ -75,7 +78,7 @@ def _losses(axes: Axes, result: Result) -> None:
     rest = len(order) - len(drawn) - sides
     for index, (name, title) in enumerate(drawn.items()):
         lost = result[f"{name}_loss"]
-        words = cut(title[0].lower() + title[1:], LEGEND_LETTERS)
+        words = shorten(title[0].lower() + title[1:], LEGEND_LETTERS)
         curve(axes, result, lost, color=colour_of(index), linewidth=1.4, label=words)
     for style, (label, several) in zip(("-", (0, (5, 1.5))), together.items(), strict=True):
         if several:
@@ -91,8 +94,8 @@ def _losses(axes: Axes, result: Result) -> None:
 
 
 def _residual(axes: Axes, result: Result) -> None:
-    given, stored, lost = (result[name] for name in BALANCE_LINES)
-    residual, relative = given - stored - lost, energy_residual(result)
+    put_in, stored, dissipated = (result[name] for name in BALANCE_LINES)
+    residual, relative = put_in - stored - dissipated, energy_residual(result)
     worst = float(np.abs(residual).max())
     unit, scale = ("J", 1.0) if worst > 0.1 else ("mJ", 1e3)
     curve(axes, result, scale * residual, color=GREY, linewidth=1.0)

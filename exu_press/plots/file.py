@@ -49,4 +49,6 @@ def save_figures(
     figures: Mapping[str, Figure], directory: str | Path, ending: str = FORMATS[0]
 ) -> list[Path]:
     """Write each figure under its name and return the files."""
-    return [save_figure(each, Path(directory) / f"{n}{ending}") for n, each in figures.items()]
+    return [
+        save_figure(figure, Path(directory) / f"{name}{ending}") for name, figure in figures.items()
+    ]

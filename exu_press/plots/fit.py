@@ -4,12 +4,12 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.stats import chi2
 
-from exu_press.plots.headed import headed_figure
 from exu_press.plots.measured import curve_panel
 from exu_press.plots.scales import log_axis
-from exu_press.plots.style import COLOURS, GREY, SHADE, styled
+from exu_press.plots.style import COLOURS, GREY, SHADE, with_style
 from exu_press.plots.sweep_words import in_unit, words
-from exu_press.plots.typesetting import plain, wrapped
+from exu_press.plots.title import figure_with_title
+from exu_press.plots.typesetting import plain, wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
@@ -21,7 +21,7 @@ __all__ = ["fit_figure", "fit_figures", "profiles_figure"]
 MOST_ACROSS = 3
 
 
-@styled
+@with_style
 def fit_figure(report: Report) -> Figure:
     """Return the residuals of numbers in uncertainties, and each curve beside the computed one."""
     study = report.study
@@ -30,7 +30,7 @@ def fit_figure(report: Report) -> Figure:
     heights = [0.8 + 0.32 * number] * (number > 0) + [2.8] * curves
     text = f"{describe([report.scene], 110)}\nchi-square {significant(report.chi_square, 3)} with "
     text += f"{report.freedom:g} degree{'s' * (report.freedom != 1)} of freedom"
-    figure = headed_figure("Measured and computed", text, (9.5, 1.2 + sum(heights)))
+    figure = figure_with_title("Measured and computed", text, (9.5, 1.2 + sum(heights)))
     axes = list(figure.subplots(panels, 1, squeeze=False, height_ratios=heights).flat)
     if number:
         first = axes.pop(0)
@@ -57,7 +57,7 @@ def fit_figure(report: Report) -> Figure:
     return figure
 
 
-@styled
+@with_style
 def profiles_figure(report: Report) -> Figure:
     """Return chi-square above the least over each key, the others fitted again at each value."""
     names = list(report.values)
@@ -65,7 +65,7 @@ def profiles_figure(report: Report) -> Figure:
     down = -(-len(names) // across)
     level = report.study.fit.level
     rise = float(chi2.ppf(level, 1))
-    figure = headed_figure(
+    figure = figure_with_title(
         "How well the measurement determines each key",
         f"Between the dashed lines, the key agrees with the measurement ({100 * level:g} %).",
         (4.0 * across + 0.5, 1.2 + 2.9 * down),
@@ -92,7 +92,7 @@ def profiles_figure(report: Report) -> Figure:
             panel.set_xlim(dense[0] - beside, dense[-1] + beside)
         panel.set_ylim(0.0, 2.2 * rise)
         panel.set_xlabel(plain(f"{name}{f', {unit}' if unit else ''}"))
-        panel.set_title(wrapped(words(name), 38))
+        panel.set_title(wrap_text(words(name), 38))
         panel.set_ylabel("chi-square above its least")
     for panel in list(panels):
         panel.axis("off")

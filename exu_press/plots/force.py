@@ -10,7 +10,7 @@ from exu_press.plots.busiest import busiest
 from exu_press.plots.canvas import angle_axis, crank_degrees, curve, new_figure
 from exu_press.plots.peaks import mark_peak
 from exu_press.plots.scales import impact_scale, note
-from exu_press.plots.style import colour_of, styled
+from exu_press.plots.style import colour_of, with_style
 from exu_press.plots.typesetting import plain
 from exu_press.quantities.catalogue import GUIDE_FORCE, JOINT_FORCE, PEAK_TORQUE
 from exu_press.result import Result
@@ -23,7 +23,7 @@ MOST_JOINTS = 5
 crank's pin, and of those in the frame and on the slider; of two sides that do the same, one."""
 
 
-@styled
+@with_style
 def force_figure(results: Mapping[str, Result]) -> Figure:
     """Return the magnitude of joint forces (kN) and the drive torque (N m), by label of the run.
 
@@ -36,12 +36,12 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     if rest:
         heading += f" ({len(rest)} joints with smaller forces are not drawn)"
     figure = new_figure(heading, results, (13.0, 7.6))
-    shown = {title: (f"{name}_force", "force, kN", 1e-3) for name, title in drawn.items()}
-    shown["Drive torque"] = "drive_torque", "torque, N m", 1.0
-    rows = -(-len(shown) // 2)
+    panel_of = {title: (f"{name}_force", "force, kN", 1e-3) for name, title in drawn.items()}
+    panel_of["Drive torque"] = "drive_torque", "torque, N m", 1.0
+    rows = -(-len(panel_of) // 2)
     grid = figure.subplots(rows, 2, sharex=True, squeeze=False)
-    panels = list(grid.flat)[: len(shown)]
-    for axes, (title, (channel, unit, scale)) in zip(panels, shown.items(), strict=True):
+    panels = list(grid.flat)[: len(panel_of)]
+    for axes, (title, (channel, unit, scale)) in zip(panels, panel_of.items(), strict=True):
         curves, peaks = [], []
         for index, (label, result) in enumerate(results.items()):
             if channel in result:
@@ -55,7 +55,7 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
         words = impact_scale(axes, curves, signed=signed)
         note(axes, *(peaks if len(results) == 1 else ()), words)
         axes.set(title=title, ylabel=unit)
-    for axes in list(grid.flat)[len(shown) :]:
+    for axes in list(grid.flat)[len(panel_of) :]:
         axes.remove()
     angle_axis(panels, results, panels[-2:])
     if len(results) > 1:

@@ -8,11 +8,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.headed import headed_figure
 from exu_press.plots.scales import log_axis
-from exu_press.plots.style import COLOURS, GREY, styled
-from exu_press.plots.sweep_words import headed, in_unit, labelled
-from exu_press.plots.typesetting import wrapped
+from exu_press.plots.style import COLOURS, GREY, with_style
+from exu_press.plots.sweep_words import axis_label, in_unit, label_with_unit
+from exu_press.plots.title import figure_with_title
+from exu_press.plots.typesetting import wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
 from exu_press.studies.base import Range
@@ -26,34 +26,34 @@ WIDE = 3.0
 """Largest over least value from which an axis is logarithmic."""
 
 
-@styled
+@with_style
 def front_figure(report: Report) -> Figure:
     """Return a panel for each pair of objectives, and one for each key over the first objective.
 
     Of one objective: all points over each key.
     """
     study = report.study
-    objectives = [one.quantity for one in study.objective]
+    objectives = [objective.quantity for objective in study.objective]
     pairs = list(combinations(objectives, 2))
-    ranged = [name for name, each in study.keys.items() if isinstance(each, Range)]
+    ranged = [name for name, study_key in study.keys.items() if isinstance(study_key, Range)]
     count = len(pairs) + len(ranged)
     across = min(ACROSS, count)
     down = -(-count // across)
     heading = "Objectives against each other" if pairs else "The objective over each key"
     text = f"{describe([study.scene], 110)}\n{report.told[0]}; {report.method}"
-    figure = headed_figure(heading, text, (4.3 * across + 0.4, 1.3 + 3.3 * down))
+    figure = figure_with_title(heading, text, (4.3 * across + 0.4, 1.3 + 3.3 * down))
     panels = list(figure.subplots(down, across, squeeze=False).flat)
     for (first, second), panel in zip(pairs, panels, strict=False):
         _points(panel, report, _all(report, first), _all(report, second), (first, second))
-        panel.set_xlabel(wrapped(headed(first)))
+        panel.set_xlabel(wrap_text(axis_label(first)))
     for name, panel in zip(ranged, panels[len(pairs) :], strict=False):
         values = np.array([float(point[name]) for point in report.trials.points])
-        shown, unit = in_unit(name, values)
-        _points(panel, report, shown, _all(report, objectives[0]), ("", objectives[0]))
-        panel.set_xlabel(wrapped(labelled(name, unit)))
-        each = study.keys[name]
-        if isinstance(each, Range) and each.log:
-            log_axis(panel, "x", shown)
+        values_in_unit, unit = in_unit(name, values)
+        _points(panel, report, values_in_unit, _all(report, objectives[0]), ("", objectives[0]))
+        panel.set_xlabel(wrap_text(label_with_unit(name, unit)))
+        study_key = study.keys[name]
+        if isinstance(study_key, Range) and study_key.log:
+            log_axis(panel, "x", values_in_unit)
     for panel in panels[count:]:
         panel.axis("off")
     handles, labels = panels[0].get_legend_handles_labels()
@@ -67,9 +67,9 @@ def front_figures(report: Report) -> dict[str, Figure]:
 
 
 def _all(report: Report, quantity: str) -> Array:
-    place = report.study.quantities.index(quantity)
+    column = report.study.quantities.index(quantity)
     scale = quantity_of(report.study.scene, quantity).quantity.scale
-    return np.asarray(report.trials.numbers[:, place] * scale)
+    return np.asarray(report.trials.numbers[:, column] * scale)
 
 
 def _points(panel: Axes, report: Report, across: Array, up: Array, names: tuple[str, str]) -> None:
@@ -86,13 +86,13 @@ def _points(panel: Axes, report: Report, across: Array, up: Array, names: tuple[
         markersize=4.5, ecolor=GREY, elinewidth=1.0,
         label="not worse in everything" if several else "best",
     )  # fmt: skip
-    one = report.places[report.chosen]
+    chosen_run = report.places[report.chosen]
     panel.plot(
-        across[one], up[one], "D", color=COLOURS["vermilion"], markersize=7, zorder=5,
+        across[chosen_run], up[chosen_run], "D", color=COLOURS["vermilion"], markersize=7, zorder=5,
         label="chosen",
     )  # fmt: skip
     panel.margins(x=0.05, y=0.05)
-    panel.set_ylabel(wrapped(headed(names[1])))
+    panel.set_ylabel(wrap_text(axis_label(names[1])))
     for which, values in (("x", across), ("y", up)):
         if (which == "y" or names[0]) and _wide(values):
             log_axis(panel, which, values)

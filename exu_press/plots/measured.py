@@ -6,8 +6,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.headed import headed_figure
-from exu_press.plots.style import GREY, colour_of, styled
+from exu_press.plots.style import GREY, colour_of, with_style
+from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain, typeset
 from exu_press.studies.beside_measured import Beside
 from exu_press.studies.curve_file import OVER, CurveFile
@@ -15,15 +15,15 @@ from exu_press.studies.curve_file import OVER, CurveFile
 __all__ = ["curve_panel", "measured_figure"]
 
 
-@styled
-def measured_figure(found: Mapping[str, Mapping[str, Beside]]) -> Figure:
+@with_style
+def measured_figure(comparisons: Mapping[str, Mapping[str, Beside]]) -> Figure:
     """Return a panel for each curve, by its name, with the runs by label."""
-    size = 9.5, 1.2 + 2.9 * len(found)
-    figure = headed_figure("Measured and computed", "Runs at the measured places.", size)
-    panels = figure.subplots(len(found), 1, squeeze=False).flat
-    for panel, (name, runs) in zip(panels, found.items(), strict=True):
+    size = 9.5, 1.2 + 2.9 * len(comparisons)
+    figure = figure_with_title("Measured and computed", "Runs at the measured places.", size)
+    panels = figure.subplots(len(comparisons), 1, squeeze=False).flat
+    for panel, (name, runs) in zip(panels, comparisons.items(), strict=True):
         first = next(iter(runs.values()))
-        computed = {label: one.values for label, one in runs.items()}
+        computed = {label: comparison.values for label, comparison in runs.items()}
         curve_panel(panel, name, first.curve, first.measured, computed, first.unit)
     return figure
 

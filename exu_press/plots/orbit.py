@@ -10,7 +10,7 @@ from exu_press.plots.busiest import busiest, draw_rest
 from exu_press.plots.canvas import angle_axis, angle_range, curve, legend_above, new_figure
 from exu_press.plots.clearance_circle import TOUCH_COLOUR, Path, draw_path
 from exu_press.plots.scales import angle_ticks, note
-from exu_press.plots.style import GREY, RUN, SHADE, styled
+from exu_press.plots.style import GREY, RUN, SHADE, with_style
 from exu_press.result import Result
 
 __all__ = ["orbit_figure"]
@@ -22,7 +22,7 @@ MOST_JOINTS = 4
 """Joints whose paths are drawn, the busiest ones; the rest stand in a table below them."""
 
 
-@styled
+@with_style
 def orbit_figure(result: Result) -> Figure:
     """Return the paths of journal and ball centres in their clearance circles, joint by joint.
 
@@ -76,8 +76,8 @@ def _over_angle(axes: Axes, result: Result, path: Path) -> None:
     """Draw the eccentricity of a journal or the height of a ball over the crank angle."""
     limit, ball = path.clearance, path.ball
     values = path.points[:, 1] if ball else path.distance
-    shown = ("height in its socket", "vertical eccentricity") if ball else ("eccentricity",) * 2
-    axes.set(title=f"{path.title}: {shown[0]}", ylabel=f"{shown[1]}, µm")
+    names = ("height in its socket", "vertical eccentricity") if ball else ("eccentricity",) * 2
+    axes.set(title=f"{path.title}: {names[0]}", ylabel=f"{names[1]}, µm")
     curve(axes, result, values, color=RUN, linewidth=0.9, label="centre")
     reach = 1.3 * max(path.reach, 1e-3 * limit) if path.small else 1.12 * max(path.reach, limit)
     axes.set_ylim(-reach if ball else 0.0, reach)

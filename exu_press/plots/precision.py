@@ -12,8 +12,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from exu_press.plots.file import save_figures
-from exu_press.plots.headed import headed_figure
-from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, styled
+from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, with_style
+from exu_press.plots.title import figure_with_title
 from exu_press.studies.precision import Report, Row
 from exu_press.studies.precision.measured import FIXED, TOLERANCE
 from exu_press.studies.precision.rows import series_of
@@ -38,7 +38,7 @@ MARKERS = ("1", "2", "3", "4", "+", "x")
 """Markers of the package's own settings that are varied, in grey."""
 
 
-@styled
+@with_style
 def precision_figure(report: Report, name: str) -> Figure:
     """Return position and peak acceleration error of a case over run time, and stated over true.
 
@@ -56,9 +56,9 @@ def precision_figure(report: Report, name: str) -> Figure:
         panels["error_peak_acceleration"] = "peak acceleration, relative"
     else:
         panels["error_velocity"] = "angular velocity, rad/s" if case["scene"] is None else "m/s"
-    stated = [one for one in report.stated if one.case == name and one.errors]
+    stated = [entry for entry in report.stated if entry.case == name and entry.errors]
     heading = f"{case['title']}: error against run time"
-    figure = headed_figure(heading, _words(report, case), (17.5 if stated else 13.0, 6.0))
+    figure = figure_with_title(heading, _words(report, case), (17.5 if stated else 13.0, 6.0))
     widths = (*[1.0] * (len(panels) + bool(stated)), 0.34)
     *axes, key = figure.subplots(1, len(widths), width_ratios=widths)
     if stated:
@@ -115,10 +115,12 @@ def _draw(axes: Axes, series: Mapping[str, Sequence[Row]], error: str, case: Any
 
 def _draw_stated(axes: Axes, stated: Sequence[Stated]) -> None:
     """Draw the stated error of every figure over its true one; below the diagonal is too small."""
-    for index, one in enumerate(stated):
-        told, true = zip(*one.errors, strict=True)
-        label = f"tolerance {one.tolerance:g}"
-        axes.plot(true, told, ".", color=colour_of(index), markersize=5, label=label)
+    for index, entry in enumerate(stated):
+        stated_errors, true_errors = zip(*entry.errors, strict=True)
+        label = f"tolerance {entry.tolerance:g}"
+        axes.plot(
+            true_errors, stated_errors, ".", color=colour_of(index), markersize=5, label=label
+        )
     axes.set(xscale="log", yscale="log")
     ends = np.array([*axes.get_xlim(), *axes.get_ylim()])
     line = float(ends.min()), float(ends.max())

@@ -20,8 +20,8 @@ from exu_press.plots.canvas import (
 )
 from exu_press.plots.peaks import mark_peak, with_error
 from exu_press.plots.scales import note, widen
-from exu_press.plots.slider import averaged
-from exu_press.plots.style import GREY, IDEAL, colour_of, styled
+from exu_press.plots.slider import sliding_mean
+from exu_press.plots.style import GREY, IDEAL, colour_of, with_style
 from exu_press.plots.words import joint_in_words
 from exu_press.quantities import DeadCentre, bottom_dead_centres, ideal_bottom_angle
 from exu_press.quantities.catalogue import (
@@ -55,7 +55,7 @@ CROWD = 8
 """More strokes than this are not named one by one."""
 
 
-@styled
+@with_style
 def press_figure(result: Result) -> Figure:
     """Return the picture for press builders of one run.
 
@@ -71,11 +71,11 @@ def press_figure(result: Result) -> Figure:
     rows = math.ceil((4 + bool(loads) + motor + 2 * elastic) / 2)
     heading = "Frame, drive, guides, dead centres"
     figure = new_figure(heading, {"": result}, (13.0, 3.6 * rows))
-    shaking, drive, guides, strokes, *others = figure.subplots(rows, 2).flat
+    shaking, drive, guides, strokes, *further_panels = figure.subplots(rows, 2).flat
     _shaking(shaking, result)
     _drive(drive, result)
     _guides(guides, result)
-    over_angle, free = [shaking, drive, guides, *others], iter(others)
+    over_angle, free = [shaking, drive, guides, *further_panels], iter(further_panels)
     centres = bottom_dead_centres(settled(result))
     if centres and dead_centres({"": result}):
         _strokes(strokes, result, centres)
@@ -113,8 +113,8 @@ def _shaking(axes: Axes, result: Result) -> None:
 def _drive(axes: Axes, result: Result) -> None:
     _draw(axes, result, {"": result["drive_power"]}, ())
     axes.set(title="Power of the drive", ylabel="mean over 1 ms, kW")
-    told = with_error(value_of(result, PEAK_TORQUE.name), 1e-3)
-    note(axes, f"torque, as resolved: at most {told} kN m")
+    peak = with_error(value_of(result, PEAK_TORQUE.name), 1e-3)
+    note(axes, f"torque, as resolved: at most {peak} kN m")
 
 
 def _speed(axes: Axes, result: Result) -> None:
@@ -155,7 +155,7 @@ def _draw(
     """Draw means over 1 ms in thousands, and the errors of their peaks where those are figures."""
     for index, (label, values) in enumerate(curves.items()):
         if values is not None:
-            mean = 1e-3 * averaged(result.time, integral(result.time, values))
+            mean = 1e-3 * sliding_mean(result.time, integral(result.time, values))
             curve(axes, result, mean, color=colour_of(index), linewidth=1.1, label=label)
             if figures:
                 mark_peak(axes, result, figures[index], 1e3 * mean, 1e-3, colour_of(index))
@@ -192,16 +192,16 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
         height = 1e6 * (evaluate(result.time, path, np.interp(near, angle, result.time)) - mean)
         label = f"stroke {index + 1}" if few else ""
         axes.plot(near - turn, height, color=colour, linewidth=1.1, label=label)
-        place = np.degrees(centre.crank_angle) - turn, 1e6 * (centre.position - mean)
-        axes.plot(*place, "o", color=colour, markersize=4)
+        lowest_point = np.degrees(centre.crank_angle) - turn, 1e6 * (centre.position - mean)
+        axes.plot(*lowest_point, "o", color=colour, markersize=4)
     axes.set(xlim=(-about, about), title="Bottom dead centre")
     axes.set(
         xlabel="crank angle from bottom dead centre, deg", ylabel="slider above its lowest, µm"
     )
     axes.margins(y=0.3)
     axes.legend(loc="upper center", ncols=3)
-    told = with_error(value_of(result, DEAD_CENTRE_MEAN.name), 1e3, 6)
-    note(axes, f"lowest, mm: {told}{_scatter(result, centres)}")
+    lowest = with_error(value_of(result, DEAD_CENTRE_MEAN.name), 1e3, 6)
+    note(axes, f"lowest, mm: {lowest}{_scatter(result, centres)}")
 
 
 def _about(mechanism: Mechanism, bottom: float) -> float:
@@ -219,8 +219,8 @@ def _scatter(result: Result, centres: list[DeadCentre]) -> str:
     spread = float(np.ptp([centre.position for centre in centres]))
     if spread < 1e-11:
         return ", all strokes alike"
-    told = with_error(value_of(result, DEAD_CENTRE_RANGE.name), 1e9, 2)
-    return f", strokes differ by {told} nm"
+    scatter = with_error(value_of(result, DEAD_CENTRE_RANGE.name), 1e9, 2)
+    return f", strokes differ by {scatter} nm"
 
 
 def _at_dead_centres(

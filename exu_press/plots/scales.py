@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.decimate import travelled
+from exu_press.plots.decimate import distance_travelled
 from exu_press.plots.style import GREY, SHADE
 
 __all__ = ["angle_ticks", "crank_angle_axis", "impact_scale", "log_axis", "note", "spread", "widen"]
@@ -54,10 +54,10 @@ def crank_angle_axis(
         for name, angle in centres.items():
             named |= {angle + turn: name for turn in _multiples(360.0, low - angle, high - angle)}
     step = float(np.diff(ticks).min()) if len(ticks) > 1 else high - low
-    shown = [*ticks]
+    tick_at = [*ticks]
     if step <= 90.0:
         near = TOO_CLOSE * step
-        shown = [tick for tick in ticks if all(abs(tick - at) > near for at in named)] + [*named]
+        tick_at = [tick for tick in ticks if all(abs(tick - at) > near for at in named)] + [*named]
     texts = {at: f"{_number_text(round(at, 1), None)}\n{name}" for at, name in named.items()}
 
     def text(angle: float, _: int | None) -> str:
@@ -65,7 +65,7 @@ def crank_angle_axis(
 
     for axes in panels:
         axes.set_xlim(low, high)
-        axes.xaxis.set_major_locator(FixedLocator(sorted(shown)))
+        axes.xaxis.set_major_locator(FixedLocator(sorted(tick_at)))
         axes.xaxis.set_major_formatter(FuncFormatter(text))
         for centre in named:
             axes.axvline(centre, color=GREY, linewidth=0.9, linestyle=(0, (1, 2)), zorder=0.9)
@@ -93,8 +93,8 @@ def impact_scale(axes: Axes, curves: Iterable[tuple[Array, Array]], *, signed: b
     """
     peak, ordinary = 0.0, 0.0
     for angle, values in curves:
-        way = travelled(angle)
-        uniform = np.interp(np.linspace(0.0, way[-1], 2000), way, values)
+        path_length = distance_travelled(angle)
+        uniform = np.interp(np.linspace(0.0, path_length[-1], 2000), path_length, values)
         ordinary = max(ordinary, float(np.percentile(np.abs(uniform), 90)))
         peak = max(peak, float(np.abs(values).max()))
     if peak <= DWARFED * ordinary or ordinary == 0.0:
@@ -180,9 +180,9 @@ def log_axis(panel: Axes, which: str, values: Array) -> None:
 
 def spread(heights: Iterable[float], least: float) -> list[float]:
     """Return heights moved apart so that neighbours keep a distance, in the given order."""
-    wanted = np.array(list(heights))
-    order = np.argsort(wanted)
-    placed = wanted[order].copy()
+    desired = np.array(list(heights))
+    order = np.argsort(desired)
+    placed = desired[order].copy()
     for _ in range(200):
         gaps = np.diff(placed)
         short = np.flatnonzero(gaps < least * (1 - 1e-6))
@@ -192,6 +192,6 @@ def spread(heights: Iterable[float], least: float) -> list[float]:
             push = 0.5 * (least - (placed[index + 1] - placed[index]))
             placed[index] -= push
             placed[index + 1] += push
-    found = np.empty_like(placed)
-    found[order] = placed
-    return [float(value) for value in found]
+    spaced = np.empty_like(placed)
+    spaced[order] = placed
+    return [float(value) for value in spaced]

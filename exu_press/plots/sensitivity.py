@@ -6,10 +6,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.headed import headed_figure
-from exu_press.plots.style import COLOURS, GREY, styled
-from exu_press.plots.sweep_words import headed, words
-from exu_press.plots.typesetting import typeset, wrapped
+from exu_press.plots.style import COLOURS, GREY, with_style
+from exu_press.plots.sweep_words import axis_label, words
+from exu_press.plots.title import figure_with_title
+from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
 from exu_press.studies.sensitivity import Report
@@ -21,38 +21,38 @@ BINS = 30
 BARS = COLOURS["sky blue"], COLOURS["blue"]
 
 
-@styled
+@with_style
 def sensitivity_figure(report: Report) -> Figure:
     """Return a row a quantity: its distribution, the tornado, and the indices."""
     study = report.study
     names, keys = study.sensitivity.quantities, list(study.keys)
     lines = [describe([study.scene], 130), report.told[0]]
     height = 1.0 + len(names) * (1.6 + 0.32 * len(keys))
-    figure = headed_figure("Effect of tolerances", "\n".join(lines), (11.5, height))
+    figure = figure_with_title("Effect of tolerances", "\n".join(lines), (11.5, height))
     panels = figure.subplots(len(names), 3, squeeze=False, width_ratios=(1.0, 1.0, 1.0))
-    for place, (name, row) in enumerate(zip(names, panels, strict=True)):
+    for number, (name, row) in enumerate(zip(names, panels, strict=True)):
         quantity = quantity_of(study.scene, name).quantity
         unit = typeset(quantity.shown)
-        found = report.indices[place]
-        if found is None:
+        indices = report.indices[number]
+        if indices is None:
             for axes in row:
                 axes.axis("off")
-            row[0].text(0.0, 0.5, f"{wrapped(words(name))}: does not move")
+            row[0].text(0.0, 0.5, f"{wrap_text(words(name))}: does not move")
             continue
-        _spread(row[0], report.sample.values[place] * quantity.scale, report, place)
-        order = np.argsort(found.total)
-        told = [wrapped(words(keys[n])) for n in order]
-        bars = report.bars[order, :, place] * quantity.scale
-        middle = report.middle[place] * quantity.scale
+        _spread(row[0], report.sample.values[number] * quantity.scale, report, number)
+        order = np.argsort(indices.total)
+        key_labels = [wrap_text(words(keys[n])) for n in order]
+        bars = report.bars[order, :, number] * quantity.scale
+        middle = report.middle[number] * quantity.scale
         places = np.arange(len(order))
         for end, colour in enumerate(BARS):
             row[1].barh(places, bars[:, end] - middle, color=colour, height=0.62)
         row[1].axvline(0.0, color="black", linewidth=0.8)
         row[1].margins(x=0.05)
-        row[1].set_yticks(places, told)
+        row[1].set_yticks(places, key_labels)
         row[1].set_title("One key at its 5 % and 95 %")
         row[1].set_xlabel(f"change{f', {unit}' if unit else ''}")
-        _indices(row[2], found, order)
+        _indices(row[2], indices, order)
         row[2].set_yticks(places, [])
     ends = [
         Patch(color=colour, label=f"at its {end} %")
@@ -68,25 +68,25 @@ def sensitivity_figures(report: Report) -> dict[str, Figure]:
     return {"sensitivity": sensitivity_figure(report)}
 
 
-def _spread(axes: Axes, values: Array, report: Report, place: int) -> None:
+def _spread(axes: Axes, values: Array, report: Report, number: int) -> None:
     axes.hist(values, BINS, color=COLOURS["sky blue"], edgecolor="white", linewidth=0.5)
-    name = report.study.sensitivity.quantities[place]
+    name = report.study.sensitivity.quantities[number]
     quantity = quantity_of(report.study.scene, name).quantity
-    each = report.spreads[place]
-    for value in (each.low, each.middle, each.high):
+    distribution = report.spreads[number]
+    for value in (distribution.low, distribution.middle, distribution.high):
         axes.axvline(value * quantity.scale, color=GREY, linewidth=1.0, linestyle="--")
     axes.margins(x=0.03)
     axes.locator_params(axis="x", nbins=5)
-    axes.set(xlabel=wrapped(headed(name)), ylabel="runs")
+    axes.set(xlabel=wrap_text(axis_label(name)), ylabel="runs")
     axes.set_title("Distribution; lines at 5, 50, 95 %")
 
 
 def _indices(
-    axes: Axes, found: Indices, order: "np.ndarray[tuple[int], np.dtype[np.intp]]"
+    axes: Axes, indices: Indices, order: "np.ndarray[tuple[int], np.dtype[np.intp]]"
 ) -> None:
     for shift, values, bounds, colour, label in (
-        (-0.13, found.first, found.first_bounds, COLOURS["green"], "alone"),
-        (0.13, found.total, found.total_bounds, COLOURS["vermilion"], "with others"),
+        (-0.13, indices.first, indices.first_bounds, COLOURS["green"], "alone"),
+        (0.13, indices.total, indices.total_bounds, COLOURS["vermilion"], "with others"),
     ):
         places = np.arange(len(order)) + shift
         axes.hlines(places, bounds[order, 0], bounds[order, 1], color=colour, linewidth=1.5)

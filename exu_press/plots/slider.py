@@ -12,13 +12,13 @@ from exu_press.plots.canvas import angle_axis, crank_degrees, curve, new_figure
 from exu_press.plots.decimate import decimate
 from exu_press.plots.peaks import mark_peaks
 from exu_press.plots.scales import impact_scale, note, widen
-from exu_press.plots.style import IDEAL, colour_of, styled
+from exu_press.plots.style import IDEAL, colour_of, with_style
 from exu_press.plots.typesetting import plain
 from exu_press.quantities.catalogue import MEAN_ACCELERATION, PEAK_ACCELERATION
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
-__all__ = ["averaged", "slider_figure"]
+__all__ = ["slider_figure", "sliding_mean"]
 
 Panels = NDArray[np.object_]
 Motion = tuple[Array, Array, Array]
@@ -41,7 +41,7 @@ TITLES = (
 )
 
 
-@styled
+@with_style
 def slider_figure(results: Mapping[str, Result]) -> Figure:
     """Return position, velocity and acceleration of one slider or several, by label.
 
@@ -77,7 +77,7 @@ def _draw_run(panels: Panels, result: Result, ideal: Motion, label: str, colour:
     curve(panels[0, 1], result, 1e6 * (position - ideal[0]), **thin)
     curve(panels[1, 0], result, velocity, **thick)
     curve(panels[1, 1], result, 1e3 * (velocity - ideal[1]), **thin)
-    curve(panels[2, 0], result, averaged(result.time, velocity), **(thin | {"linewidth": 1.2}))
+    curve(panels[2, 0], result, sliding_mean(result.time, velocity), **(thin | {"linewidth": 1.2}))
     curve(panels[2, 1], result, result["slider_acceleration"], **thin)
 
 
@@ -92,14 +92,16 @@ def _draw_ideals(
     line = {"color": IDEAL, "linewidth": 1.1, "linestyle": (0, (4, 2)), "zorder": 3}
     for number, label in enumerate(longest.values()):
         angle = crank_degrees(results[label])
-        kept = decimate(angle, *ideals[label])
+        drawn = decimate(angle, *ideals[label])
         for axes, values, scale in (
             (panels[0, 0], ideals[label][0], 1e3),
             (panels[1, 0], ideals[label][1], 1.0),
             (panels[2, 0], ideals[label][2], 1.0),
             (panels[2, 1], ideals[label][2], 1.0),
         ):
-            axes.plot(angle[kept], scale * values[kept], **line, label="" if number else IDEAL_NAME)
+            axes.plot(
+                angle[drawn], scale * values[drawn], **line, label="" if number else IDEAL_NAME
+            )
 
 
 def _ideal(result: Result) -> Motion:
@@ -108,7 +110,7 @@ def _ideal(result: Result) -> Motion:
     return mechanism_of(scene).ideal_slider(result["crank_angle"], scene.angular_speed)
 
 
-def averaged(time: Array, velocity: Array) -> Array:
+def sliding_mean(time: Array, velocity: Array) -> Array:
     """Return the mean acceleration over WINDOW about each instant, (n,), m/s^2.
 
     Or of anything from its integral. At the record's ends the window is cut off.
@@ -124,15 +126,15 @@ def _scale_averaged(
 ) -> None:
     """Keep the ideal readable: cut peaks off at a multiple of its own, and say so."""
     means = {
-        label: (result, averaged(result.time, result["slider_velocity"]))
+        label: (result, sliding_mean(result.time, result["slider_velocity"]))
         for label, result in results.items()
     }
-    told = mark_peaks(axes, means, MEAN_ACCELERATION.name)
+    peak_words = mark_peaks(axes, means, MEAN_ACCELERATION.name)
     ordinary = max(float(np.abs(ideal[2]).max()) for ideal in ideals.values())
     peak = max(float(np.abs(values).max()) for _, values in means.values())
     limit = MOST_OF_IDEAL * ordinary
     if peak > limit:
         axes.set_ylim(-limit, limit)
-        note(axes, told or f"peaks reach {peak:.0f} m/s²", "clipped")
+        note(axes, peak_words or f"peaks reach {peak:.0f} m/s²", "clipped")
     else:
-        note(axes, told)
+        note(axes, peak_words)

@@ -9,8 +9,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from exu_press.plots.file import save_figure
-from exu_press.plots.headed import headed_figure
-from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, styled
+from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, with_style
+from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain, typeset
 from exu_press.plots.words import describe
 from exu_press.scene import Scene
@@ -41,16 +41,16 @@ def draw_spectrum(axes: Axes, spectrum: Spectrum, unit: str) -> None:
     axes.set_ylabel(plain(typeset(f"amplitude, {unit}")))
 
 
-@styled
-def spectrum_figure(one: Spectra, scene: Scene, marks: Sequence[Mark] = ()) -> Figure:
+@with_style
+def spectrum_figure(spectra: Spectra, scene: Scene, marks: Sequence[Mark] = ()) -> Figure:
     """Return the picture of a channel's spectra, with natural frequencies as marks."""
-    over, orders = one.over_time, one.over_angle
+    over, orders = spectra.over_time, spectra.over_angle
     text = f"{describe([scene], 110)}\n"
     text += f"{over.cells} cells, window {over.window}"
-    heading = f"Spectrum of {plain(one.name.replace('_', ' '))}"
-    figure = headed_figure(heading, text, (9.5, 9.0 if orders else 6.4))
+    heading = f"Spectrum of {plain(spectra.name.replace('_', ' '))}"
+    figure = figure_with_title(heading, text, (9.5, 9.0 if orders else 6.4))
     panels = list(figure.subplots(3 if orders else 2, 1, squeeze=False).flat)
-    draw_spectrum(panels[0], over, one.unit)
+    draw_spectrum(panels[0], over, spectra.unit)
     lowest = over.frequency[0]
     panels[0].set_xscale("log")
     panels[0].set_xlim(lowest, over.frequency[-1])
@@ -63,13 +63,13 @@ def spectrum_figure(one: Spectra, scene: Scene, marks: Sequence[Mark] = ()) -> F
         )  # fmt: skip
     panels[0].legend(loc="lower left", ncols=2)
     if orders:
-        draw_spectrum(panels[1], orders, one.unit)
+        draw_spectrum(panels[1], orders, spectra.unit)
         panels[1].set_xlim(0.0, min(HIGHEST_ORDER, orders.frequency[-1]))
-        panels[1].set_xlabel(f"order, multiples of the crank; revolutions: {one.revolutions}")
-    changing, last = one.changing, panels[-1]
+        panels[1].set_xlabel(f"order, multiples of the crank; revolutions: {spectra.revolutions}")
+    changing, last = spectra.changing, panels[-1]
     largest = float(changing.amplitude.max()) or 1.0
     image = last.pcolormesh(
-        one.angle,
+        spectra.angle,
         changing.frequency,
         np.maximum(changing.amplitude, DECADES * largest),
         norm=LogNorm(DECADES * largest, largest),
@@ -82,18 +82,18 @@ def spectrum_figure(one: Spectra, scene: Scene, marks: Sequence[Mark] = ()) -> F
     last.set_ylim(changing.frequency[0], changing.frequency[-1])
     last.set_xlabel(f"crank angle, deg (windows of {1e3 * changing.width:.3g} ms)")
     last.set_ylabel("frequency, Hz")
-    figure.colorbar(image, ax=last, label=plain(typeset(f"amplitude, {one.unit}")))
+    figure.colorbar(image, ax=last, label=plain(typeset(f"amplitude, {spectra.unit}")))
     return figure
 
 
 def save_spectra(
-    found: Sequence[Spectra], scene: Scene, marks: Sequence[Mark], directory: Path, form: str
+    spectra_list: Sequence[Spectra], scene: Scene, marks: Sequence[Mark], directory: Path, form: str
 ) -> list[Path]:
     """Write a picture of each channel, spectrum_NAME and the format's ending; return the files."""
     return [
         save_figure(
-            spectrum_figure(one, scene, marks),
-            directory / f"spectrum_{one.name.replace('.', '_')}{form}",
+            spectrum_figure(spectra, scene, marks),
+            directory / f"spectrum_{spectra.name.replace('.', '_')}{form}",
         )
-        for one in found
+        for spectra in spectra_list
     ]

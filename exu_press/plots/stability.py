@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from exu_press.plots.file import save_figure
-from exu_press.plots.headed import headed_figure
-from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, styled
+from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, with_style
+from exu_press.plots.title import figure_with_title
 from exu_press.studies.stability import Report, Row
 from exu_press.studies.stability.cases import PAIRS
 from exu_press.studies.stability.checks import RESIDUAL_LIMIT
@@ -41,7 +41,7 @@ IN_WORDS = {
 }
 
 
-@styled
+@with_style
 def stability_figure(report: Report) -> Figure:
     """Return the map of a report."""
     single = [row for row in report.rows if row.axis != PAIRS]
@@ -49,7 +49,7 @@ def stability_figure(report: Report) -> Figure:
     lines = list(dict.fromkeys(map(_line, single)))
     height = 1.0 + 0.23 * max(len(lines), 20)
     heights = [height, SQUARE] if pairs else [height]
-    figure = headed_figure("Stiff and extreme cases", _words(report), (9.5, 1.6 + sum(heights)))
+    figure = figure_with_title("Stiff and extreme cases", _words(report), (9.5, 1.6 + sum(heights)))
     panels = figure.subplots(len(heights), 1, squeeze=False, height_ratios=heights).flat
     upper, *lower = panels
     colours = ScalarMappable(LogNorm(*RESIDUALS, clip=True), PATH_COLOURS)
@@ -93,8 +93,8 @@ def _draw_axes(
     for height, line in enumerate(lines):
         along = [row for row in rows if _line(row) == line]
         most = max(most, len(along))
-        for place, row in enumerate(along):
-            _mark(axes, place, height, row, colours)
+        for position, row in enumerate(along):
+            _mark(axes, position, height, row, colours)
         ends = dict.fromkeys([along[0].value, along[-1].value])
         axes.annotate(
             " to ".join(filter(None, ends)), (len(along) - 0.4, height), fontsize=8.5, va="center",

@@ -20,7 +20,7 @@ __all__ = [
     "SHADE",
     "colour_of",
     "look",
-    "styled",
+    "with_style",
 ]
 
 Parameters = ParamSpec("Parameters")
@@ -93,7 +93,7 @@ def look() -> Iterator[None]:
         yield
 
 
-def styled(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figure]:
+def with_style(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figure]:
     """Decorate a function that returns a figure: drawn and laid out with our look.
 
     The layout is done here, so that the user may save the figure with any settings.

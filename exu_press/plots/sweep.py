@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
-from exu_press.plots.headed import headed_figure
-from exu_press.plots.style import GREY, PATH_COLOURS, colour_of, styled
-from exu_press.plots.sweep_words import in_unit, labelled, setting, words
+from exu_press.plots.style import GREY, PATH_COLOURS, colour_of, with_style
+from exu_press.plots.sweep_words import in_unit, label_with_unit, setting, words
+from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe
 from exu_press.studies.sweep import Table
@@ -27,7 +27,7 @@ LOGARITHMIC_FROM = 50.0
 """Ratio of an axis' ends."""
 
 
-def axes_of(table: Table, wanted: Sequence[str] = ()) -> tuple[str, ...]:
+def axes_of(table: Table, chosen: Sequence[str] = ()) -> tuple[str, ...]:
     """Return the one or two keys to draw over: those wanted, or the first numbers that vary.
 
     Raises:
@@ -35,18 +35,18 @@ def axes_of(table: Table, wanted: Sequence[str] = ()) -> tuple[str, ...]:
     """
     study = table.study
     possible = [name for name in study.keys if table.is_numeric(name) and len(set(table[name])) > 1]
-    for name in wanted:
+    for name in chosen:
         if name not in possible:
             raise InputError(
                 f"--over {name}: allowed are the numbers that vary, "
                 f"{', '.join(possible) or 'none here'}"
             )
-    if len(wanted) > 2:
-        raise InputError(f"--over {' --over '.join(wanted)}: allowed are one or two keys")
-    return tuple(wanted or possible[:2])
+    if len(chosen) > 2:
+        raise InputError(f"--over {' --over '.join(chosen)}: allowed are one or two keys")
+    return tuple(chosen or possible[:2])
 
 
-@styled
+@with_style
 def sweep_figure(table: Table, axes: Sequence[str], quantities: Sequence[str]) -> Figure:
     """Return one panel a quantity.
 
@@ -62,7 +62,7 @@ def sweep_figure(table: Table, axes: Sequence[str], quantities: Sequence[str]) -
     rows = -(-len(quantities) // columns)
     heading = f"{len(table)} runs over {' and '.join(map(words, axes))}"
     size = (6.4 * columns, 1.0 + 3.7 * rows)
-    figure = headed_figure(heading, _words(table, int(80 * columns)), size)
+    figure = figure_with_title(heading, _words(table, int(80 * columns)), size)
     panels = figure.subplots(rows, columns, squeeze=False)
     curves = _curves(table, axes)
     for panel, quantity in zip(panels.flat, quantities, strict=False):
@@ -98,20 +98,20 @@ def _curves(table: Table, axes: Sequence[str]) -> dict[str, list[int]] | None:
     everything = list(range(len(table)))
     if table.study.way != "grid":
         return {"": everything} if len(axes) == 1 else None
-    others = [name for name in table.study.keys if name != axes[0] and len(set(table[name])) > 1]
-    found: dict[str, list[int]] = {}
+    more_keys = [name for name in table.study.keys if name != axes[0] and len(set(table[name])) > 1]
+    runs_of_curve: dict[str, list[int]] = {}
     for run in everything:
-        label = plain(", ".join(setting(name, table[name][run]) for name in others))
-        found.setdefault(label, []).append(run)
-    if len(found) <= MOST_CURVES:
-        return found
-    return None if len(axes) == 2 and len(others) == 1 else {"": everything}
+        label = plain(", ".join(setting(name, table[name][run]) for name in more_keys))
+        runs_of_curve.setdefault(label, []).append(run)
+    if len(runs_of_curve) <= MOST_CURVES:
+        return runs_of_curve
+    return None if len(axes) == 2 and len(more_keys) == 1 else {"": everything}
 
 
 def _words(table: Table, width: int) -> str:
     ends = Counter(table["status"])
-    told = ", ".join(f"{number} {status}" for status, number in ends.items())
-    return f"{describe(table.study.scenes, width)}\n{told}"
+    statuses = ", ".join(f"{number} {status}" for status, number in ends.items())
+    return f"{describe(table.study.scenes, width)}\n{statuses}"
 
 
 def _draw_curves(
@@ -138,18 +138,18 @@ def _draw_curves(
     if x.min() > 0.0 and x.max() > LOGARITHMIC_FROM * x.min():
         panel.set_xscale("log")
     panel.margins(0.04, 0.08)
-    panel.set(xlabel=labelled(axis, across), title=_headed(quantity, up))
+    panel.set(xlabel=label_with_unit(axis, across), title=_title(quantity, up))
 
 
 def _draw_errors(
     panel: Axes, table: Table, quantity: str, runs: Sequence[int], x: Array, y: Array, colour: Any
 ) -> None:
     """Draw the error bars of those runs that know their errors."""
-    told = {run: error for run in runs if (error := table.error(quantity, run)) is not None}
-    if not told:
+    stated = {run: error for run in runs if (error := table.error(quantity, run)) is not None}
+    if not stated:
         return
-    known = list(told)
-    ends = np.array([[told[run]["low"], told[run]["high"]] for run in known], dtype=float)
+    known = list(stated)
+    ends = np.array([[stated[run]["low"], stated[run]["high"]] for run in known], dtype=float)
     largest = np.nanmax(np.abs(table.numbers(quantity)))
     scale = np.nanmax(np.abs(y)) / largest if largest else 1.0
     lengths = np.abs(scale * ends - y[known][:, None]).T
@@ -167,21 +167,21 @@ def _draw_map(
         columns, rows = np.unique(x), np.unique(y)
         cells = np.full((len(rows), len(columns)), np.nan)
         cells[np.searchsorted(rows, y), np.searchsorted(columns, x)] = values
-        shown: Any = panel.pcolormesh(columns, rows, cells, cmap=PATH_COLOURS, shading="nearest")
+        drawn: Any = panel.pcolormesh(columns, rows, cells, cmap=PATH_COLOURS, shading="nearest")
         panel.grid(False)
     else:
-        shown = panel.scatter(x[~missing], y[~missing], c=values[~missing], cmap=PATH_COLOURS, s=34)
+        drawn = panel.scatter(x[~missing], y[~missing], c=values[~missing], cmap=PATH_COLOURS, s=34)
         panel.margins(0.04)
     if missing.any():
         panel.plot(x[missing], y[missing], "x", color=GREY)
         _count(panel, missing)
-    panel.set(xlabel=labelled(axes[0], across), ylabel=labelled(axes[1], up))
-    panel.set_title(_headed(quantity, unit))
-    figure.colorbar(shown, ax=panel, pad=0.02).outline.set_visible(False)
+    panel.set(xlabel=label_with_unit(axes[0], across), ylabel=label_with_unit(axes[1], up))
+    panel.set_title(_title(quantity, unit))
+    figure.colorbar(drawn, ax=panel, pad=0.02).outline.set_visible(False)
 
 
-def _headed(name: str, unit: str) -> str:
-    text = labelled(name, unit)
+def _title(name: str, unit: str) -> str:
+    text = label_with_unit(name, unit)
     return text[0].upper() + text[1:]
 
 

@@ -11,7 +11,7 @@ from exu_press.plots.typesetting import typeset
 from exu_press.quantities.catalogue import declared
 from exu_press.studies.sweep.units import meaning_of, unit_of
 
-__all__ = ["headed", "in_unit", "labelled", "setting", "words"]
+__all__ = ["axis_label", "in_unit", "label_with_unit", "setting", "words"]
 
 PREFIXES = {-9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 PREFIXED = ("m", "s", "N", "N m", "J", "W", "Pa")
@@ -55,20 +55,20 @@ def words(name: str) -> str:
         meaning = f"{parts[-1].replace('_', ' ')} {meaning}"
     if name.startswith(("joints.", "load.")) and meaning:
         return f"{parts[0].replace('_', ' ')}, {meaning}"
-    return meaning or ", ".join(part.replace("_", " ") for part in parts)
+    return meaning or ", ".join(key_word.replace("_", " ") for key_word in parts)
 
 
-def headed(name: str) -> str:
+def axis_label(name: str) -> str:
     """Return a quantity in words, with the unit that is shown.
 
-    >>> headed("peak_acceleration.resolved")
+    >>> axis_label("peak_acceleration.resolved")
     'peak acceleration, m/s^2'
     """
     placed = declared(name)
-    return labelled(name, "" if placed is None else placed.quantity.shown)
+    return label_with_unit(name, "" if placed is None else placed.quantity.shown)
 
 
-def labelled(name: str, unit: str) -> str:
+def label_with_unit(name: str, unit: str) -> str:
     """Return a column in words, with the unit of its numbers if they have any."""
     return f"{words(name)}, {unit}" if unit else words(name)
 

@@ -13,10 +13,10 @@ POWER = re.compile(r"(?<=\w)\^([23])(?!\w)")
 MICRO_UNIT = re.compile(r"(?<![\w./])u(?=(?:m|rad)(?![\w/]|\.\w))")
 
 
-def cut(words: str, letters: int) -> str:
+def shorten(words: str, letters: int) -> str:
     """Return words that have at most so many letters, an ellipsis in place of the rest.
 
-    >>> cut("pivot of the upper link", 10), cut("pivot", 10)
+    >>> shorten("pivot of the upper link", 10), shorten("pivot", 10)
     ('pivot of…', 'pivot')
     """
     return words if len(words) <= letters else words[: letters - 1].rstrip(" ,") + "…"
@@ -27,10 +27,10 @@ def plain(text: str) -> str:
     return text.replace("$", r"\$")
 
 
-def wrapped(text: str, letters: int = LETTERS) -> str:
+def wrap_text(text: str, letters: int = LETTERS) -> str:
     """Return a text in lines of a panel's width, as matplotlib draws it.
 
-    >>> wrapped("largest acceleration of the slider, averaged over 1 ms, m/s^2")
+    >>> wrap_text("largest acceleration of the slider, averaged over 1 ms, m/s^2")
     'largest acceleration of the slider, averaged\\nover 1 ms, m/s²'
     """
     return plain("\n".join(textwrap.wrap(typeset(text), letters)))
@@ -44,5 +44,5 @@ def typeset(text: str) -> str:
     >>> typeset("joints.um.radius in out/um/run.nc")
     'joints.um.radius in out/um/run.nc'
     """
-    text = POWER.sub(lambda found: found[1].translate(POWERS), text)
+    text = POWER.sub(lambda match: match[1].translate(POWERS), text)
     return MICRO_UNIT.sub("\N{MICRO SIGN}", text).replace(" +- ", " \N{PLUS-MINUS SIGN} ")

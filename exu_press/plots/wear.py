@@ -4,10 +4,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from exu_press.plots.headed import headed_figure
-from exu_press.plots.style import colour_of, styled
-from exu_press.plots.sweep_words import headed
-from exu_press.plots.typesetting import typeset, wrapped
+from exu_press.plots.style import colour_of, with_style
+from exu_press.plots.sweep_words import axis_label
+from exu_press.plots.title import figure_with_title
+from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
 from exu_press.quantities.uncertain import significant
@@ -25,7 +25,7 @@ LEAST_SPREAD = 1e-8
 """Change of a quantity over its value: a smaller one is rounding."""
 
 
-@styled
+@with_style
 def wear_figure(report: Report) -> Figure:
     """Return worn depths by angle, and clearances and quantities over the strokes."""
     study, points = report.study, report.points
@@ -33,18 +33,18 @@ def wear_figure(report: Report) -> Figure:
     text = f"{describe([study.scene], 130)}\n{significant(points[-1].strokes, 4)} strokes in "
     text += report.jumps
     rows = 1 + (1 + len(names) + 1) // 2
-    figure = headed_figure("Wear over strokes", text, (9.5, 1.2 + 2.6 * rows))
+    figure = figure_with_title("Wear over strokes", text, (9.5, 1.2 + 2.6 * rows))
     grid = figure.add_gridspec(rows, 2)
     deepest = max(joints, key=lambda joint: report.clearances(joint)[-1])
     _shapes(figure.add_subplot(grid[0, :]), report, deepest)
     strokes = [point.strokes for point in points]
-    for place, name in enumerate(["", *names]):
-        axes = figure.add_subplot(grid[1 + place // 2, place % 2])
+    for number_of_panel, name in enumerate(["", *names]):
+        axes = figure.add_subplot(grid[1 + number_of_panel // 2, number_of_panel % 2])
         if name:
             quantity = quantity_of(study.scene, name).quantity
             values = [np.nan if v is None else v * quantity.scale for v in report.values(name)]
             axes.plot(strokes, values, "o-", markersize=3)
-            axes.set_ylabel(wrapped(headed(name), LETTERS))
+            axes.set_ylabel(wrap_text(axis_label(name), LETTERS))
         else:
             for number, joint in enumerate(joints):
                 values = [1e6 * value for value in report.clearances(joint)]

@@ -29,14 +29,16 @@ def describe(scenes: Iterable[Scene], width: float = 130) -> str:
     scenes = list(scenes)
     joints = dict.fromkeys(name for scene in scenes for name in scene.joints.grouped)
     same = len({str(_of_many(scene)) for scene in scenes}) == 1
-    each = [_parts(scene, joints, grouped=same or len(joints) > FEW) for scene in scenes]
-    keys = dict.fromkeys(key for parts in each for key in parts)
+    phrases_of_scene = [
+        _parts(scene, joints, grouped=same or len(joints) > FEW) for scene in scenes
+    ]
+    keys = dict.fromkeys(key for parts in phrases_of_scene for key in parts)
     shared: list[str] = []
     for key in keys:
-        texts = {parts[key] for parts in each if key in parts}
+        texts = {parts[key] for parts in phrases_of_scene if key in parts}
         if len(texts) == 1:
             shared += texts
-    return _wrapped(shared, width)
+    return _join_wrapped(shared, width)
 
 
 def early_stops(results: Mapping[str, Result], width: int = 130) -> str:
@@ -126,8 +128,8 @@ def _of_each(scene: Scene, joints: Iterable[str]) -> dict[str, str]:
             parts[name] = f"{words} {members[0].kind}"
         if len({joint.clearance for joint in members}) == 1 and members[0].clearance:
             clearance = members[0].clearance * 1e3
-            one = words.removesuffix("s") if name in scene.joints.groups else words
-            parts[f"{name} clearance"] = f"{one} radial clearance {clearance:g} mm"
+            singular = words.removesuffix("s") if name in scene.joints.groups else words
+            parts[f"{name} clearance"] = f"{singular} radial clearance {clearance:g} mm"
     return parts
 
 
@@ -142,7 +144,7 @@ def _of_many(scene: Scene) -> dict[str, str]:
     }
 
 
-def _wrapped(phrases: Iterable[str], width: float) -> str:
+def _join_wrapped(phrases: Iterable[str], width: float) -> str:
     """Return phrases in lines that break only between them."""
     lines: list[str] = []
     for phrase in phrases:

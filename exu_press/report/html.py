@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from string import Template
 
-from exu_press.page.document import Live, escaped
+from exu_press.page.document import Live, escape
 
 __all__ = ["details", "page", "paragraph", "picture", "stills", "table", "warnings"]
 
@@ -99,16 +99,16 @@ def page(title: str, under: str, sections: Sequence[tuple[str, str | Live | None
         if inner is not None
     ]
     links = "\n".join(
-        f'<a href="#part-{number}">{escaped(heading)}</a>'
+        f'<a href="#part-{number}">{escape(heading)}</a>'
         for number, (heading, _) in enumerate(parts)
     )
     body = "\n".join(
-        f'<section id="part-{number}">\n<h2>{escaped(heading)}</h2>\n{inner}\n</section>'
+        f'<section id="part-{number}">\n<h2>{escape(heading)}</h2>\n{inner}\n</section>'
         for number, (heading, inner) in enumerate(parts)
     )
     return PAGE.substitute(
-        title=escaped(title),
-        under=escaped(under),
+        title=escape(title),
+        under=escape(under),
         links=links,
         body=body,
         policy=NO_SCRIPTS if live is None else live.policy,
@@ -132,12 +132,12 @@ def stills(inner: str, live: Live | None) -> str:
 
 def paragraph(text: str) -> str:
     """Return a paragraph of plain text."""
-    return f"<p>{escaped(text)}</p>"
+    return f"<p>{escape(text)}</p>"
 
 
 def warnings(texts: Sequence[str]) -> str:
     """Return a list of plain texts, or that there are none."""
-    inner = "\n".join(f"<li>{escaped(text)}</li>" for text in texts or ["none"])
+    inner = "\n".join(f"<li>{escape(text)}</li>" for text in texts or ["none"])
     return f'<div class="{"warnings" if texts else "good"}"><ul>\n{inner}\n</ul></div>'
 
 
@@ -152,12 +152,12 @@ def table(
         caption: above it.
         name: under which a script finds it.
     """
-    known_as = f' id="{escaped(name)}"' if name else ""
-    above = f"<caption>{escaped(caption)}</caption>" if caption else ""
-    top = "".join(f'<th scope="col">{escaped(cell)}</th>' for cell in head)
+    known_as = f' id="{escape(name)}"' if name else ""
+    above = f"<caption>{escape(caption)}</caption>" if caption else ""
+    top = "".join(f'<th scope="col">{escape(cell)}</th>' for cell in head)
     lines = "\n".join(
-        f'<tr><th scope="row">{escaped(first)}</th>'
-        + "".join(f"<td>{escaped(cell)}</td>" for cell in rest)
+        f'<tr><th scope="row">{escape(first)}</th>'
+        + "".join(f"<td>{escape(cell)}</td>" for cell in rest)
         + "</tr>"
         for first, *rest in rows
     )
@@ -169,14 +169,14 @@ def table(
 
 def details(words: str, inner: str) -> str:
     """Return a part that is shown on demand."""
-    return f"<details><summary>{escaped(words)}</summary>\n{inner}\n</details>"
+    return f"<details><summary>{escape(words)}</summary>\n{inner}\n</details>"
 
 
 def picture(path: Path, words: str) -> str:
     """Return a PNG file's content as a figure with a caption; a tap shows it in full size."""
     data = base64.b64encode(path.read_bytes()).decode("ascii")
     return (
-        f'<figure><label><input type="checkbox" aria-label="full size: {escaped(words)}">'
-        f'<img src="data:image/png;base64,{data}" alt="{escaped(words)}"></label>'
-        f"<figcaption>{escaped(words)}</figcaption></figure>"
+        f'<figure><label><input type="checkbox" aria-label="full size: {escape(words)}">'
+        f'<img src="data:image/png;base64,{data}" alt="{escape(words)}"></label>'
+        f"<figcaption>{escape(words)}</figcaption></figure>"
     )

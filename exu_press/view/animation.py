@@ -25,7 +25,7 @@ from exu_press.view.flexible_panel import FlexiblePanel, Look
 from exu_press.view.instants import Instants
 from exu_press.view.joint_panel import JointPanel
 from exu_press.view.mechanism_panel import MechanismPanel
-from exu_press.view.panel import CurvePanel, Panel, animated
+from exu_press.view.panel import CurvePanel, Panel, mark_animated
 
 __all__ = ["SIZE", "Animation", "Look"]
 
@@ -61,7 +61,7 @@ class Animation:
         with look():
             self._draw(flexible or Look())
         self.artists = [artist for panel in self.panels for artist in panel.artists]
-        self.artists += animated(self._clock)
+        self.artists += mark_animated(self._clock)
 
     def show(self, frame: int) -> None:
         """Bring everything to a frame."""
@@ -121,13 +121,13 @@ class Animation:
             self._draw_curves(columns[2], CURVES)
 
     def _draw_curves(
-        self, place: SubplotSpec, curves: tuple[tuple[str, str, str, float], ...]
+        self, cell: SubplotSpec, curves: tuple[tuple[str, str, str, float], ...]
     ) -> None:
         result, step = self.result, self.instants.step
         heights = (1.0, 1.0, 1.0) if len(curves) == 3 else (0.6, 1.0)
-        rows = place.subgridspec(len(curves), 1, hspace=0.33, height_ratios=heights)
+        rows = cell.subgridspec(len(curves), 1, hspace=0.33, height_ratios=heights)
         degrees = np.degrees(result["crank_angle"])
-        shown = slice(int(step[0]), int(step[-1]) + 1)
+        steps_in_view = slice(int(step[0]), int(step[-1]) + 1)
         panels = []
         for index, (channel, title, unit, scale) in enumerate(curves):
             axes = self.figure.add_subplot(rows[index])
@@ -135,13 +135,18 @@ class Animation:
             self.panels.append(CurvePanel(axes, result, values, self.instants))
             axes.set(title=title, ylabel=unit)
             if channel == "slider_acceleration":
-                note(axes, impact_scale(axes, [(degrees[shown], values[shown])], signed=True))
+                note(
+                    axes,
+                    impact_scale(
+                        axes, [(degrees[steps_in_view], values[steps_in_view])], signed=True
+                    ),
+                )
             else:
                 axes.margins(y=0.08)
             axes.tick_params(labelbottom=index == len(curves) - 1)
             panels.append(axes)
         panels[-1].set_xlabel(angle_words({"": result}))
-        ends = degrees[shown].min(), degrees[shown].max()
+        ends = degrees[steps_in_view].min(), degrees[steps_in_view].max()
         crank_angle_axis(panels, *ends, dead_centres({"": result}))
 
 

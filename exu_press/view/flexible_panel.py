@@ -13,7 +13,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.result import Result
 from exu_press.result.surface import Surface
 from exu_press.view.instants import Instants
-from exu_press.view.panel import animated
+from exu_press.view.panel import mark_animated
 from fe_models.errors import InputError
 from fe_models.solid_view import facing, turned_view
 
@@ -61,7 +61,7 @@ class FlexiblePanel:
     """
 
     def __init__(
-        self, figure: Figure, place: SubplotSpec, result: Result, instants: Instants, how: Look
+        self, figure: Figure, cell: SubplotSpec, result: Result, instants: Instants, how: Look
     ) -> None:
         """Find the largest values of the animation, for scale and colours."""
         self._surfaces = result.surfaces
@@ -72,12 +72,14 @@ class FlexiblePanel:
         self._stress = how.colour == "stress"
         if self._stress and not all(len(s.stress) for s in result.surfaces.values()):
             raise InputError("--colour stress: the file holds no stresses; use displacement")
-        seen = slice(1, 2) if instants.still else slice(None)
+        frames_in_view = slice(1, 2) if instants.still else slice(None)
         modes = self._modal
-        modal = [(name, q) for name in modes for q in modes[name][seen]]
-        moved = max(self._moved(name, q) for name, q in modal)
+        modal = [(name, q) for name in modes for q in modes[name][frames_in_view]]
+        largest_displacement = max(self._largest_displacement(name, q) for name, q in modal)
         extent = max(float(np.ptp(s.nodes, axis=0).max()) for s in result.surfaces.values())
-        automatic = _round_down(DEFLECTION * extent / moved) if moved else 1.0
+        automatic = (
+            _round_down(DEFLECTION * extent / largest_displacement) if largest_displacement else 1.0
+        )
         self._factor = automatic if how.exaggerate is None else how.exaggerate
         scale, words = KINDS[how.colour]
         largest = max(float(self._level(name, q).max()) for name, q in modal)
@@ -85,14 +87,16 @@ class FlexiblePanel:
         self._scale = scale
         norm = Normalize(0.0, scale * largest or 1.0)
         self._colours = matplotlib.cm.ScalarMappable(norm, COLOURS)
-        axes = figure.add_subplot(place)
+        axes = figure.add_subplot(cell)
         axes.set_aspect("equal", adjustable="box")
         axes.set_axis_off()
         bodies = " and ".join(sorted(result.surfaces))
         axes.set_title(f"Flexible {bodies}: deformation {TIMES_SIGN} {self._factor:g}")
-        frames = np.arange(len(instants))[seen]
-        some = np.unique(np.linspace(frames[0], frames[-1], 60).astype(int))
-        corners = np.vstack([self._corners(name, frame) for name in modes for frame in some])
+        frames = np.arange(len(instants))[frames_in_view]
+        sampled_frames = np.unique(np.linspace(frames[0], frames[-1], 60).astype(int))
+        corners = np.vstack(
+            [self._corners(name, frame) for name in modes for frame in sampled_frames]
+        )
         low, high = corners[:, :2].min(axis=0), corners[:, :2].max(axis=0)
         margin = 0.02 * float((high - low).max())
         axes.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin))
@@ -101,7 +105,7 @@ class FlexiblePanel:
         )
         self._drawn = PolyCollection([], linewidths=0.25, clip_on=False)
         axes.add_collection(self._drawn, autolim=False)
-        self.artists = animated(self._drawn)
+        self.artists = mark_animated(self._drawn)
 
     def show(self, frame: int) -> None:
         """Draw the surfaces of a frame, far triangles first."""
@@ -112,14 +116,14 @@ class FlexiblePanel:
             triangles.append(surface.triangles + start)
             levels.append(self._level(name, self._modal[name][frame]))
             start += len(surface.nodes)
-        shown, seen, light = facing(np.vstack(points), np.vstack(triangles))
+        polygons, corner_numbers, light = facing(np.vstack(points), np.vstack(triangles))
         own = self._colours.to_rgba(self._scale * np.concatenate(levels))[:, :3]
         shade = 0.72 + 0.28 * light  # weak, so that it cannot be taken for a value
-        colours = np.clip(own[seen].mean(axis=1) * shade[:, None], 0.0, 1.0)
-        self._drawn.set_verts(list(shown))
+        colours = np.clip(own[corner_numbers].mean(axis=1) * shade[:, None], 0.0, 1.0)
+        self._drawn.set_verts(list(polygons))
         self._drawn.set(facecolor=colours, edgecolor=colours)
 
-    def _moved(self, name: str, modal: Array) -> float:
+    def _largest_displacement(self, name: str, modal: Array) -> float:
         """Return the largest displacement of a body's nodes, m."""
         return float(np.linalg.norm(self._surfaces[name].displacement(modal), axis=1).max())
 

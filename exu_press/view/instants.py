@@ -82,10 +82,10 @@ def instants(
         count = max(2, 1 + round(min((end - begin) * slow * fps, 1e9)))
     if not 2 <= count <= MOST_FRAMES:
         raise InputError(f"{count} frames: allowed is 2 to {MOST_FRAMES}; see --frames and --slow")
-    shown = np.linspace(begin, end, count)
+    times = np.linspace(begin, end, count)
     seconds = (count - 1) / fps
-    slower = seconds / (end - begin) if end > begin else 1.0
-    return Instants(shown, _steps(result.time, shown), slower, fps)
+    slow_motion = seconds / (end - begin) if end > begin else 1.0
+    return Instants(times, _steps(result.time, times), slow_motion, fps)
 
 
 def moment(
@@ -100,8 +100,8 @@ def moment(
     now = end if at is None else at
     if not begin <= now <= end:
         raise InputError(f"--at {now:g}: allowed is {begin:g} to {end:g} s")
-    shown = np.array([begin, now, end])
-    return Instants(shown, _steps(result.time, shown), 1.0, 1.0, still=True)
+    times = np.array([begin, now, end])
+    return Instants(times, _steps(result.time, times), 1.0, 1.0, still=True)
 
 
 def interval(result: Result, start: float | None, stop: float | None) -> tuple[float, float]:
@@ -120,7 +120,7 @@ def interval(result: Result, start: float | None, stop: float | None) -> tuple[f
     return begin, end
 
 
-def _steps(time: Array, shown: Array) -> NDArray[np.intp]:
+def _steps(time: Array, times: Array) -> NDArray[np.intp]:
     """Return the last of the integrator's steps not later than each instant."""
-    late = np.searchsorted(time, shown * (1.0 + 1e-12), side="right") - 1
-    return np.clip(late, 0, len(time) - 1)
+    last_step = np.searchsorted(time, times * (1.0 + 1e-12), side="right") - 1
+    return np.clip(last_step, 0, len(time) - 1)

@@ -9,13 +9,13 @@ from matplotlib.patches import Circle, FancyArrowPatch
 
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.plots.style import COLOURS, GREY, RUN
-from exu_press.plots.typesetting import cut
+from exu_press.plots.typesetting import shorten
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 from exu_press.view.instants import Instants
 from exu_press.view.mechanism_panel import MARKED
-from exu_press.view.panel import animated
+from exu_press.view.panel import mark_animated
 
 __all__ = ["JointPanel"]
 
@@ -53,20 +53,20 @@ class JointPanel:
         self._force = joint.force[:, :2]
         self._size = lengths(joint.force)
         self._turn = _journal_angle(result, name)
-        shown = slice(int(instants.step[0]), int(instants.step[-1]) + 1)
-        self._first = shown.start
-        self._largest = float(self._size[shown].max()) or 1.0
+        steps_in_view = slice(int(instants.step[0]), int(instants.step[-1]) + 1)
+        self._first = steps_in_view.start
+        self._largest = float(self._size[steps_in_view].max()) or 1.0
         self._revolution = 60.0 / result.scene.speed_rpm
         self._time = result.time
 
-        reach = float(self._distance[shown].max())
+        reach = float(self._distance[steps_in_view].max())
         self._drawn = drawn = drawn_clearance(reach)
         self._radius = radius = BORE - drawn
         axes.set_aspect("equal", adjustable="box")
         axes.set_axis_off()
         axes.set(xlim=(-1.25, 2.15), ylim=(-1.6, 1.5))
-        told = f", {joint.kind}, clearance {radial * 1e6:.4g} µm"
-        axes.set_title(cut(title, TITLE - len(told)) + told, fontsize=8.6)
+        properties = f", {joint.kind}, clearance {radial * 1e6:.4g} µm"
+        axes.set_title(shorten(title, TITLE - len(properties)) + properties, fontsize=8.6)
         axes.add_patch(Circle((0, 0), RIM, facecolor=STEEL, edgecolor=EDGE, linewidth=0.8))
         inside = OIL if joint.kind == "lubricated" else "white"
         axes.add_patch(Circle((0, 0), BORE, facecolor=inside, edgecolor=EDGE, linewidth=0.8))
@@ -95,7 +95,7 @@ class JointPanel:
         self._zoom: tuple[Line2D, Line2D] | None = None
         if reach < SMALL_PATH:
             extra = self._draw_zoom(axes, 1.25 * max(reach, 1e-6))
-        self.artists = animated(
+        self.artists = mark_animated(
             self._journal,
             self._spoke,
             circle,
@@ -131,24 +131,24 @@ class JointPanel:
         begin = np.searchsorted(self._time, self._time[step] - self._revolution)
         path = self._ratio[max(int(begin), self._first) : step + 1]
         x, y = self._ratio[step]
-        place = self._drawn * np.array([x, y])
+        centre = self._drawn * np.array([x, y])
         self._path.set_data(*(self._drawn * path.T))
-        self._centre.set_data([place[0]], [place[1]])
-        self._journal.set_center((float(place[0]), float(place[1])))
+        self._centre.set_data([centre[0]], [centre[1]])
+        self._journal.set_center((float(centre[0]), float(centre[1])))
         if not self._ball:
             turn = self._turn[step]
             tip = self._radius * np.array([-np.sin(turn), np.cos(turn)])
             self._spoke.set_data(
-                [place[0] + 0.72 * tip[0], place[0] + tip[0]],
-                [place[1] + 0.72 * tip[1], place[1] + tip[1]],
+                [centre[0] + 0.72 * tip[0], centre[0] + tip[0]],
+                [centre[1] + 0.72 * tip[1], centre[1] + tip[1]],
             )
         largest = since.start + int(np.argmax(self._size[since]))
         size = float(self._size[largest])
         self._arrow.set_visible(size > 1e-4 * self._largest)
         if self._arrow.get_visible():
             along = self._force[largest] / max(float(np.linalg.norm(self._force[largest])), 1e-300)
-            tip = place + ARROW * np.sqrt(size / self._largest) * along
-            self._arrow.set_positions(tuple(place), tuple(tip))
+            tip = centre + ARROW * np.sqrt(size / self._largest) * along
+            self._arrow.set_positions(tuple(centre), tuple(tip))
         self._words.set_text(self._in_words(step, size))
         if self._zoom is not None:
             line, dot = self._zoom

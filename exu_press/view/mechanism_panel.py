@@ -15,12 +15,12 @@ from exu_press.mechanism.shapes import Mark, moved
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
 from exu_press.plots.style import COLOURS, GREY
-from exu_press.plots.typesetting import cut
+from exu_press.plots.typesetting import shorten
 from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 from exu_press.view.instants import Instants
-from exu_press.view.panel import animated
+from exu_press.view.panel import mark_animated
 
 __all__ = ["MARKED", "MechanismPanel", "poses"]
 
@@ -51,14 +51,14 @@ class MechanismPanel:
         self._shapes, unit, low, high = front.shapes, front.unit, front.low, front.high
         _draw_frame(axes, mechanism, front)
         _draw_dead_centres(axes, ends, unit)
-        left = float(low[0])
+        lowest_x = float(low[0])
         if ends:
             outline = front.everywhere[mechanism.slider]
-            left = min(left, float(outline[:, 0].min()) - 0.09 * unit)
+            lowest_x = min(lowest_x, float(outline[:, 0].min()) - 0.09 * unit)
         axes.set_aspect("equal", adjustable="box", anchor="W")
         axes.set_axis_off()
         axes.set(
-            xlim=(left - 0.03 * unit, high[0] + 0.33 * unit),
+            xlim=(lowest_x - 0.03 * unit, high[0] + 0.33 * unit),
             ylim=(low[1] - 0.03 * unit, high[1] + 0.03 * unit),
         )
         self._leaders = _draw_labels(axes, mechanism, self._poses, float(high[0]), unit)
@@ -85,7 +85,7 @@ class MechanismPanel:
         marked.set_markeredgewidth(2.2)
         self._pins, self._marked, self._split = pins, marked, len(ideal)
         leaders = [line for line, _ in self._leaders.values()]
-        self.artists = animated(*self._bodies.values(), pins, marked, *leaders)
+        self.artists = mark_animated(*self._bodies.values(), pins, marked, *leaders)
 
     def show(self, frame: int) -> None:
         """Bring every body to its pose."""
@@ -107,12 +107,12 @@ def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str,
     largest steps of 1.5 degrees. A flexible body's joints are drawn where its mean frame has them.
     """
     stored = result["body_position"]
-    found = {}
+    pose_of_body = {}
     for index, name in enumerate(result.bodies):
-        found[name] = np.column_stack(
+        pose_of_body[name] = np.column_stack(
             [np.interp(instants.time, result.time, stored[:, index, k]) for k in range(3)]
         )
-    return found
+    return pose_of_body
 
 
 def _draw_frame(axes: Axes, mechanism: Mechanism, front: Front) -> None:
@@ -145,7 +145,7 @@ def _draw_labels(
     panel, edges = axes.get_window_extent(), axes.get_ylim()
     drawn = max(np.ptp(edges), np.ptp(axes.get_xlim()) * panel.height / panel.width)
     named = {
-        body.name: cut(joint_in_words(body.name.removesuffix("_right")).lower(), NAME)
+        body.name: shorten(joint_in_words(body.name.removesuffix("_right")).lower(), NAME)
         for body in mechanism.bodies
         if not body.name.endswith("_left")
     }

@@ -13,7 +13,7 @@ from exu_press.plots.style import RUN
 from exu_press.result import Result
 from exu_press.view.instants import Instants
 
-__all__ = ["CurvePanel", "Panel", "animated"]
+__all__ = ["CurvePanel", "Panel", "mark_animated"]
 
 PALE = "#B5CDE0"
 
@@ -29,7 +29,7 @@ class Panel(Protocol):
         """Bring the artists to a frame."""
 
 
-def animated(*artists: Artist) -> list[Artist]:
+def mark_animated(*artists: Artist) -> list[Artist]:
     """Return artists, marked as drawn frame by frame."""
     for artist in artists:
         artist.set_animated(True)
@@ -40,16 +40,16 @@ class CurvePanel:
     """One channel over the crank angle."""
 
     def __init__(self, axes: Axes, result: Result, values: Array, instants: Instants) -> None:
-        shown = slice(int(instants.step[0]), int(instants.step[-1]) + 1)
+        steps_in_view = slice(int(instants.step[0]), int(instants.step[-1]) + 1)
         degrees = np.degrees(result["crank_angle"])
         self._instants, self._degrees, self._values = instants, degrees, values
-        kept = shown.start + decimate(degrees[shown], values[shown])
-        self._x, self._y = degrees[kept], values[kept]
+        decimated = steps_in_view.start + decimate(degrees[steps_in_view], values[steps_in_view])
+        self._x, self._y = degrees[decimated], values[decimated]
         axes.plot(self._x, self._y, color=PALE, linewidth=0.9)
         (self._line,) = axes.plot([], [], color=RUN, linewidth=1.2)
         (self._dot,) = axes.plot([], [], "o", markersize=5, color=RUN, markeredgecolor="white")
-        self._cursor = axes.axvline(degrees[shown.start], color="black", linewidth=0.8)
-        self.artists = animated(self._cursor, self._line, self._dot)
+        self._cursor = axes.axvline(degrees[steps_in_view.start], color="black", linewidth=0.8)
+        self.artists = mark_animated(self._cursor, self._line, self._dot)
 
     def show(self, frame: int) -> None:
         """Draw the curve up to a frame."""

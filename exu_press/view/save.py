@@ -100,7 +100,7 @@ def save_animation(
 
 
 def _write_png(path: Path, number: int, image: Image.Image) -> Path:
-    numbered = path.with_name(NUMBER.sub(lambda found: found[0] % number, path.name))
+    numbered = path.with_name(NUMBER.sub(lambda match: match[0] % number, path.name))
     with replacing(numbered) as partial:
         image.save(partial, format="png")
     return numbered
@@ -110,13 +110,13 @@ def _write_gif(path: Path, frames: Iterator[Image.Image], fps: float) -> None:
     """Write a GIF with one palette throughout: nothing flickers, and it is small."""
     first = next(frames)
     palette = _palette(first)
-    shown = (
+    quantized = (
         image.quantize(palette=palette, dither=Image.Dither.NONE)
         for image in itertools.chain([first], frames)
     )
-    start = next(shown)
+    start = next(quantized)
     start.save(
-        path, format="gif", save_all=True, append_images=shown, duration=1000.0 / fps, loop=0
+        path, format="gif", save_all=True, append_images=quantized, duration=1000.0 / fps, loop=0
     )
 
 
@@ -124,7 +124,7 @@ def _palette(image: Image.Image) -> Image.Image:
     """Return the colours that an animation is made of, and those of its first frame's blends."""
     fixed = [255, 255, 255]
     for colour in KEPT_COLOURS:
-        fixed += [round(255 * part) for part in to_rgb(colour)]
+        fixed += [round(255 * component) for component in to_rgb(colour)]
     rest = image.quantize(256 - len(fixed) // 3, method=Image.Quantize.MEDIANCUT).getpalette()
     assert rest is not None
     palette = Image.new("P", (1, 1))
@@ -133,13 +133,13 @@ def _palette(image: Image.Image) -> Image.Image:
 
 
 def _ffmpeg(path: Path) -> str:
-    found = shutil.which("ffmpeg")
-    if found is None:
+    program = shutil.which("ffmpeg")
+    if program is None:
         raise InputError(
             f"--save {path}: .mp4 needs the program ffmpeg, which is not installed; "
             "allowed without it is .gif or .png"
         )
-    return found
+    return program
 
 
 def _write_mp4(path: Path, partial: Path, frames: Iterator[Image.Image], fps: float) -> None:
@@ -150,9 +150,9 @@ def _write_mp4(path: Path, partial: Path, frames: Iterator[Image.Image], fps: fl
     command += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
     command += ["-movflags", "+faststart", "-f", "mp4", str(partial)]
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
-    _, said = _feed(process, itertools.chain([first], frames))
+    _, messages = _feed(process, itertools.chain([first], frames))
     if process.returncode:
-        last = (said.decode(errors="replace").strip().splitlines() or ["no message"])[-1]
+        last = (messages.decode(errors="replace").strip().splitlines() or ["no message"])[-1]
         if os.strerror(errno.ENOSPC) in last:
             raise DiskFullError(path)
         raise InputError(f"--save {path}: ffmpeg failed ({last})")

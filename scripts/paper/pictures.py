@@ -12,7 +12,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from exu_press.plots import orbit_figure, slider_figure
 from exu_press.plots.file import save_figures
-from exu_press.plots.style import COLOURS, RUN, styled
+from exu_press.plots.style import COLOURS, RUN, with_style
 from exu_press.result import Result
 from exu_press.scene import Scene
 from paper.choice import cost, radii
@@ -61,7 +61,7 @@ def save_paper(study: Study, directory: str | Path) -> list[Path]:
     return save_figures(figures, directory)
 
 
-@styled
+@with_style
 def numbers_figure(study: Study) -> Figure:
     """Return every number of section 5, ours over the paper's, with both readings."""
     numbers = published().numbers
@@ -85,7 +85,7 @@ def numbers_figure(study: Study) -> Figure:
     return figure
 
 
-@styled
+@with_style
 def sweeps_figure(study: Study) -> Figure:
     """Return what Figs. 19-27 come to: positions, velocities and accelerations of each sweep."""
     figure = Figure(figsize=(12.5, 9.0), layout="constrained")
@@ -118,7 +118,7 @@ def sweeps_figure(study: Study) -> Figure:
     return figure
 
 
-@styled
+@with_style
 def clearance_figure(study: Study) -> Figure:
     """Return peaks, losses and their product over one clearance for pin and balls."""
     figure = Figure(figsize=(12.5, 4.2), layout="constrained")

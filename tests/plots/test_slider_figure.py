@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from exu_press.plots import slider_figure
-from exu_press.plots.slider import averaged
+from exu_press.plots.slider import sliding_mean
 
 LABELS = ["ideal", "dry", "lubricated", "slider_crank", "stopped"]
 
@@ -47,10 +47,10 @@ def test_ideal_joints_do_not_deviate(results):
 
 def test_averaging_keeps_the_change_of_velocity():
     time = np.linspace(0.0, 0.01, 1001)
-    mean = averaged(time, np.where(time > 0.005, 0.04, 0.0))
+    mean = sliding_mean(time, np.where(time > 0.005, 0.04, 0.0))
     assert mean.max() == pytest.approx(40.0, rel=1e-9)  # 0.04 m/s in 1 ms
     assert np.count_nonzero(mean > 1.0) == pytest.approx(101, abs=2)
-    assert np.all(np.isfinite(averaged(np.zeros(1), np.zeros(1))))
+    assert np.all(np.isfinite(sliding_mean(np.zeros(1), np.zeros(1))))
 
 
 def test_a_crank_that_falls_back_is_in_the_picture(results):

@@ -6,7 +6,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from exu_press.plots import force_figure
-from exu_press.plots.style import COLOURS, colour_of, look, styled
+from exu_press.plots.style import COLOURS, colour_of, look, with_style
 
 
 def test_no_global_state_changes(results):
@@ -18,7 +18,7 @@ def test_no_global_state_changes(results):
 
 
 def test_no_global_state_changes_when_drawing_fails():
-    @styled
+    @with_style
     def failing() -> Figure:
         raise RuntimeError
 
@@ -39,7 +39,7 @@ def test_ticks_are_numbers_without_an_offset_in_the_titles_place():
         figure.subplots().plot([469.80698, 469.80744])
         return figure
 
-    figure = styled(dead_centres)()
+    figure = with_style(dead_centres)()
     figure.draw_without_rendering()
     assert figure.axes[0].yaxis.get_offset_text().get_text() == ""
 

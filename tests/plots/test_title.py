@@ -1,12 +1,14 @@
 """A figure's heading and text."""
 
-from exu_press.plots.headed import headed_figure
 from exu_press.plots.style import look
+from exu_press.plots.title import figure_with_title
 
 
 def test_heading_and_text_lie_within_a_narrow_figure():
     with look():
-        figure = headed_figure("How well the measurement determines each key", "word " * 40, (3, 5))
+        figure = figure_with_title(
+            "How well the measurement determines each key", "word " * 40, (3, 5)
+        )
         figure.subplots()
         figure.draw_without_rendering()
     (heading,) = figure.artists

@@ -7,7 +7,7 @@ from matplotlib.text import Annotation
 
 from exu_press.plots.typesetting import plain
 
-__all__ = ["headed_figure"]
+__all__ = ["figure_with_title"]
 
 LETTERS = 13.5
 """Of the text, in an inch."""
@@ -16,7 +16,7 @@ NARROWEST = 7.5
 """inch, in which a heading has room beside a legend."""
 
 
-def headed_figure(heading: str, text: str, size: tuple[float, float]) -> Figure:
+def figure_with_title(heading: str, text: str, size: tuple[float, float]) -> Figure:
     """Return a figure without pyplot.
 
     Args:

@@ -3,7 +3,7 @@
 import re
 import textwrap
 
-__all__ = ["cut", "plain", "typeset", "wrapped"]
+__all__ = ["plain", "shorten", "typeset", "wrap_text"]
 
 LETTERS = 44
 """In a line beside a panel."""

@@ -6,12 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from netgen.occ import Cylinder, MoveTo, Pnt, Vec, Z  # type: ignore[import-untyped]
-from netgen.occ import OCCGeometry as OccGeometry
 
 from fe_models.dimensions import Box, CrankDimensions, LinkageDimensions
 from fe_models.errors import InputError
 from fe_models.patches import within
-from fe_models.step_check import check_step
+from fe_models.step_check import check_step, read_step
 
 __all__ = ["crank_shaft", "freeze", "from_step", "linkage", "thaw"]
 
@@ -64,7 +63,7 @@ def from_step(path: Path, scale: float, faces: Mapping[str, Box]) -> Any:
     """Return the solid of a STEP file, scaled to m; faces wholly inside a box take its name."""
     check_step(path)
     try:
-        shape = OccGeometry(str(path)).shape
+        shape = read_step(path)
         solids = len(shape.solids)
     except Exception as error:
         raise InputError(f"STEP file {path}: netgen cannot read it ({error})") from error
@@ -98,7 +97,7 @@ def thaw(text: str, names: tuple[str | None, ...]) -> Any:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "shape.brep"
         path.write_text(text)
-        shape = OccGeometry(str(path)).shape
+        shape = read_step(path)
     for face, name in zip(shape.faces, names, strict=True):
         if name is not None:
             face.name = name

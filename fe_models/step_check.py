@@ -7,13 +7,16 @@ import functools
 import json
 import math
 import os
+import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
+from typing import Any
 
 from fe_models.errors import InputError
 
-__all__ = ["check_step", "main"]
+__all__ = ["check_step", "main", "read_step"]
 
 LONGEST = 120.0
 """s, for a file; one of 10 MB takes some seconds."""
@@ -60,6 +63,16 @@ def _check(path: Path, changed: int, size: int) -> None:
         raise InputError(f"STEP file {path}: a coordinate is no number")
 
 
+def read_step(path: Path) -> Any:
+    """Return the shape of a STEP file; netgen takes only names that end in small letters."""
+    from netgen.occ import OCCGeometry  # type: ignore[import-untyped]
+
+    with tempfile.TemporaryDirectory() as directory:
+        if path.suffix != path.suffix.lower():
+            path = Path(shutil.copy(path, Path(directory) / f"shape{path.suffix.lower()}"))
+        return OCCGeometry(str(path)).shape
+
+
 def main(path: str) -> None:
     """Read a file and print the corners of its bounding box."""
     try:
@@ -68,9 +81,7 @@ def main(path: str) -> None:
         resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     except (ImportError, ValueError):
         pass  # a system without such limits
-    from netgen.occ import OCCGeometry  # type: ignore[import-untyped]
-
-    shape = OCCGeometry(path).shape
+    shape = read_step(Path(path))
     low, high = shape.bounding_box
     print(json.dumps([getattr(corner, axis) for corner in (low, high) for axis in "xyz"]))
 

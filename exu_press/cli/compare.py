@@ -57,7 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> int:
     """Run every scene, read every result; return 0, or 3 if a run stopped early."""
-    files = [Path(name) for name in options.given if Path(name).suffix == CURVES]
+    files = [Path(name) for name in options.given if Path(name).suffix.lower() == CURVES]
     curves = {file: read_curve(file) for file in files}
     runs = [name for name in options.given if Path(name) not in curves]
     compared = _compared(runs, options.set, measured=bool(curves))

@@ -139,7 +139,7 @@ def _of_scene(
         speed = _speed(scene)
         if isinstance(mechanism, Mapping):
             return mechanism_from(mechanism_changed(mechanism, further)), speed
-        if isinstance(mechanism, str) and mechanism.endswith(".toml"):
+        if isinstance(mechanism, str) and mechanism.lower().endswith(".toml"):
             file = path.parent / mechanism
             drawing = mechanism_changed(read_toml(file), further)
             with prefixed(f"{file}: "):

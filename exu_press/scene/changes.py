@@ -73,7 +73,7 @@ def asked_mechanism(mechanism: Any) -> Any:
     if isinstance(mechanism, Mapping):
         with prefixed("mechanism."):
             return mechanism_from(mechanism)
-    if isinstance(mechanism, str) and mechanism.endswith(".toml"):
+    if isinstance(mechanism, str) and mechanism.lower().endswith(".toml"):
         return load_mechanism(mechanism)
     return mechanism
 

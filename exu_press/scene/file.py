@@ -25,7 +25,7 @@ def scene_tables(path: Path) -> dict[str, Any]:
             f'mechanism = "{path.name}", as `exu-press new my_scene.toml --mechanism {path.name}` '
             "writes one, or `exu-press draw` with the mechanism"
         )
-    if str(data.get("mechanism", "")).endswith(".toml"):
+    if str(data.get("mechanism", "")).lower().endswith(".toml"):
         data["mechanism"] = str(path.parent / data["mechanism"])
     if isinstance(bodies := data.get("bodies"), dict):
         data["bodies"] = {name: _beside(path, body) for name, body in bodies.items()}

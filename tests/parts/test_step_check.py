@@ -19,6 +19,14 @@ def test_a_sound_file_is_read():
     check_step(ROD)
 
 
+@pytest.mark.parametrize("name", ["ROD.STEP", "rod.stp", "Rod.Stp"])
+def test_a_file_is_read_however_its_name_ends(name, tmp_path):
+    path = tmp_path / name
+    shutil.copy(ROD, path)
+    solid, original = StepFile(path).build(), StepFile(ROD).build()
+    assert solid.mass == pytest.approx(original.mass, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     "change",
     [

@@ -105,13 +105,27 @@ class Joints(Mapping[str, Joint]):
         """
         return {name: joint_dict(joint, laws) for name, joint in self.with_clearance.items()}
 
-    def unused_by_all(self, law: str, names: Iterable[str]) -> dict[str, str]:
-        """Return the keys of a law that none of these joints uses, if it has it -> the reason."""
-        unused = [
-            unused_in(table, spherical=name in self.spherical)
-            for name in names
-            if (table := getattr(self._joints[name], law, None)) is not None
-        ]
+    def unused_by_all(self, shared: Table, names: Iterable[str]) -> dict[str, str]:
+        """Return the keys of a law that none of these joints uses, if it has it -> the reason.
+
+        Args:
+            shared: the scene's table of this law; where a joint's own decides, the reason says so.
+            names: of joints.
+        """
+        law, of_all = shared.table, shared.unused()
+        unused = []
+        for name in names:
+            table = getattr(self._joints[name], law, None)
+            if table is not None:
+                reasons = unused_in(table, spherical=name in self.spherical)
+                unused.append(
+                    {
+                        key: f"joints.{name}.{reason}"
+                        if reason.startswith(f"{law}.") and of_all.get(key) != reason
+                        else reason
+                        for key, reason in reasons.items()
+                    }
+                )
         common = set.intersection(*map(set, unused)) if unused else set()
         return {
             key: reason for key, reason in (unused[0] if unused else {}).items() if key in common
@@ -173,7 +187,7 @@ def joints_of(
     joints = Joints(found, mechanism, groups, [name for name, ball in spherical.items() if ball])
     for name, value in given.items():
         for law in LAW_TABLES:
-            idle = joints.unused_by_all(law, joints.members(name))
+            idle = joints.unused_by_all(laws[law], joints.members(name))
             for key, each in given_in(keys_given(name, value).get(law)).items():
                 if key in idle:
                     place = f"joints.{name}.{law}.{key}"

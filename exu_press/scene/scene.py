@@ -208,7 +208,7 @@ class Scene(Table):
             object.__setattr__(self, "start", usual.get("start", STARTS[0]))
         for name, law in laws.items():
             rubbed = of_guides.get(name, ())
-            idle = joints.unused_by_all(name, joints)
+            idle = joints.unused_by_all(complete[name], joints)
             if rubbed and name in unused:
                 why = f"{unused.pop(name)}, and guides do not use it"
                 idle = {field.name: why for field in dataclasses.fields(complete[name])}

@@ -39,7 +39,18 @@ MIXED = {**PIN, "kind": "lubricated", "film": {"at_contact": "mixed"}}
         (
             {"joints": {"crank_pin": {**PIN, "friction": {"law": "none", "mu_kinetic": 0.2}}}},
             "joints.crank_pin.friction.mu_kinetic",
-            "friction.law is 'none'",
+            "(joints.crank_pin.friction.law is 'none')",
+        ),
+        (
+            {"joints": {"crank_pin": {**PIN, "friction": {"mu_static": 0.2}}}},
+            "joints.crank_pin.friction.mu_static",
+            "(friction.law is 'coulomb')",
+        ),
+        (
+            {"friction": {"law": "lugre_steady", "regularisation_velocity": 1e-4},
+             "joints": {"crank_pin": {**PIN, "friction": {"law": "lugre"}}}},
+            "friction.regularisation_velocity",
+            "(joints.crank_pin.friction.law is 'lugre')",
         ),
         ({"solver": {"step": 1e-5, "max_step_deg": 1.5}}, "solver.max_step_deg", "solver.step"),
         (

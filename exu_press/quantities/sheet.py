@@ -50,14 +50,22 @@ def _penetration(run: Reading, load: str) -> Array:
     return np.asarray(run.mechanism.bottom + top - run["slider_position"])
 
 
-def _pull(run: Reading, load: str) -> Array:
-    """Return the force that lifts the output, (n,), N, beyond weight and the ideal inertia."""
-    mass = run.mechanism.body(run.mechanism.slider).mass
-    return np.asarray(mass * _above_ideal(run)[2] - run[f"load_{load}_force"])
+def _pull(run: Reading) -> Array:
+    """Return the force of the output's joints that lifts it, (n,), N, beyond weight and inertia.
+
+    Its inertia is that of the ideal motion. Loads, springs and friction of guides act beside them.
+    """
+    mechanism = run.mechanism
+    output, direction = mechanism.body(mechanism.slider), np.array(mechanism.output.direction)
+    pull = -output.mass * (_ideal(run)[2] + run.result.scene.gravity * direction[1])
+    for joint in mechanism.joints_of(output.name):
+        on_output = 1.0 if joint.journal == output.name else -1.0
+        pull += on_output * run[f"{joint.name}_force"][:, :2] @ direction
+    return pull
 
 
-def _above_ideal(run: Reading) -> tuple[Array, Array, Array]:
-    """Return how far above the ideal motion the output is, (n,), m, and its rates, m/s, m/s^2.
+def _ideal(run: Reading) -> tuple[Array, Array, Array]:
+    """Return the ideal output's position, (n,), m, velocity, m/s, and acceleration, m/s^2.
 
     That of a crank at the same angle and speed, which a motor's load slows down.
     """
@@ -66,11 +74,7 @@ def _above_ideal(run: Reading) -> tuple[Array, Array, Array]:
     slower: Array = np.zeros_like(speed)
     if run.result.scene.drive is not None:
         slower = np.gradient(speed, run.time) * velocity
-    return (
-        run["slider_position"] - place,
-        run["slider_velocity"] - speed * velocity,
-        run["slider_acceleration"] - speed**2 * acceleration - slower,
-    )
+    return place, speed * velocity, speed**2 * acceleration + slower
 
 
 def given_back(time: Array, pull: Array, rate: Array) -> float:
@@ -95,7 +99,7 @@ def _largest(
 
 
 def _reverse(run: Reading, load: str, before: Array, after: Array) -> float:
-    return max(0.0, float(_pull(run, load)[after].max()))
+    return max(0.0, float(_pull(run)[after].max()))
 
 
 def _reverse_share(run: Reading, load: str) -> float | None:
@@ -108,19 +112,19 @@ def _downward(run: Reading, load: str, before: Array, after: Array) -> float:
 
 
 def _stack_up(run: Reading, load: str, before: Array, after: Array) -> float:
-    above = _above_ideal(run)[0]
+    above = run["slider_position"] - _ideal(run)[0]
     pressed = above[before].max() if before.size else above[after[0]]
     return float(pressed - above[after].min())
 
 
 def _released(run: Reading, load: str, before: Array, after: Array) -> float:
-    rising = _above_ideal(run)[1]
-    return given_back(run.time[after], _pull(run, load)[after], rising[after])
+    rising = run["slider_velocity"] - _ideal(run)[1]
+    return given_back(run.time[after], _pull(run)[after], rising[after])
 
 
 SHEETS = (
     Quantity("reverse_force", "N",
-             "largest pull at the output after the fracture, beyond its weight and ideal inertia",
+             "largest pull of the output's joints after the fracture beyond its weight and inertia",
              LOAD, partial(_largest, _reverse), Place.LOAD, _is_sheet,
              title="reverse load, max", shown="kN", under=True, extreme=Extreme.LARGEST),
     Quantity("reverse_share", "",

@@ -70,6 +70,32 @@ def test_clearance_stacks_up():
     assert result.quantity("energy.residual").value < 1e-3
 
 
+@pytest.mark.parametrize(("pull", "reverse"), [(-1.4e4, 1.4e4), (1.4e4, 0.0)])
+def test_other_loads_on_the_output_are_no_pull_of_the_mechanism(pull, reverse):
+    """Rigid links without clearance carry just what presses the output beside the sheet."""
+    constant = {"kind": "table", "time": [0.0, 1.0], "force": [pull, pull]}
+    scene = ideal(SHEET).replace({"load.constant": constant, "solver.tolerance": 1e-5})
+    result = simulate(scene)
+    assert result.quantity("loads.part.reverse_force").value == pytest.approx(reverse, rel=0.01)
+    share = result.quantity("loads.part.reverse_share").value
+    assert share == pytest.approx(reverse / 1.2e5, rel=0.01)
+
+
+def test_a_cushion_that_presses_more_than_snaps_back_leaves_no_reverse_load():
+    """30 kN hold the slide up: its rod presses on throughout, and gives back 1.8 J meanwhile."""
+    keys = {"kind": "dry", "clearance": 5e-5, "radius": 0.07, "friction": {"law": "none"}}
+    keys["contact"] = {"shape": "point", "stiffness": 2e9, "exponent": 1.0, "damping": "step"}
+    keys["contact"] |= {"damping_max": 1e6, "damping_depth": 1e-6}
+    cushion = SPRING | {"travel": [0.0, 5e-4, 0.021], "force": [0.0, 3e4, 3e4]}
+    scene = ideal(
+        SHEET, joints={"wrist_pin": keys}, speed_rpm=30.0, revolutions=0.2, start_angle_deg=130.0,
+        start="centred",
+    )  # fmt: skip
+    result = simulate(scene.replace({"load.cushion": cushion, "load.part.stripping": 0.05}))
+    assert result.quantity("loads.part.reverse_force").value == 0.0
+    assert result.quantity("loads.part.snap_through_energy").value == pytest.approx(1.81, rel=0.01)
+
+
 def test_stripping_on_the_way_up_is_no_reverse_load():
     """Rigid bodies without clearance store nothing; 6 kN strip behind the bottom dead centre."""
     motor = {"rated_torque": 400.0, "inertia": 30.0}

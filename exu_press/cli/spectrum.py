@@ -24,9 +24,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--window",
-        default="flattop",
         metavar="NAME",
-        help="flattop (amplitudes within 0.1%%), hann (narrower) or boxcar (none)",
+        help="of the spectrum over Hz: flattop (amplitudes within 0.1%%), hann (narrower) or "
+        "boxcar (none); default: none over whole revolutions at constant speed, else flattop",
     )
     parser.add_argument("--out", metavar="DIR", help="where to write (default: beside the run)")
     add_format_argument(parser)

@@ -1,6 +1,6 @@
 """Amplitudes over frequency of a curve with uneven steps, with the error of the resampling."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.signal import ShortTimeFFT, get_window, periodogram
@@ -37,6 +37,10 @@ class Spectrum:
     window: str
     resolution: float
     cells: int
+
+    def scaled(self, rate: float) -> "Spectrum":
+        """Return the spectrum over another x, of which one is `rate` of this one's unit."""
+        return replace(self, frequency=rate * self.frequency, resolution=rate * self.resolution)
 
 
 def amplitude_spectrum(

@@ -1,5 +1,6 @@
 """Spectra of a run's channels: over frequency, over orders of the crank, and as they change."""
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -52,12 +53,15 @@ class Spectra:
     Attributes:
         name: of the channel, with its column.
         unit: of the amplitudes.
-        over_time: amplitudes over frequency, Hz.
+        over_time: amplitudes over frequency, Hz; at constant speed of whole revolutions, as
+            `over_angle`, unless a window is asked for.
         over_angle: amplitudes over orders, multiples of the crank's frequency; None where the run
             has no whole revolution.
         changing: over frequency, Hz, in windows about instants.
         angle: crank angle at the windows' centres, deg.
         revolutions: whole ones in `over_angle`.
+        crank: frequency of the crank, Hz.
+        needed: revolutions with which `over_time` would resolve it.
     """
 
     name: str
@@ -67,6 +71,8 @@ class Spectra:
     changing: Spectrogram
     angle: Array
     revolutions: int
+    crank: float
+    needed: int
 
     def lines(self) -> list[str]:
         """Return the lines of the terminal."""
@@ -80,16 +86,23 @@ class Spectra:
                 f"{spectrum.resolution:.4g} {unit}, error of the resampling "
                 f"{significant(spectrum.error, 2)} {self.unit}"
             )
+            each = spectrum.window == "boxcar" and self.revolutions == 1
             rows = [
                 (f"{spectrum.frequency[k]:.5g} {unit}", f"{spectrum.amplitude[k]:.4g} {self.unit}")
-                for k in _strongest(spectrum, spectrum is self.over_angle and self.revolutions == 1)
+                for k in _strongest(spectrum, each)
             ]
             found += columns(rows, indent=4)
+        if self.over_time.resolution > self.crank:
+            number = f"{self.needed} revolution{'s' * (self.needed > 1)}"
+            found.append(
+                f"  the crank's {self.crank:.4g} Hz lies below the resolution; {number} after "
+                "`settle` would resolve it"
+            )
         return found
 
 
 def _strongest(spectrum: Spectrum, each: bool) -> list[int]:
-    """Return the places of the highest peaks above the resolution, by frequency.
+    """Return the places of the highest peaks above resolution and error, by frequency.
 
     Args:
         spectrum: of a curve.
@@ -98,7 +111,8 @@ def _strongest(spectrum: Spectrum, each: bool) -> list[int]:
     padded = np.concatenate([[0.0], spectrum.amplitude, [0.0]])
     higher = (padded[1:-1] > padded[:-2]) & (padded[1:-1] >= padded[2:])
     peaks = np.flatnonzero(higher | each)
-    peaks = peaks[spectrum.frequency[peaks] >= spectrum.resolution]
+    peaks = peaks[spectrum.frequency[peaks] >= spectrum.resolution * (1.0 - 1e-9)]
+    peaks = peaks[spectrum.amplitude[peaks] > spectrum.error]
     highest = peaks[np.argsort(spectrum.amplitude[peaks])[::-1][:STRONGEST]]
     return sorted(highest.tolist())
 
@@ -126,15 +140,16 @@ def column_of(result: Result, name: str) -> tuple[Array, str]:
 
 
 def spectra(
-    run: Result, names: Sequence[str] = (DEFAULT,), *, window: str = "flattop"
+    run: Result, names: Sequence[str] = (DEFAULT,), *, window: str | None = None
 ) -> list[Spectra]:
     """Return the spectra of channels, of the part that quantities are read from (after `settle`).
 
     Args:
         run: with channels.
         names: of channels; NAME.x is a column of one with columns.
-        window: of the spectrum over frequency. The order spectrum is of whole revolutions, and
-            needs none where the motion repeats itself in each of them.
+        window: of the spectrum over frequency; None takes whole revolutions without a window at
+            constant speed, else the flat top. The order spectrum is of whole revolutions, and needs
+            none where the motion repeats itself in each of them.
 
     Raises:
         InputError: a name or the window is not allowed.
@@ -143,12 +158,11 @@ def spectra(
     return [_spectra(result, name, window) for name in names]
 
 
-def _spectra(result: Result, name: str, window: str) -> Spectra:
+def _spectra(result: Result, name: str, window: str | None) -> Spectra:
     values, unit = column_of(result, name)
     time, angle = result.time, result["crank_angle"]
     turns = (angle - angle[0]) / (2.0 * np.pi)
     cells = max(len(time), int(FEWEST_CELLS * abs(turns[-1])))
-    over_time = amplitude_spectrum(time, values, window=window, cells=cells)
     whole = int(turns[-1] + 1e-6)
     over_angle = None
     if whole and (np.diff(turns) > 0.0).all():
@@ -160,11 +174,20 @@ def _spectra(result: Result, name: str, window: str) -> Spectra:
         over_angle = amplitude_spectrum(
             x, y, window="boxcar", cells=max(len(x), FEWEST_CELLS * whole)
         )
-    period = 2.0 * np.pi / abs(float(angle[-1] - angle[0])) * float(time[-1] - time[0])
+    period = float(time[-1] - time[0]) / abs(float(turns[-1]))
+    by_revolutions = window is None and result.scene.drive is None
+    if by_revolutions and over_angle is not None:
+        over_time = over_angle.scaled(1.0 / period)
+    else:
+        over_time = amplitude_spectrum(time, values, window=window or "flattop", cells=cells)
+    lobe = over_time.resolution * float(time[-1] - time[0])
+    needed = 1 if by_revolutions else math.ceil(lobe)
     width = min(period / WINDOWS_A_REVOLUTION, 0.5 * float(time[-1] - time[0]))
     changing = spectrogram(time, values, width, cells=cells)
     centres = np.degrees(np.interp(changing.x, time, angle))
-    return Spectra(name, unit, over_time, over_angle, changing, centres, whole)
+    return Spectra(
+        name, unit, over_time, over_angle, changing, centres, whole, 1.0 / period, needed
+    )
 
 
 def marks_of(run: Result) -> list[Mark]:

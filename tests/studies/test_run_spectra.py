@@ -49,11 +49,31 @@ def test_orders_of_an_ideal_slider_are_those_of_its_closed_form(ideal):
     assert one.over_angle.amplitude[half] < 1e-4 * series[1]
 
 
+def test_at_constant_speed_lines_over_frequency_are_those_over_orders(ideal):
+    """Two harmonics of an ideal slider's acceleration, and nothing that is below the error."""
+    one = spectra(ideal)[0]
+    lines = one.lines()
+    assert lines[2].split() == ["4", "Hz", f"{one.over_angle.amplitude[1]:.4g}", "m/s^2"]
+    assert one.over_angle.amplitude[1] == pytest.approx(18.95, rel=1e-3)
+    assert one.over_time.frequency == pytest.approx(4.0 * one.over_angle.frequency, rel=1e-9)
+    assert (one.over_time.amplitude == one.over_angle.amplitude).all()
+    listed = [float(line.split()[2]) for line in lines if line.startswith("    ")]
+    assert min(listed) > one.over_time.error
+    assert "lies below the resolution" not in lines[-1]
+
+
+def test_a_window_that_does_not_resolve_the_crank_says_how_many_revolutions_do(ideal):
+    lines = spectra(ideal, window="flattop")[0].lines()
+    assert lines[-1].endswith("4 Hz lies below the resolution; 4 revolutions after `settle` would "
+                              "resolve it")  # fmt: skip
+    assert "1 revolution after" in spectra(window(ideal, 0.25, 0.4))[0].lines()[-1]
+
+
 def test_a_single_revolution_tells_its_largest_orders(ideal):
     """Each of them is a bin: the second one is no peak beside the first one."""
     one = spectra(window(ideal, 0.25, 0.5))[0]
     assert one.revolutions == 1
-    told = [line.split() for line in one.lines() if line.strip().endswith("m/s^2")][-5:]
+    told = [line.split() for line in one.lines() if "orders  " in line]
     assert [words[0] for words in told[:2]] == ["1", "2"]
     assert float(told[1][2]) == pytest.approx(one.over_angle.amplitude[1], rel=1e-3)
 

@@ -1,19 +1,29 @@
 """Compare scenes, finished runs and measured curves; one scene alone: ideal, dry, lubricated."""
 
 import argparse
+import itertools
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from exu_press.cli.options import (
     add_error_argument,
     add_run_arguments,
+    directory_of,
     scene_path,
     shipped_names,
     show_warnings,
 )
 from exu_press.errors import InputError
-from exu_press.files.output_directory import output_directory, remove_pictures, write_json
+from exu_press.files.lock import locked
+from exu_press.files.output_directory import (
+    folder_name,
+    output_directory,
+    remove_pictures,
+    subdirectory,
+    write_json,
+)
 from exu_press.integrate import SolverStatus
 from exu_press.quantities.table import comparison_lines, difference_lines
 from exu_press.result import Result
@@ -35,6 +45,10 @@ __all__ = ["EXAMPLE", "add_arguments", "execute"]
 EXAMPLE = "exu-press compare press my_press.toml out/first/run.nc --out out/compare"
 
 RESULT = "run.nc"
+
+COMPARISON = "comparison.json"
+
+INTERRUPTED = SolverStatus.INTERRUPTED.value
 
 CURVES = ".csv"
 """Ending of the files of measured curves."""
@@ -70,39 +84,21 @@ def execute(options: argparse.Namespace) -> int:
         # they are refused here, where their files keep too little
         figures = comparison_figures(stored) if stored else {}
     measured = _beside(curves, stored, {})
-    default = Path("out") / (Path(options.given[0]).stem if len(options.given) == 1 else "compare")
-    directory = output_directory(options.out or default)
-    results: dict[str, Result] = {}
-    for label, one in compared.items():
-        if isinstance(one, Scene) and not options.quiet:
-            print(f"{label} ...", file=sys.stderr)
-        if not isinstance(one, Scene):
-            results[label] = one
-            continue
-        results[label] = simulate(one, errors=not options.no_error, quiet=options.quiet)
-        if results[label].info["status"] == SolverStatus.INTERRUPTED.value:
-            break  # Ctrl-C means all of them
-    summaries = {label: result.summary() for label, result in results.items()}
-    for label, result in results.items():
-        place = output_directory(directory / label.replace(" ", "_"))
-        remove_pictures(place, "run")
-        result.save(place / RESULT)
-        write_json(place / "summary.json", summaries[label])
-    remove_pictures(directory, "compare")
-    write_json(directory / "comparison.json", summaries)
-    measured = _beside(curves, results, measured)
-    told = {
-        name: {run: one.plain() for run, one in runs.items()} for name, runs in measured.items()
-    }
-    (directory / MEASURED).unlink(missing_ok=True)
-    if measured:
-        write_json(directory / MEASURED, told)
-    if not options.no_pictures:
-        if list(results) != list(stored):
-            figures = comparison_figures(results)
+    target = directory_of(options, options.given[0] if len(options.given) == 1 else "compare")
+    with locked(output_directory(target)) as directory:
+        results, summaries = _run_all(compared, directory, options)
+        measured = _beside(curves, results, measured)
+        told = {
+            name: {run: one.plain() for run, one in runs.items()} for name, runs in measured.items()
+        }
         if measured:
-            figures[MEASURED_PICTURE] = measured_figure(measured)
-        save_figures(figures, directory)
+            write_json(directory / MEASURED, told)
+        if not options.no_pictures:
+            if list(results) != list(stored):
+                figures = comparison_figures(results)
+            if measured:
+                figures[MEASURED_PICTURE] = measured_figure(measured)
+            save_figures(figures, directory)
     if not options.quiet:
         scenes = {label: result.scene for label, result in results.items()}
         if len(scenes) > 1:
@@ -117,6 +113,46 @@ def execute(options: argparse.Namespace) -> int:
         how = "" if results[label].completed else "stopped early: "
         print(f"exu-press: {label}: {how}{reason}", file=sys.stderr)
     return 3 if stopped else 0
+
+
+def _run_all(
+    compared: Mapping[str, Scene | Result], directory: Path, options: argparse.Namespace
+) -> tuple[dict[str, Result], dict[str, dict[str, Any]]]:
+    """Return results and summaries by label, each saved before the next run begins."""
+    folders = {label: subdirectory(directory, folder_name(label)) for label in compared}
+    remove_pictures(directory, "compare")
+    (directory / MEASURED).unlink(missing_ok=True)
+    results: dict[str, Result] = {}
+    summaries: dict[str, dict[str, Any]] = {}
+    for label, compared_item in compared.items():
+        if isinstance(compared_item, Scene):
+            if not options.quiet:
+                print(f"{label} ...", file=sys.stderr)
+            result = simulate(compared_item, errors=not options.no_error, quiet=options.quiet)
+        else:
+            result = compared_item
+        results[label], summaries[label] = result, result.summary()
+        remove_pictures(folders[label], "run")
+        result.save(folders[label] / RESULT)
+        write_json(folders[label] / "summary.json", summaries[label])
+        write_json(directory / COMPARISON, summaries)
+        if isinstance(compared_item, Scene) and result.info["status"] == INTERRUPTED:
+            break  # Ctrl-C means all of them
+    return results, summaries
+
+
+def _label(name: str, labels: Iterable[str]) -> str:
+    """Return a name with the first number that makes its folder another one than the labels'.
+
+    Folders differ on systems, too, that do not tell large letters from small ones.
+    """
+    taken = {folder_name(label).casefold() for label in (*labels, COMPARISON, MEASURED)}
+    numbered = (f"{name} {number}" for number in itertools.count(2))
+    return next(
+        label
+        for label in itertools.chain([name], numbered)
+        if folder_name(label).casefold() not in taken
+    )
 
 
 def _beside(
@@ -158,8 +194,7 @@ def _compared(
         else:
             one = Scene.load(scene_path(name), assignments)
         label = file.resolve().parent.name if file.name == RESULT else path.stem
-        twins = [other for other in found if other.partition(" ")[0] == label]
-        found[f"{label} {len(twins) + 1}" if twins else label] = one
+        found[_label(label, found)] = one
     scenes = [one for one in found.values() if isinstance(one, Scene)]
     if assignments and not scenes:
         raise InputError(f"--set {assignments[0]}: changes scenes, and none is given")

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import write_json
+from exu_press.files.output_directory import folder_name, write_json
 from exu_press.mechanism import SHIPPED as MECHANISMS
 from exu_press.scene import Scene
 from exu_press.schema.checks import demand_known
@@ -109,7 +109,7 @@ def scene_of(options: argparse.Namespace) -> Scene:
 
 def directory_of(options: argparse.Namespace, given: str) -> Path:
     """Return the directory that is asked for, else that of a file; it need not exist."""
-    return Path(options.out or Path("out") / Path(given).stem)
+    return Path(options.out or Path("out") / folder_name(Path(given).stem))
 
 
 def show_warnings(found: Iterable[str]) -> None:

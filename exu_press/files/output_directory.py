@@ -14,6 +14,7 @@ __all__ = [
     "FORMATS",
     "PICTURES",
     "check_writable",
+    "folder_name",
     "output_directory",
     "refuse_link",
     "remove_pictures",
@@ -81,6 +82,16 @@ def refuse_link(path: Path) -> None:
             f"{path}: is a link to {path.readlink()}, which lies elsewhere; inside an output "
             "directory nothing is written through links: remove it, or take another directory"
         )
+
+
+def folder_name(label: str) -> str:
+    """Return a label as the name of a visible folder, which is no way out of another one.
+
+    >>> folder_name("my press"), folder_name("..")
+    ('my_press', '_..')
+    """
+    name = label.replace(" ", "_")
+    return f"_{name}" if name.startswith(".") or not name else name
 
 
 def remove_pictures(directory: Path, command: str) -> None:

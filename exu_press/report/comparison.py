@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
+from exu_press.files.output_directory import folder_name
 from exu_press.plots import save_comparison
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.table import comparison_cells
@@ -94,7 +95,7 @@ def _runs(file: Path) -> dict[str, Path]:
         labels = from_json(dict[str, Any], file.read_bytes(), "its text")
         if not labels:
             raise InputError("it is empty")
-    names = {label: label.replace(" ", "_") for label in labels}
+    names = {label: folder_name(label) for label in labels}
     for label, name in names.items():
         if Path(name).name != name or not name.isprintable():
             raise InputError(f"{file}: {shown(label)}: allowed is the name of a variant")

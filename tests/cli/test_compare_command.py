@@ -5,8 +5,9 @@ import re
 
 import pytest
 
-from exu_press import Result, Scene
+from exu_press import InputError, Result, Scene
 from exu_press.cli import compare, main
+from exu_press.files.output_directory import folder_name
 from exu_press.plots import save
 from exu_press.report.comparison import comparison_report
 
@@ -50,6 +51,75 @@ def test_variants_of_the_joints_that_a_scene_has(mine, tmp_path):
     }
     loose = {"dry": {"wrist_pin": "dry"}, "lubricated": {"wrist_pin": "lubricated"}}
     assert kinds == {"ideal": {}, **loose}
+
+
+def speeds(out):
+    """Return the speed of each variant in the file of the comparison and in the variant's run."""
+    comparison = json.loads((out / "comparison.json").read_text())
+    return [
+        (
+            run["scene"]["speed_rpm"],
+            Result.load(out / folder_name(label) / "run.nc").scene.speed_rpm,
+        )
+        for label, run in comparison.items()
+    ]
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ("a/my press.toml", "b/my press.toml", "a/my press.toml"),
+        ("my press.toml", "my_press.toml", "MY PRESS.toml"),
+        ("x.toml", "x 2.toml", "b/x.toml"),
+        ("...toml", "comparison.json.toml", "measured.json.toml"),
+        ("..toml", "_..toml", "a/..toml"),
+    ],
+)
+def test_no_variant_is_dropped_or_overwritten(names, mine, tmp_path, monkeypatch):
+    """Each has a name and a folder of its own inside --out, whatever its file is called."""
+    monkeypatch.chdir(tmp_path)
+    for number, name in enumerate(dict.fromkeys(names)):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(f"speed_rpm = {100 + number}\n{mine.read_text()}")
+    before = sorted(path.name for path in tmp_path.iterdir())
+    assert main(["compare", *names, *QUICK, "--quiet", "--out", "inside"]) == 0
+    expected = [100.0 + [*dict.fromkeys(names)].index(name) for name in names]
+    assert speeds(tmp_path / "inside") == [(speed, speed) for speed in expected]
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*before, "inside"])
+
+
+def test_a_folder_without_out_is_inside_out(mine, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "...toml").write_text(mine.read_text())
+    assert main(["run", "...toml", *QUICK, "--quiet"]) == 0
+    assert (tmp_path / "out" / "_.." / "run.nc").is_file()
+
+
+def test_a_kill_loses_only_the_run_that_is_under_way(mine, tmp_path, monkeypatch):
+    """What was finished is there, and a page shows it."""
+
+    def killed_at_the_third(scene, **options):
+        if len(calls) == 2:
+            raise KeyboardInterrupt
+        calls.append(scene)
+        return simulated(scene, **options)
+
+    calls, simulated = [], compare.simulate
+    monkeypatch.setattr(compare, "simulate", killed_at_the_third)
+    monkeypatch.setattr(compare, "_label", lambda name, labels: str(len(labels)))
+    out = tmp_path / "out"
+    assert main(["compare", *3 * [str(mine)], *QUICK, "--quiet", "--out", str(out)]) == 130
+    assert [Result.load(out / name / "run.nc").completed for name in "01"] == [True, True]
+    assert list(json.loads((out / "comparison.json").read_text())) == ["0", "1"]
+    assert "Comparison" in comparison_report(out / "comparison.json")
+
+
+def test_a_comparison_of_others_reads_nothing_outside_its_folder(tmp_path):
+    (tmp_path / "in").mkdir()
+    for label in ("..", "../x", "/etc"):
+        (tmp_path / "in" / "comparison.json").write_text(json.dumps({label: {}}))
+        with pytest.raises(InputError, match=r"allowed is the name of a variant|_\.\./run\.nc"):
+            comparison_report(tmp_path / "in" / "comparison.json")
 
 
 def test_a_measurement_beside_runs(mine, tmp_path, capsys):

@@ -13,11 +13,18 @@ from exu_press.cli.options import (
     show_warnings,
 )
 from exu_press.errors import InputError
+from exu_press.files.lock import locked
 from exu_press.files.output_directory import output_directory, remove_pictures, write_json
 from exu_press.model.state import State
 from exu_press.quantities.table import run_lines
 from exu_press.result import Result
-from exu_press.result.unfinished import remove, unfinished_of
+from exu_press.result.unfinished import (
+    has_blocks,
+    refuse_blocks,
+    remove,
+    set_aside,
+    unfinished_of,
+)
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import assumed_line
 from exu_press.verification.refine import refined
@@ -59,6 +66,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "scene says",
     )
     parser.add_argument("--figure", metavar="NAME", help="--within is for this figure alone")
+    parser.add_argument(
+        "--overwrite",
+        action="store_true",
+        help="delete the finished blocks that a killed run has left in the directory, and begin "
+        "anew",
+    )
 
 
 def _share(text: str) -> float:
@@ -67,6 +80,17 @@ def _share(text: str) -> float:
     if not 1e-5 <= value < 1.0:
         raise argparse.ArgumentTypeError(f"{text!r}: allowed is a number from 0.001% to 100%")
     return value
+
+
+def _start_path(name: str) -> Path:
+    """Return the file, or the directory of blocks, that --from means.
+
+    In the directory of a run, what a killed one has left is newer than the result beside it.
+    """
+    path = Path(name)
+    file = path / RESULT if path.is_dir() else path
+    blocks = path if has_blocks(path) else unfinished_of(file)
+    return blocks if has_blocks(blocks) and (path.is_dir() or not path.exists()) else file
 
 
 def _start_of(options: argparse.Namespace, scene: Scene) -> State | None:
@@ -80,8 +104,7 @@ def _start_of(options: argparse.Namespace, scene: Scene) -> State | None:
         return None
     if options.within is not None:
         raise InputError("--from: not together with --within, which runs as often as it needs")
-    path = Path(options.start)
-    before = Result.load(path / RESULT if path.is_dir() else path)
+    before = Result.load(_start_path(options.start))
     if not before.completed or "state" not in before.info:
         why = before.info["reason"] or "it was written without the state at its end"
         raise InputError(f"--from {options.start}: allowed is a run that reached its end; {why}")
@@ -101,9 +124,34 @@ def execute(options: argparse.Namespace) -> int:
     start = _start_of(options, scene)
     if options.figure is not None and options.within is None:
         raise InputError(f"--figure {options.figure}: only together with --within")
-    directory = output_directory(directory_of(options, options.scene))
+    with locked(output_directory(directory_of(options, options.scene))) as directory:
+        return _run(scene, start, directory, options)
+
+
+def _make_room(unfinished: Path, options: argparse.Namespace) -> None:
+    """Remove the finished blocks of an earlier run, or set them aside where --from goes on.
+
+    Raises:
+        InputError: neither --overwrite nor --from says what is to become of them.
+    """
+    if options.overwrite:
+        remove(unfinished)
+    elif (
+        options.start is not None
+        and has_blocks(unfinished)
+        and _start_path(options.start).resolve() == unfinished.resolve()
+    ):
+        aside = set_aside(unfinished)
+        if not options.quiet:
+            print(f"the revolutions before are kept in {aside}", file=sys.stderr)
+    refuse_blocks(unfinished)
+
+
+def _run(scene: Scene, start: State | None, directory: Path, options: argparse.Namespace) -> int:
+    """Run the scene in a directory of its own; return the exit status."""
     found: list[str] = []
     unfinished = unfinished_of(directory / RESULT)
+    _make_room(unfinished, options)
     if options.within is not None:
         delivered = deliver(scene, options.within, options.figure, quiet=options.quiet)
         result, found = delivered.result, delivered_lines(delivered, options.within)

@@ -10,8 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.errors import InputError
+from exu_press.files.output_directory import writing
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
+from exu_press.result.classic import checksum
 from fe_models.temporary import TemporaryFolder
 
 __all__ = ["Changed", "OnDisk", "at_rows", "described", "on_disk", "part_of"]
@@ -27,6 +30,7 @@ class OnDisk(Mapping[str, Channel]):
     Attributes:
         count: number of instants.
         begun: channels without a value.
+        checksums: CRC-32 of the values of each channel, one instant after the other.
     """
 
     def __init__(self, directory: Path | None = None) -> None:
@@ -35,15 +39,25 @@ class OnDisk(Mapping[str, Channel]):
         self._temporary = TemporaryFolder() if directory is None else None
         self._directory = directory or (self._temporary.path if self._temporary else Path())
         self.begun: dict[str, Channel] = {}
+        self.checksums: dict[str, int] = {}
         self._last: dict[str, Array] = {}  # value of each channel
+        self._unchecked: set[str] = set()
 
     @classmethod
-    def found(cls, directory: Path, begun: Mapping[str, Channel], end: float) -> "OnDisk":
-        """Return the channels that are in a directory, without a value in `begun`, until an end."""
+    def found(
+        cls, directory: Path, begun: Mapping[str, Channel], count: int, checksums: Mapping[str, int]
+    ) -> "OnDisk":
+        """Return the channels in a directory; each is checked when it is first read.
+
+        Args:
+            directory: in which they are.
+            begun: channels without a value.
+            count: number of instants; what lies behind them was never finished.
+            checksums: of the channels until there.
+        """
         channels = cls(directory)
-        channels.begun = dict(begun)
-        channels.count = channels._file("time").stat().st_size // 8
-        channels.count = int(np.searchsorted(channels["time"].values, end, side="right"))
+        channels.begun, channels.count, channels.checksums = dict(begun), count, dict(checksums)
+        channels._unchecked = set(begun)
         return channels
 
     def append(self, channels: Mapping[str, Channel]) -> None:
@@ -58,8 +72,10 @@ class OnDisk(Mapping[str, Channel]):
                 self.begun[name] = replace(channel, values=values[:0])
             elif channel.unit == "J":
                 values = values + self._last[name]
-            with self._file(name).open("ab") as file:
-                file.write(np.ascontiguousarray(values, np.float64).data)
+            stored = np.ascontiguousarray(values, np.float64)
+            with writing(self._file(name)), self._file(name).open("ab") as file:
+                file.write(stored.data)
+            self.checksums[name] = checksum(stored, self.checksums.get(name, 0))
             if len(values):
                 self._last[name] = values[-1].copy()
         self.count += len(channels["time"].values) - first
@@ -67,11 +83,24 @@ class OnDisk(Mapping[str, Channel]):
     def __getitem__(self, name: str) -> Channel:
         begun = self.begun[name]
         shape = self.count, *begun.values.shape[1:]
-        # pages are read when they are used; a path of its own type takes as long as the map
-        values = np.memmap(str(self._file(name)), np.float64, "r", shape=shape)
+        try:  # pages are read when they are used; a path of its own type takes as long as the map
+            values = np.memmap(str(self._file(name)), np.float64, "r", shape=shape)
+        except (OSError, ValueError):  # missing, or too short
+            raise InputError(f"{self._file(name)}: not a whole channel of a run") from None
+        if name in self._unchecked:
+            self._check(name, values)
         found = copy.copy(begun)
         object.__setattr__(found, "values", values.view(np.ndarray))  # checked block by block
         return found
+
+    def _check(self, name: str, values: Array) -> None:
+        """Raise InputError unless the values of a channel have its checksum."""
+        made_of = 0
+        for first in range(0, self.count, AT_ONCE):
+            made_of = checksum(values[first : first + AT_ONCE], made_of)
+        if made_of != self.checksums.get(name):
+            raise InputError(f"{self._file(name)}: damaged: its values do not have their checksum")
+        self._unchecked.remove(name)
 
     def parts(self, name: str) -> Iterator[Array]:
         """Yield the values of a channel AT_ONCE by AT_ONCE.

@@ -3,9 +3,11 @@
 Source: Unidata, The NetCDF Classic Format Specification; variables without a record dimension.
 """
 
+import json
 import math
 import stat
 import struct
+import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +19,7 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 from exu_press.schema.stored import shown
 
-__all__ = ["Classic", "Variable", "open_classic"]
+__all__ = ["CHECKSUM", "Classic", "Variable", "checksum", "header_checksum", "open_classic"]
 
 T = TypeVar("T")
 Number = TypeVar("Number", bound=np.generic)
@@ -25,6 +27,37 @@ Number = TypeVar("Number", bound=np.generic)
 DIMENSION, VARIABLE, ATTRIBUTE = 10, 11, 12
 TEXT = 2
 TYPES = {1: "i1", TEXT: "S1", 3: ">i2", 4: ">i4", 5: ">f4", 6: ">f8"}
+
+CHECKSUM = "checksum"
+"""Attribute of a variable, whose bytes it belongs to, and of a file, whose header it belongs to."""
+
+
+def checksum(data: NDArray[Any], before: int = 0) -> int:
+    """Return the CRC-32 of an array's bytes in order, behind bytes whose checksum is `before`."""
+    return zlib.crc32(np.ascontiguousarray(data).data, before)
+
+
+def header_checksum(
+    attributes: Mapping[str, bytes],
+    variables: Mapping[str, tuple[Mapping[str, int], Mapping[str, bytes], np.dtype[Any]]],
+) -> str:
+    """Return the CRC-32 of a header's texts, names, types and sizes, 8 hexadecimal digits.
+
+    Args:
+        attributes: of the file; its own checksum does not count.
+        variables: dimensions, attributes and type in the file, by name.
+    """
+
+    def plain(texts: Mapping[str, bytes]) -> dict[str, str]:
+        return {name: text.decode("latin-1") for name, text in texts.items()}
+
+    whole = {name: text for name, text in attributes.items() if name != CHECKSUM}
+    described = {
+        name: ([*axes.items()], plain(texts), dtype.str)
+        for name, (axes, texts, dtype) in variables.items()
+    }
+    text = json.dumps([plain(whole), described], sort_keys=True)
+    return f"{zlib.crc32(text.encode()):08x}"
 
 
 @dataclass(frozen=True)
@@ -42,7 +75,14 @@ class Variable:
     stored: NDArray[Any]
 
     def values(self, dtype: type[Number]) -> NDArray[Number]:
-        """Return a copy in memory, or raise InputError where the file has another type."""
+        """Return a copy in memory.
+
+        Raises:
+            InputError: the file has another type, or bytes that the variable's checksum is not of.
+        """
+        expected = self.attributes.get(CHECKSUM)
+        if expected is not None and expected != b"%08x" % checksum(self.stored):
+            raise InputError("its values are damaged: they do not have the checksum of the file")
         if self.stored.dtype.newbyteorder("=") != dtype:
             raise InputError(f"type {self.stored.dtype.name}; allowed is {np.dtype(dtype).name}")
         return self.stored.astype(dtype)
@@ -54,6 +94,17 @@ class Classic:
 
     attributes: Mapping[str, bytes]
     variables: Mapping[str, Variable]
+
+    def check_header(self) -> None:
+        """Raise InputError where the header is not the one that its checksum was made of."""
+        described = {
+            name: (one.dimensions, one.attributes, one.stored.dtype)
+            for name, one in self.variables.items()
+        }
+        bare = [name for name, one in self.variables.items() if CHECKSUM not in one.attributes]
+        made_of = header_checksum(self.attributes, described).encode()
+        if bare or self.attributes.get(CHECKSUM) != made_of:
+            raise InputError("its header is damaged: it does not have the checksum of the file")
 
 
 def open_classic(path: Path) -> Classic:

@@ -1,6 +1,7 @@
 """A result as a NetCDF file, or as a dataset of xarray: units and names, and the scene."""
 
 import json
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -11,7 +12,14 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError, prefixed, required_package
 from exu_press.files.output_directory import replacing
 from exu_press.result.channel import AXES, Channel
-from exu_press.result.classic import Classic, Variable, open_classic
+from exu_press.result.classic import (
+    CHECKSUM,
+    Classic,
+    Variable,
+    checksum,
+    header_checksum,
+    open_classic,
+)
 from exu_press.result.contents import Contents
 from exu_press.result.info import Info
 from exu_press.result.surface import ARRAYS, Surface
@@ -21,19 +29,26 @@ from exu_press.schema.stored import from_json, shown
 if TYPE_CHECKING:
     from scipy.io import netcdf_file
 
-__all__ = ["dataset", "is_whole", "read", "write"]
+__all__ = ["dataset", "is_whole", "read", "read_text", "write", "write_checksums"]
 
 Kind = TypeVar("Kind", bound=Contents)
 Number = TypeVar("Number", bound=np.generic)
 
-FORMAT = "exu_press result 1"
+FORMAT, UNCHECKED = "exu_press result 2", "exu_press result 1"
+"""Formats: with checksums, as it is written; without, as it was."""
 
 SAMPLE, AT_SAMPLES = "sample", "_at_samples"
 """Dimension of the samples, and the end of the names of channels over it."""
 
 
-def write(result: Contents, path: Path) -> None:
-    """Write to a temporary name beside `path`, then rename: no half file is ever left there."""
+def write(result: Contents, path: Path, **more: str) -> None:
+    """Write to a temporary name beside `path`, then rename: no half file is ever left there.
+
+    Args:
+        result: contents of the file.
+        path: of the file.
+        more: further texts by name, for `read_text`.
+    """
     from scipy.io import netcdf_file  # takes longer to load than a short run
 
     with replacing(path) as partial, netcdf_file(partial, "w", version=2) as file:
@@ -56,6 +71,30 @@ def write(result: Contents, path: Path) -> None:
             _write_channel(file, name + AT_SAMPLES, SAMPLE, channel)
         for body, surface in result.surfaces.items():
             _write_surface(file, body, surface)
+        for name, text in more.items():
+            setattr(file, name, text)
+        write_checksums(file)
+
+
+def write_checksums(file: "netcdf_file") -> None:
+    """Write a checksum of each variable, and one of all that is no value."""
+
+    def texts(owner: Any) -> dict[str, bytes]:
+        """Return the texts of the file or of a variable as they are stored."""
+        stored = owner._attributes.items()
+        return {n: (t if isinstance(t, bytes) else t.encode()) or b"\0" for n, t in stored}
+
+    for variable in file.variables.values():
+        variable.checksum = f"{checksum(variable.data):08x}"
+    described = {
+        name: (
+            dict(zip(variable.dimensions, variable.shape, strict=True)),
+            texts(variable),
+            variable.data.dtype,
+        )
+        for name, variable in file.variables.items()
+    }
+    file.checksum = header_checksum(texts(file), described)
 
 
 def _write_channel(file: "netcdf_file", name: str, along: str, channel: Channel) -> None:
@@ -71,11 +110,15 @@ def _write_channel(file: "netcdf_file", name: str, along: str, channel: Channel)
 
 
 def read(path: Path, kind: type[Kind]) -> Kind:
-    """Return the result in a file, as an object of this kind."""
+    """Return the result in a file, as an object of this kind.
+
+    A file of an older version, which has no checksums, is read with a warning.
+
+    Raises:
+        InputError: it cannot be read, is no result, or is damaged.
+    """
     try:
-        file = open_classic(path)
-        if file.attributes.get("format") != FORMAT.encode():
-            raise InputError(f"has no format = {FORMAT!r}")
+        file = _opened(path)
         scene = from_json(dict[str, Any], _text(file.attributes, "scene"), "scene")
         asked = from_json(list[str], file.attributes.get("asked", b"[]"), "asked")
         return kind(
@@ -124,10 +167,37 @@ def _channel(name: str, variable: Variable) -> Channel:
         )
 
 
+def read_text(path: Path, name: str) -> str:
+    """Return a text that a file has beside a result; raise InputError if it is damaged."""
+    with prefixed(f"{path}: "):
+        return _text(_opened(path).attributes, name)
+
+
+def _opened(path: Path) -> Classic:
+    """Return a file of a result, its header checked.
+
+    Raises:
+        InputError: it is of another format, or its header is damaged.
+        OSError: it cannot be opened.
+    """
+    file = open_classic(path)
+    form = file.attributes.get("format", b"").decode(errors="replace")
+    if form == UNCHECKED and CHECKSUM not in file.attributes:
+        warnings.warn(
+            f"{path}: is of an older version without checksums: damage of it stays unnoticed",
+            stacklevel=4,
+        )
+        return file
+    if form not in (FORMAT, UNCHECKED):
+        raise InputError(f"has no format = {FORMAT!r}")
+    file.check_header()
+    return file
+
+
 def is_whole(path: Path) -> bool:
-    """Return whether a file is there and of the length that its head tells, which alone is read."""
+    """Return whether a file is there, as long as its header says, and the header undamaged."""
     try:
-        open_classic(path)
+        open_classic(path).check_header()
     except (OSError, InputError):
         return False
     return True

@@ -67,10 +67,12 @@ def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Re
     scene, solver = model.scene, model.scene.solver
     assert solver is not None
     unfinished = unfinished if scene.revolutions > BLOCK else None
-    channels = begin(unfinished)
     infos: list[Info] = []
     left, steps = scene.revolutions, solver.max_steps
-    with Progress("run", scene.duration, quiet=quiet, whole=True):
+    with (
+        begin(unfinished) as channels,
+        Progress("run", scene.duration, quiet=quiet, whole=True),
+    ):
         while True:
             length = min(left, BLOCK)
             if model.warm:
@@ -88,7 +90,7 @@ def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Re
             steps -= block.info["steps"] + block.info["rejected_steps"]
             if unfinished is not None and block.completed:
                 so_far = replace(block, scene=scene, info=_of_all(infos))
-                keep(unfinished, so_far, scene.revolutions - left)
+                keep(unfinished, so_far, scene.revolutions - left, channels)
             ended = left < _least(scene) or model.has_stood(block.info["end_time"])
             if ended or not block.completed or steps < 1:
                 break

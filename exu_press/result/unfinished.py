@@ -1,22 +1,57 @@
 """The blocks of a long run on disk, which stay there if its process is killed."""
 
+import json
 import shutil
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import TypeVar
+from typing import TypedDict, TypeVar
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed
+from exu_press.files.output_directory import refuse_link, writing
 from exu_press.result import netcdf
 from exu_press.result.channels import OnDisk
 from exu_press.result.contents import Contents
+from exu_press.schema.stored import from_json
 
-__all__ = ["begin", "keep", "read", "remove", "unfinished_of"]
+__all__ = [
+    "begin",
+    "has_blocks",
+    "keep",
+    "read",
+    "refuse_blocks",
+    "remove",
+    "set_aside",
+    "unfinished_of",
+]
 
 Kind = TypeVar("Kind", bound=Contents)
 
 HEAD = "head.nc"
 """The last instant, with scene, state and whatever else is no channel."""
+
+MARK, WORDS = (
+    "README.txt",
+    "Blocks of a run of exu-press that goes on, or whose process was killed.\n"
+    "exu-press report shows what is there; exu-press run SCENE --from goes on from its end.\n",
+)
+"""File that tells such a directory from others, and what it says."""
+
+LOCK = ".lock"
+
+
+class Blocks(TypedDict):
+    """What a head says of the channels beside it.
+
+    Attributes:
+        count: instants of finished blocks.
+        checksums: of the channels until there.
+    """
+
+    count: int
+    checksums: dict[str, int]
 
 
 def unfinished_of(path: Path) -> Path:
@@ -24,25 +59,77 @@ def unfinished_of(path: Path) -> Path:
     return path.with_name(f"{path.name}.unfinished")
 
 
-def begin(directory: Path | None) -> OnDisk:
-    """Return channels that go to a directory, made anew, or to a temporary one."""
-    if directory is not None:
-        remove(directory)
-        try:
-            directory.mkdir(parents=True)
-        except OSError as error:
-            raise InputError(f"{directory}: cannot be made ({error.strerror})") from None
-    return OnDisk(directory)
+def has_blocks(directory: Path) -> bool:
+    """Return whether a directory has finished blocks of a run."""
+    return (directory / HEAD).is_file()
 
 
-def keep(directory: Path, run: Contents, revolutions: float) -> None:
-    """Write the head that makes a run of the channels in a directory."""
+def refuse_blocks(directory: Path) -> None:
+    """Refuse to begin a run where another one has left finished blocks.
+
+    Raises:
+        InputError: it has.
+    """
+    if has_blocks(directory):
+        raise InputError(
+            f"{directory}: has the finished blocks of a run that did not get to its end; "
+            f"`--from {directory.parent}` goes on from them, `--overwrite` deletes them and begins "
+            "anew"
+        )
+
+
+@contextmanager
+def begin(directory: Path | None) -> Iterator[OnDisk]:
+    """Yield channels that go to a directory, made anew and locked, or to a temporary one.
+
+    Raises:
+        InputError: the directory is in use, has finished blocks or files that are no run's, or
+            cannot be made.
+    """
+    if directory is None:
+        yield OnDisk()
+        return
+    from exu_press.files.lock import locked  # a run of few revolutions needs none
+
+    refuse_link(directory)
+    _refuse_others(directory)
+    with writing(directory):
+        directory.mkdir(parents=True, exist_ok=True)
+    with locked(directory):
+        refuse_blocks(directory)
+        _refuse_others(directory)
+        with writing(directory):
+            for file in directory.iterdir():  # of a run that was stopped in its first block
+                if file.name != LOCK:
+                    file.unlink()
+            (directory / MARK).write_text(WORDS, encoding="utf-8")
+        yield OnDisk(directory)
+
+
+def _refuse_others(directory: Path) -> None:
+    """Refuse a directory with files of somebody else."""
+    names = [file.name for file in directory.glob("*")] if directory.is_dir() else []
+    if MARK not in names and (names not in ([], [LOCK]) or directory.is_file()):
+        raise InputError(f"{directory}: has other files; allowed is one that does not exist yet")
+
+
+def keep(directory: Path, run: Contents, revolutions: float, channels: OnDisk) -> None:
+    """Write the head that makes a run of the channels in a directory.
+
+    Args:
+        directory: in which they are.
+        run: its last block.
+        revolutions: that the run has made.
+        channels: of all blocks.
+    """
     settle = run.scene.settle
     if settle is not None and settle >= revolutions:
         settle = 0.0
     scene = run.scene.replace({"revolutions": revolutions, "settle": settle})
     ends = {name: replace(one, values=one.values[-1:]) for name, one in run.channels.items()}
-    netcdf.write(replace(run, scene=scene, channels=ends), directory / HEAD)
+    blocks: Blocks = {"count": channels.count, "checksums": channels.checksums}
+    whole = replace(run, scene=scene, channels=ends)
+    netcdf.write(whole, directory / HEAD, blocks=json.dumps(blocks))
 
 
 def read(path: Path, kind: type[Kind]) -> Kind:
@@ -51,15 +138,16 @@ def read(path: Path, kind: type[Kind]) -> Kind:
     Raises:
         InputError: it cannot be read.
     """
-    if (path / HEAD).is_file():
+    if has_blocks(path):
         return _left(path, kind)
     beside = unfinished_of(path)
-    if not (beside / HEAD).is_file():
+    if not has_blocks(beside):
         return netcdf.read(path, kind)
     if not path.is_file():
         return _left(beside, kind)
     warnings.warn(
-        f"{path}: an earlier run's; what the last one left, whose process was killed, is {beside}",
+        f"{path}: an earlier run's; what the last one left, which goes on or was killed, is "
+        f"{beside}",
         stacklevel=3,
     )
     return netcdf.read(path, kind)
@@ -68,18 +156,28 @@ def read(path: Path, kind: type[Kind]) -> Kind:
 def _left(directory: Path, kind: type[Kind]) -> Kind:
     """Return the run in a directory, as one of the revolutions that it has made."""
     run = netcdf.read(directory / HEAD, kind)
+    with prefixed(f"{directory / HEAD}: damaged: "):
+        blocks = from_json(Blocks, netcdf.read_text(directory / HEAD, "blocks"), "blocks")
     warnings.warn(
-        f"{directory}: the process of this run was killed; it has {run.scene.revolutions:g} "
-        "revolutions, from whose end --from goes on",
+        f"{directory}: this run goes on, or its process was killed; it has "
+        f"{run.scene.revolutions:g} revolutions, from whose end --from goes on",
         stacklevel=4,
     )
     begun = {name: replace(one, values=one.values[:0]) for name, one in run.channels.items()}
-    return replace(
-        run, channels=OnDisk.found(directory, begun, float(run.channels["time"].values[-1]))
-    )
+    return replace(run, channels=OnDisk.found(directory, begun, **blocks))
+
+
+def set_aside(directory: Path) -> Path:
+    """Give a directory with finished blocks another name, with a number, and return it."""
+    number = 1
+    while (aside := directory.with_name(f"{directory.name}.{number}")).exists():
+        number += 1
+    with writing(aside):
+        directory.rename(aside)
+    return aside
 
 
 def remove(directory: Path) -> None:
     """Remove a directory of such a run, if there is one; no other."""
-    if (directory / HEAD).is_file() or not any(directory.glob("*")):
+    if (directory / MARK).is_file():
         shutil.rmtree(directory, ignore_errors=True)

@@ -52,16 +52,14 @@ def refined(
     Args:
         scene: to be simulated.
         start: state of another run, from which it goes on.
-        unfinished: directory in which the run is while it goes on, see `simulate`.
+        unfinished: directory in which the first run is while it goes on, see `simulate`; it stays
+            there, while finer ones go to a temporary directory.
         quiet: False shows the progress.
         told: is called with what is done next and why, or with what the user may do.
     """
 
-    def run(scene: Scene) -> Result:
-        return simulate_with_errors(scene, start=start, unfinished=unfinished, quiet=quiet)
-
     begin = time.perf_counter()
-    result = run(scene)
+    result = simulate_with_errors(scene, start=start, unfinished=unfinished, quiet=quiet)
     took = first = time.perf_counter() - begin
     spent = 0.0
     while result.completed and (names := doubtful(result)):
@@ -81,7 +79,8 @@ def refined(
             break
         told(f"{which}: not known within {ENOUGH:.0%}; goes on at a tolerance of {finer:.2g}")
         before = time.perf_counter()
-        result = run(scene.replace({"solver.tolerance": finer}))
+        again = scene.replace({"solver.tolerance": finer})
+        result = simulate_with_errors(again, start=start, quiet=quiet)
         took = time.perf_counter() - before
         spent += took
     return result

@@ -31,7 +31,8 @@ def simulate(
             one piece, not equal to the last digit.
         unfinished: directory in which a run of more than ten revolutions leaves what it has while
             it goes on, for `Result.load`, should its process be killed. The result's channels stand
-            there, too: remove it when the result has been saved. None: a temporary one.
+            there, too: remove it when the result has been saved, as one with finished blocks is
+            refused. None: a temporary one.
         quiet: False shows the progress on standard error.
         beside: refinement runs go in a further process meanwhile; else in this one afterwards, as
             is right where all cores have their runs already.
@@ -42,7 +43,9 @@ def simulate(
         quantity, `horizon` and `lyapunov_exponent`; a run that stopped early has none.
 
     Raises:
-        InputError: `start` is the state of a run with other bodies, joints or loads.
+        InputError: `start` is the state of a run with other bodies, joints or loads, or another run
+            is in `unfinished`, or has left finished blocks there.
+        DiskFullError: there is no room for the channels of a long run.
     """
     directory = None if unfinished is None else Path(unfinished)
     if not errors:

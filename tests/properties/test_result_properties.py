@@ -1,15 +1,15 @@
 """Result files with anything in them changed: a result, or one line that says what is wrong."""
 
 import copy
-import io
 import json
 import struct
 import time
+from contextlib import suppress
 
 import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
-from scipy.io import netcdf_file
+from stored_results import rewritten, text_of
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
@@ -76,24 +76,8 @@ def other_json(draw, data):
 
 def other_text(draw, content):
     """Return a file in which one of the texts about the whole is another one."""
-    made = io.BytesIO()
     name = draw(st.sampled_from(["scene", "info", "info", "bodies"]))
-    with (
-        netcdf_file(io.BytesIO(content), mmap=False) as old,
-        netcdf_file(made, "w", version=2) as new,
-    ):
-        texts = {each: text.decode() for each, text in old._attributes.items()}
-        texts[name] = json.dumps(other_json(draw, json.loads(texts[name])))
-        for each, text in texts.items():
-            setattr(new, each, text)
-        for each, length in old.dimensions.items():
-            new.createDimension(each, length)
-        for each, variable in old.variables.items():
-            copied = new.createVariable(each, variable.typecode(), variable.dimensions)
-            copied[:] = variable[:]
-            copied.units, copied.long_name = variable.units, variable.long_name
-        new.flush()
-        return made.getvalue()
+    return rewritten(content, {name: json.dumps(other_json(draw, text_of(content, name)))})
 
 
 def other_bytes(draw, content):
@@ -113,7 +97,10 @@ def other_numbers(draw, content):
 def mutated(draw, files):
     """Return the content of a file after one change."""
     how = draw(st.sampled_from([other_text, other_text, other_bytes, other_numbers]))
-    return how(draw, (files / draw(st.sampled_from(sorted(SCENES)))).read_bytes())
+    content = how(draw, (files / draw(st.sampled_from(sorted(SCENES)))).read_bytes())
+    with suppress(Exception):  # checksums of what SciPy cannot read stay wrong
+        return rewritten(content) if draw(st.booleans()) else content
+    return content
 
 
 def shown_or_refused(command, content, folder, capsys):

@@ -1,6 +1,7 @@
 """Runs of many revolutions: memory holds one block, the disk the channels."""
 
 import pickle
+import random
 import shutil
 import subprocess
 import sys
@@ -168,9 +169,51 @@ def test_a_killed_run_is_not_taken_for_the_one_before(whole, killed, tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["run.nc"]
 
 
+def test_finished_blocks_are_not_begun_anew(killed):
+    left = unfinished_of(killed / "run.nc")
+    before = {file.name: file.read_bytes() for file in left.iterdir()}
+    with pytest.raises(InputError, match=r"finished blocks .*`--from .*`--overwrite`"):
+        simulate(SCENE.replace({"revolutions": 11.0}), unfinished=left)
+    assert {file.name: file.read_bytes() for file in left.iterdir()} == before
+
+
+def test_damage_of_a_block_is_noticed_when_it_is_read(killed, tmp_path):
+    """A bit of each of 40 places, named by its file; other channels are still there."""
+    left = shutil.copytree(unfinished_of(killed / "run.nc"), tmp_path / "left")
+    count = (left / "slider_tilt").stat().st_size // 8
+    by = random.Random(69)
+    for _ in range(40):
+        name, width = by.choice([("crank_angle", 8), ("crank_pin_force", 16)])
+        whole = (left / name).read_bytes()
+        damaged = bytearray(whole)
+        damaged[by.randrange(int(0.9 * count) * width)] ^= 1 << by.randrange(8)
+        (left / name).write_bytes(damaged)
+        with pytest.warns(UserWarning, match="was killed"):
+            run = Result.load(left)
+        assert len(run["slider_position"]) == run.channels.count
+        with pytest.raises(InputError, match=f"left/{name}: damaged"):
+            run[name]
+        (left / name).write_bytes(whole)
+    (left / "time").write_bytes((left / "time").read_bytes()[:800])
+    with (
+        pytest.warns(UserWarning, match="was killed"),
+        pytest.raises(InputError, match="left/time: not a whole channel"),
+    ):
+        Result.load(left)["time"]
+
+
+def test_a_damaged_head_of_blocks_is_refused(killed, tmp_path):
+    left = shutil.copytree(unfinished_of(killed / "run.nc"), tmp_path / "left")
+    content = (left / "head.nc").read_bytes()
+    place = content.index(b'{"count": ') + 10
+    (left / "head.nc").write_bytes(content[:place] + b"9" + content[place + 1 :])
+    with pytest.raises(InputError, match=r"head\.nc: .*header is damaged"):
+        Result.load(left)
+
+
 def test_another_directory_is_not_removed(tmp_path):
     (tmp_path / "notes.txt").write_text("mine")
-    with pytest.raises(InputError, match="cannot be made"):
+    with pytest.raises(InputError, match="has other files"):
         simulate(SCENE.replace({"revolutions": 11.0}), unfinished=tmp_path)
     assert (tmp_path / "notes.txt").read_text() == "mine"
 

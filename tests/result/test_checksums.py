@@ -1,0 +1,98 @@
+"""Damage of a result's file is noticed where it is read, and only there."""
+
+import random
+import warnings
+
+import numpy as np
+import pytest
+from scipy.io import netcdf_file
+from stored_results import rewritten
+
+from exu_press import InputError, Result, Scene, simulate
+from exu_press.cli import main
+from exu_press.result.netcdf import is_whole
+
+
+@pytest.fixture(scope="module")
+def content(tmp_path_factory):
+    path = tmp_path_factory.mktemp("run") / "run.nc"
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.01)
+    simulate(scene).save(path)
+    return path.read_bytes()
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "run.nc"
+
+
+def same(first, second):
+    return (
+        first.scene == second.scene
+        and first.info == second.info
+        and list(first) == list(second)
+        and all(np.array_equal(first[name], second[name]) for name in first)
+        and first.units == second.units
+    )
+
+
+def test_every_bit_of_a_sample_matters_or_is_not_read(content, path):
+    """No flip of a bit gives another result: 300 within the header, 300 anywhere."""
+    path.write_bytes(content)
+    original = Result.load(path)
+    by, refused = random.Random(69), 0
+    for number in range(600):
+        damaged = bytearray(content)
+        place = by.randrange(12_000 if number % 2 else len(content))
+        damaged[place] ^= 1 << by.randrange(8)
+        path.write_bytes(damaged)
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                assert same(Result.load(path), original), place
+        except InputError as error:
+            refused += 1
+            assert str(error).startswith(f"{path}: not a result of exu_press, or damaged: ")
+    assert refused > 580  # the number of records and padding are not read
+
+
+@pytest.mark.parametrize("name", ["time", "crank_pin_force", "slider_position"])
+def test_a_changed_number_is_refused_by_its_channel(content, path, name):
+    path.write_bytes(content)
+    with netcdf_file(path, "a", mmap=False) as file:
+        file.variables[name][-1] *= 1.0 + 1e-15
+    with pytest.raises(InputError, match=f"channel '{name}': its values are damaged"):
+        Result.load(path)
+    assert is_whole(path)  # its header is
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda file: setattr(file, "info", file.info.replace(b"steps", b"stepz")),
+        lambda file: setattr(file, "format", b"exu_press result 1"),
+        lambda file: setattr(file, "asked", b"[]"),
+        lambda file: setattr(file, "checksum", b"00000000"),
+        lambda file: setattr(file.variables["time"], "units", b"h"),
+        lambda file: file.variables["time"]._attributes.pop("checksum"),
+        lambda file: file._attributes.pop("checksum"),
+        lambda file: file.variables.update(other=file.variables.pop("slider_tilt")),
+    ],
+)
+def test_a_changed_header_is_refused(content, path, change):
+    path.write_bytes(content)
+    with netcdf_file(path, "a", mmap=False) as file:
+        change(file)
+    with pytest.raises(InputError, match=r"header is damaged|has no format"):
+        Result.load(path)
+    assert not is_whole(path)
+
+
+def test_a_file_of_an_older_version_is_read_and_said_to_be_unchecked(content, path):
+    path.write_bytes(content)
+    original = Result.load(path)
+    path.write_bytes(rewritten(content, {"format": "exu_press result 1"}, checksums=False))
+    with pytest.warns(UserWarning, match=r"run\.nc: is of an older version without checksums"):
+        assert same(Result.load(path), original)
+    with pytest.warns(UserWarning, match="older version without checksums"):
+        assert main(["report", str(path), "--quiet"]) == 0

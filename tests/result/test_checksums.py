@@ -95,4 +95,4 @@ def test_a_file_of_an_older_version_is_read_and_said_to_be_unchecked(content, pa
     with pytest.warns(UserWarning, match=r"run\.nc: is of an older version without checksums"):
         assert same(Result.load(path), original)
     with pytest.warns(UserWarning, match="older version without checksums"):
-        assert main(["report", str(path), "--quiet"]) == 0
+        assert main(["spectrum", str(path), "--quiet", "--no-pictures"]) == 0

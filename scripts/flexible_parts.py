@@ -10,7 +10,7 @@ import argparse
 from pathlib import Path
 
 from exu_press import Scene, simulate
-from exu_press.quantities import Placed, Quantity
+from exu_press.quantities import Quantity, QuantityAt
 from exu_press.quantities.kind import LOAD, MOTION
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.uncertain import uncertain
@@ -59,7 +59,7 @@ def figures(reading: Reading) -> dict[str, float]:
 
 KINDS = {"acceleration": LOAD, "mean_1ms": LOAD, "deflection": MOTION, "stress": MOTION}
 COLUMNS = {
-    name: Placed(
+    name: QuantityAt(
         Quantity(name, "", name, kind, lambda run, _, name=name: run.once(figures).get(name))
     )
     for name, kind in KINDS.items()

@@ -71,7 +71,7 @@ class Quantities(Directive):
     def run(self) -> list[nodes.Node]:
         """Return one table."""
         rows = [("name", "unit", "meaning", "kind")]
-        rows += [(q.at("NAME"), q.unit, q.meaning, q.kind.name) for q in CATALOGUE]
+        rows += [(q.full_name("NAME"), q.unit, q.meaning, q.kind.name) for q in CATALOGUE]
         return [table_of(rows)]
 
 

@@ -109,7 +109,7 @@ def _joint(result: Result, name: str) -> Iterator[Curve]:
 def _peak(place: Place, curve: str, at: str) -> str:
     """Return the full name of the quantity that is a curve's extreme, or nothing."""
     quantity = PEAKS.get((place, curve))
-    return "" if quantity is None else quantity.at(at)
+    return "" if quantity is None else quantity.full_name(at)
 
 
 def _beginning(result: Result, begin: str, group: str, place: Place, at: str) -> Iterator[Curve]:

@@ -55,7 +55,7 @@ def rest_lines(result: Result, rest: Mapping[str, str]) -> list[str]:
     cells, run = [("also", "c, µm", "e/c, max", "F, max, kN")], Reading(result)
     for name, title in rest.items():
         ratio, force = (
-            value_of(result, quantity.at(name), run)
+            value_of(result, quantity.full_name(name), run)
             for quantity in (ECCENTRICITY_RATIO, JOINT_FORCE)
         )
         clearance = result.joints[name].clearance * 1e6

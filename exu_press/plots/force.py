@@ -88,8 +88,8 @@ def _figure_of(result: Result, channel: str) -> str:
     if channel == "drive_torque":
         return PEAK_TORQUE.name
     if channel == "guide_force":
-        return GUIDE_FORCE.at(mechanism_of(result.scene).slider)
-    return JOINT_FORCE.at(channel.removesuffix("_force"))
+        return GUIDE_FORCE.full_name(mechanism_of(result.scene).slider)
+    return JOINT_FORCE.full_name(channel.removesuffix("_force"))
 
 
 def _magnitude(values: Array) -> Array:

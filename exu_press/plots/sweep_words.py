@@ -8,7 +8,7 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.typesetting import typeset
-from exu_press.quantities.catalogue import declared
+from exu_press.quantities.catalogue import find_quantity
 from exu_press.studies.sweep.units import meaning_of, unit_of
 
 __all__ = ["axis_label", "in_unit", "label_with_unit", "setting", "words"]
@@ -45,7 +45,7 @@ def words(name: str) -> str:
     >>> words("guide.clearance")
     'clearance on each side of a guided body, whose two ends make contact with the guideways'
     """
-    if (placed := declared(name)) is not None:
+    if (placed := find_quantity(name)) is not None:
         quantity, at = placed.quantity, placed.at.replace("_", " ")
         title = quantity.title if quantity.title and not quantity.under else quantity.meaning
         return f"{at}: {title}" if at else title
@@ -64,7 +64,7 @@ def axis_label(name: str) -> str:
     >>> axis_label("peak_acceleration.resolved")
     'peak acceleration, m/s^2'
     """
-    placed = declared(name)
+    placed = find_quantity(name)
     return label_with_unit(name, "" if placed is None else placed.quantity.shown)
 
 

@@ -3,7 +3,7 @@
 from exu_press.quantities.acceleration import differentiated_peak, mean_peak, mean_peak_of, peak
 from exu_press.quantities.catalogue import (
     CATALOGUE,
-    Placed,
+    QuantityAt,
     add,
     own_modules,
     quantities_of,
@@ -25,8 +25,8 @@ __all__ = [
     "DeadCentre",
     "Extreme",
     "Place",
-    "Placed",
     "Quantity",
+    "QuantityAt",
     "Reading",
     "Value",
     "add",

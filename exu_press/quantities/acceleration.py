@@ -49,8 +49,8 @@ def mean_peak(time: Array, velocity: Array, window: float = 1e-3) -> float | Non
         None where the record is shorter than the window.
     """
 
-    def largest(part: slice) -> float:
-        change = _change(_ends(time[part], window), window, time[part], velocity[part])
+    def largest(steps: slice) -> float:
+        change = _change(_ends(time[steps], window), window, time[steps], velocity[steps])
         return peak(change / window)  # between them the mean is linear in time
 
     return max(map(largest, _parts(time, window)), default=None)
@@ -70,7 +70,7 @@ def mean_peak_of(time: Array, values: Array, window: float = 1e-3) -> float | No
         None where the record is shorter than the window.
     """
     parts = _parts(time, window)
-    return max((_mean_peak_of(time[part], values[part], window) for part in parts), default=None)
+    return max((_mean_peak_of(time[steps], values[steps], window) for steps in parts), default=None)
 
 
 def _mean_peak_of(time: Array, values: Array, window: float) -> float:
@@ -96,12 +96,12 @@ def _mean_peak_of(time: Array, values: Array, window: float) -> float:
         means = _means(late, window, time[steps], values[steps], sums[steps])
         return max(least, float(np.abs(means).max(initial=0.0)))
 
-    found = largest(np.argmax(bounds, keepdims=True), 0.0)
-    left = np.flatnonzero(bounds >= found)
-    for groups in np.split(left, np.flatnonzero(np.diff(left) > 1) + 1):
+    largest_mean = largest(np.argmax(bounds, keepdims=True), 0.0)
+    candidates = np.flatnonzero(bounds >= largest_mean)
+    for groups in np.split(candidates, np.flatnonzero(np.diff(candidates) > 1) + 1):
         if len(groups):
-            found = largest(groups, found)
-    return found
+            largest_mean = largest(groups, largest_mean)
+    return largest_mean
 
 
 def _means(late: Array, window: float, time: Array, values: Array, sums: Array) -> Array:
@@ -116,8 +116,8 @@ def _means(late: Array, window: float, time: Array, values: Array, sums: Array) 
     """
     change = _change(late, window, time, values)
     turns = np.flatnonzero(change[:-1] * change[1:] < 0.0)
-    part = change[turns] / (change[turns] - change[turns + 1])
-    late = np.concatenate([late, late[turns] + part * np.diff(late)[turns]])
+    fraction = change[turns] / (change[turns] - change[turns + 1])
+    late = np.concatenate([late, late[turns] + fraction * np.diff(late)[turns]])
     parabolas = hermite(time, sums, values)
     after, before = np.split(evaluate(time, parabolas, np.concatenate([late, late - window])), 2)
     return np.asarray((after - before) / window)
@@ -127,9 +127,9 @@ def _parts(time: Array, window: float) -> Iterator[slice]:
     """Yield parts of a record in which every window lies in one; none if it is shorter than it."""
     for first in range(0, len(time), AT_ONCE):
         begin = int(np.searchsorted(time, time[max(first - 1, 0)] - window, side="right")) - 1
-        part = slice(max(begin, 0), first + AT_ONCE)
-        if time[part][-1] - time[part][0] >= window:
-            yield part
+        steps = slice(max(begin, 0), first + AT_ONCE)
+        if time[steps][-1] - time[steps][0] >= window:
+            yield steps
 
 
 def _ends(time: Array, window: float) -> Array:

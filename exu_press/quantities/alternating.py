@@ -44,9 +44,9 @@ def largest(time: Array, values: Array) -> Largest:
     """Return the largest magnitudes of a load (n,) or (n, k), `steady`, at instants (n,), s."""
     values, length = _columns(values), 0.0
     columns = np.zeros(len(values))
-    for part in _parts(time, values):
-        columns = np.maximum(columns, _magnitudes(part))
-        length = max(length, float(lengths(part.T).max()))
+    for block in _parts(time, values):
+        columns = np.maximum(columns, _magnitudes(block))
+        length = max(length, float(lengths(block.T).max()))
     return Largest(columns, length)
 
 
@@ -62,12 +62,12 @@ def steady(time: Array, values: Array) -> Array:
     part, and of a smooth curve its fourth derivative. A peak of a single sample makes three
     alternate, too: more than a LITTLE alternates where five of them do, and are as large.
     """
-    found = np.empty(values.shape[::-1]).T
-    columns, first = _columns(found), 0
-    for part in _parts(time, _columns(values)):
-        columns[:, first : first + part.shape[1]] = part
-        first += part.shape[1]
-    return found
+    filtered = np.empty(values.shape[::-1]).T
+    columns, first = _columns(filtered), 0
+    for block in _parts(time, _columns(values)):
+        columns[:, first : first + block.shape[1]] = block
+        first += block.shape[1]
+    return filtered
 
 
 def _columns(values: Array) -> Array:
@@ -75,9 +75,9 @@ def _columns(values: Array) -> Array:
     return values[None] if values.ndim == 1 else values.T
 
 
-def _magnitudes(part: Array) -> Array:
+def _magnitudes(block: Array) -> Array:
     """Return the largest magnitude of each row."""
-    return np.asarray(np.maximum(part.max(axis=1), -part.min(axis=1)))
+    return np.asarray(np.maximum(block.max(axis=1), -block.min(axis=1)))
 
 
 def _parts(time: Array, values: Array) -> Iterator[Array]:
@@ -92,14 +92,14 @@ def _parts(time: Array, values: Array) -> Iterator[Array]:
         little = np.maximum(little, LITTLE * _magnitudes(np.array(values[:, begin:end], order="C")))
     for begin, end in pairwise(bounds):
         first, last = max(begin - 4, 0), min(end + 4, count)
-        part = np.array(values[:, first:last], order="C")
-        rows, at, found = _alternating(time[first:last], part, little)
-        part[rows, at] -= found
+        block = np.array(values[:, first:last], order="C")
+        rows, at, alternation = _alternating(time[first:last], block, little)
+        block[rows, at] -= alternation
         if last == count:
-            before = at == part.shape[1] - 3
-            part[rows[before], -2] += found[before]
-            part[rows[before], -1] -= found[before]
-        yield part[:, begin - first : end - first]
+            before = at == block.shape[1] - 3
+            block[rows[before], -2] += alternation[before]
+            block[rows[before], -1] -= alternation[before]
+        yield block[:, begin - first : end - first]
 
 
 def _alternating(
@@ -109,36 +109,38 @@ def _alternating(
 
     It is not known of the two at either end.
     """
-    beside = _beside(time, values)
-    turns = beside[:, :-1] * beside[:, 1:] < 0.0
+    deviation = _chord_deviation(time, values)
+    turns = deviation[:, :-1] * deviation[:, 1:] < 0.0
     rows, at = np.divmod(np.flatnonzero(turns[:, :-1] & turns[:, 1:]), turns.shape[1] - 1)
-    part = (2.0 * beside[rows, at + 1] - beside[rows, at] - beside[rows, at + 2]) / 8.0
-    whole = np.abs(part) <= little[rows]
+    alternation = (
+        2.0 * deviation[rows, at + 1] - deviation[rows, at] - deviation[rows, at + 2]
+    ) / 8.0
+    whole = np.abs(alternation) <= little[rows]
     more = np.flatnonzero(~whole)
     for near in (-1, 0, 1, 2) if len(more) else ():
-        more = more[_same(beside, rows[more], at[more] + near)]
+        more = more[_same(deviation, rows[more], at[more] + near)]
     whole[more] = True
-    return rows[whole], at[whole] + 2, part[whole]
+    return rows[whole], at[whole] + 2, alternation[whole]
 
 
-def _same(beside: Array, rows: NDArray[np.intp], at: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _same(deviation: Array, rows: NDArray[np.intp], at: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Return where two neighbours have other signs and like sizes, or there are not two."""
-    there = (at >= 0) & (at + 1 < beside.shape[1])
-    one, other = (beside[rows, np.where(there, at + i, 0)] for i in (0, 1))
-    sizes = np.abs(one), np.abs(other)
+    there = (at >= 0) & (at + 1 < deviation.shape[1])
+    left_value, right_value = (deviation[rows, np.where(there, at + i, 0)] for i in (0, 1))
+    sizes = np.abs(left_value), np.abs(right_value)
     alike = np.minimum(*sizes) > ALIKE * np.maximum(*sizes)
-    return np.asarray((alike & (one * other < 0.0)) | ~there)
+    return np.asarray((alike & (left_value * right_value < 0.0)) | ~there)
 
 
 def beside_line(time: Array, values: Array) -> Array:
     """Return values (n, ...) less the line of their neighbours, (n - 2, ...)."""
-    return np.asarray(_beside(time, values.T).T)
+    return np.asarray(_chord_deviation(time, values.T).T)
 
 
-def _beside(time: Array, values: Array) -> Array:
+def _chord_deviation(time: Array, values: Array) -> Array:
     """Return values (..., n) less the line of their neighbours, (..., n - 2)."""
-    part = (time[1:-1] - time[:-2]) / (time[2:] - time[:-2])
-    found = (1.0 - part) * values[..., :-2]
-    np.subtract(values[..., 1:-1], found, out=found)
-    found -= part * values[..., 2:]
-    return np.asarray(found)
+    fraction = (time[1:-1] - time[:-2]) / (time[2:] - time[:-2])
+    chord = (1.0 - fraction) * values[..., :-2]
+    np.subtract(values[..., 1:-1], chord, out=chord)
+    chord -= fraction * values[..., 2:]
+    return np.asarray(chord)

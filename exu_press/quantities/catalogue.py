@@ -22,7 +22,15 @@ from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.schema.checks import demand_known, demand_name
 
-__all__ = ["CATALOGUE", "Placed", "add", "declared", "own_modules", "quantities_of", "quantity_of"]
+__all__ = [
+    "CATALOGUE",
+    "QuantityAt",
+    "add",
+    "find_quantity",
+    "own_modules",
+    "quantities_of",
+    "quantity_of",
+]
 
 CATALOGUE: list[Quantity] = [
     *SLIDER,
@@ -67,7 +75,7 @@ ECCENTRICITY_RATIO = _declared_as("max_eccentricity_ratio", Place.JOINT)
 
 
 @dataclass(frozen=True)
-class Placed:
+class QuantityAt:
     """A quantity of one scene, at its place.
 
     Attributes:
@@ -81,7 +89,7 @@ class Placed:
     @property
     def name(self) -> str:
         """Its full name."""
-        return self.quantity.at(self.at)
+        return self.quantity.full_name(self.at)
 
     def read(self, run: Reading) -> float | int | None:
         """Return its value, None where the run is too short to have it, or where it is no number.
@@ -89,17 +97,17 @@ class Placed:
         Raises:
             InputError: a quantity of the user's own gives something else.
         """
-        found = self.quantity.read(run, self.at)
-        if found is None:
+        value = self.quantity.read(run, self.at)
+        if value is None:
             return None
-        if isinstance(found, numbers.Integral):
-            return int(found)
-        if not isinstance(found, numbers.Real):
+        if isinstance(value, numbers.Integral):
+            return int(value)
+        if not isinstance(value, numbers.Real):
             raise InputError(
-                f"quantity {self.name}: gives {found!r:.80}; allowed is a number, or None where "
+                f"quantity {self.name}: gives {value!r:.80}; allowed is a number, or None where "
                 "the run has none"
             )
-        return float(found) if math.isfinite(found) else None
+        return float(value) if math.isfinite(value) else None
 
 
 def add(quantity: Quantity) -> Quantity:
@@ -111,16 +119,16 @@ def add(quantity: Quantity) -> Quantity:
         InputError: there is one of this name and place, files cannot hold the name, or the unit
             that is shown is not that of the quantity with a prefix.
     """
-    for part in str(quantity.name).split("."):
-        demand_name(f"quantity {quantity.name!r}", part)
+    for word in str(quantity.name).split("."):
+        demand_name(f"quantity {quantity.name!r}", word)
     prefixed = [f"{prefix}{quantity.unit}" for prefix in PREFIXES]
     if quantity.shown not in prefixed:
         raise InputError(
             f"quantity {quantity.name}: shown = {quantity.shown!r}; allowed are "
             f"{', '.join(prefixed)}"
         )
-    for other in CATALOGUE:
-        if (other.place, other.name) == (quantity.place, quantity.name):
+    for known in CATALOGUE:
+        if (known.place, known.name) == (quantity.place, quantity.name):
             raise InputError(
                 f"quantity {quantity.name}: is declared already; allowed is another name"
             )
@@ -137,7 +145,9 @@ def own_modules() -> tuple[str, ...]:
     Raises:
         InputError: a quantity was added where no import does it again.
     """
-    modules = {one: module for one, module in _DECLARED_IN.items() if one in CATALOGUE}
+    modules = {
+        quantity: module for quantity, module in _DECLARED_IN.items() if quantity in CATALOGUE
+    }
     for quantity, module in modules.items():
         if module in (None, "__main__"):
             raise InputError(
@@ -148,43 +158,43 @@ def own_modules() -> tuple[str, ...]:
     return tuple(dict.fromkeys(module for module in modules.values() if module))
 
 
-def declared(name: str) -> Placed | None:
+def find_quantity(name: str) -> QuantityAt | None:
     """Return the quantity of a full name, whatever the scene; None where there is none.
 
-    >>> declared("joints.crank_pin.peak_force").quantity.unit
+    >>> find_quantity("joints.crank_pin.peak_force").quantity.unit
     'N'
     """
     place, _, rest = name.partition(".")
     at, _, inner = rest.partition(".")
     for quantity in CATALOGUE:
         if quantity.place is Place.RUN and quantity.name == name:
-            return Placed(quantity)
+            return QuantityAt(quantity)
         if (quantity.place.value, quantity.name) == (place, inner):
-            return Placed(quantity, at)
+            return QuantityAt(quantity, at)
     return None
 
 
-def quantities_of(scene: Scene) -> dict[str, Placed]:
+def quantities_of(scene: Scene) -> dict[str, QuantityAt]:
     """Return every quantity that a run of a scene has, by its full name; known before it runs."""
     places = _places(scene)
     placed = (
-        Placed(quantity, at)
+        QuantityAt(quantity, at)
         for quantity in CATALOGUE
         for at in places[quantity.place]
         if quantity.has(scene, at)
     )
-    return {one.name: one for one in placed}
+    return {entry.name: entry for entry in placed}
 
 
-def quantity_of(scene: Scene, name: str) -> Placed:
+def quantity_of(scene: Scene, name: str) -> QuantityAt:
     """Return one quantity of a scene by its full name.
 
     Raises:
         InputError: the scene has no such quantity.
     """
-    found = quantities_of(scene)
-    demand_known(f"quantity {name!r}: this scene has none of this name", name, found)
-    return found[name]
+    declared_here = quantities_of(scene)
+    demand_known(f"quantity {name!r}: this scene has none of this name", name, declared_here)
+    return declared_here[name]
 
 
 def _places(scene: Scene) -> dict[Place, tuple[str, ...]]:

@@ -11,8 +11,8 @@ def _statistic(
     name: str, meaning: str, unit: str = "", title: str = "", digits: int = 7, under: bool = False
 ) -> Quantity:
     def read(run: Reading, _: str) -> float | int | None:
-        found = run.result.info.get(name)
-        return found if isinstance(found, (int, float)) else None
+        value = run.result.info.get(name)
+        return value if isinstance(value, (int, float)) else None
 
     return Quantity(
         f"cost.{name}", unit, meaning, COST, read, title=title, digits=digits, under=under

@@ -75,14 +75,14 @@ def lowest_of_strokes(
     strokes = np.round((crank_angle - about) / (2 * np.pi))
     near = np.abs(crank_angle - about - 2 * np.pi * strokes) <= REACH
     near &= (strokes >= first) & (strokes <= last)
-    found = []
+    dead_centres = []
     for stroke in np.split(np.flatnonzero(near), np.flatnonzero(np.diff(strokes[near])) + 1):
         if len(stroke):
             at = slice(stroke[0], stroke[-1] + 1)
             instant, height = lowest(time[at], position[at], velocity[at])
             angle = float(np.interp(instant, time[at], crank_angle[at]))
-            found.append(DeadCentre(instant, angle, height))
-    return found
+            dead_centres.append(DeadCentre(instant, angle, height))
+    return dead_centres
 
 
 def lowest(time: Array, position: Array, velocity: Array) -> tuple[float, float]:
@@ -94,7 +94,7 @@ def lowest(time: Array, position: Array, velocity: Array) -> tuple[float, float]
         velocity: (n,), m/s.
     """
     at = int(np.argmin(position))
-    found = [(float(position[at]), float(time[at]))]
+    candidates = [(float(position[at]), float(time[at]))]
     time, position, velocity = (
         values[max(0, at - 1) : at + 2] for values in (time, position, velocity)
     )
@@ -105,6 +105,6 @@ def lowest(time: Array, position: Array, velocity: Array) -> tuple[float, float]
         for turn in turns[np.isreal(turns)].real:
             if 0.0 <= turn <= length:
                 height = ((c3 * turn + c2) * turn + c1) * turn + c0
-                found.append((float(height), float(start + turn)))
-    height, instant = min(found)
+                candidates.append((float(height), float(start + turn)))
+    height, instant = min(candidates)
     return instant, height

@@ -44,8 +44,8 @@ def energy_residual(result: Result) -> float | None:
     scale = energy_scale(result)
     if scale <= LITTLE * kinetic_energy(result.scene):
         return None
-    given, stored, lost = _balance(result).values()
-    return float(np.abs(given - stored - lost).max()) / scale
+    put_in, stored, dissipated = _balance(result).values()
+    return float(np.abs(put_in - stored - dissipated).max()) / scale
 
 
 def kinetic_energy(scene: Scene) -> float:
@@ -59,12 +59,12 @@ def _balance(result: Result) -> dict[str, Array]:
     return {name: result[f"energy_{name}"] for name in PARTS}
 
 
-def _end(part: str) -> Callable[[Reading, str], float | None]:
+def _end(kind: str) -> Callable[[Reading, str], float | None]:
     """Return a reader of the end of a balance's channel, None where the user's own items have part.
 
     The energies of those items are not known.
     """
-    return lambda run, _: float(run[f"energy_{part}"][-1]) if has_balance(run.result) else None
+    return lambda run, _: float(run[f"energy_{kind}"][-1]) if has_balance(run.result) else None
 
 
 BALANCE = (

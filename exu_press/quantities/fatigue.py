@@ -15,7 +15,7 @@ from exu_press.scene.bodies import require_rainflow
 __all__ = ["BODIES", "damage"]
 
 
-def _stressed(scene: Scene, body: str) -> bool:
+def _is_flexible(scene: Scene, body: str) -> bool:
     return body in scene.bodies
 
 
@@ -51,8 +51,8 @@ def _of_cycles(
         revolutions = float(angle[-1] - angle[0]) / (2.0 * math.pi)
         first = int(np.argmax(stress))
         cycles = require_rainflow().extract_cycles([*stress[first:], *stress[: first + 1]])
-        found = [(0.5 * width, count) for width, _, count, *_ in cycles]
-        return read(found, revolutions, run.result.scene.bodies[body])
+        amplitudes = [(0.5 * width, count) for width, _, count, *_ in cycles]
+        return read(amplitudes, revolutions, run.result.scene.bodies[body])
 
     return value
 
@@ -64,7 +64,7 @@ def _life(cycles: list[tuple[float, float]], revolutions: float, body: Flexible)
 
 BODIES = (
     Quantity("peak_stress", "Pa", "largest von Mises stress of the flexible body",
-             LOAD, _peak_stress, Place.BODY, _stressed,
+             LOAD, _peak_stress, Place.BODY, _is_flexible,
              title="von Mises stress, max", shown="MPa", extreme=Extreme.LARGEST),
     Quantity("fatigue.largest_amplitude", "Pa", "largest amplitude of the stress cycles",
              LOAD,

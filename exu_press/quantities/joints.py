@@ -35,18 +35,18 @@ def share_of_contact(time: Array, depth: Array) -> float:
     depth, span = depth - TOUCH, np.diff(time)
     if not len(span):
         return 0.0
-    one, other = np.maximum(depth[:-1], 0.0), np.maximum(depth[1:], 0.0)
+    depth_before, depth_after = np.maximum(depth[:-1], 0.0), np.maximum(depth[1:], 0.0)
     apart = np.maximum(-depth[:-1], 0.0) + np.maximum(-depth[1:], 0.0)
-    above = one + other
-    part = np.divide(above, above + apart, out=np.zeros_like(span), where=above > 0.0)
-    return float(span @ part / span.sum())
+    above = depth_before + depth_after
+    share = np.divide(above, above + apart, out=np.zeros_like(span), where=above > 0.0)
+    return float(span @ share / span.sum())
 
 
 def _loose(scene: Scene, joint: str) -> bool:
     return not isinstance(scene.joints[joint], IdealJoint)
 
 
-def _lubricated(scene: Scene, joint: str) -> bool:
+def _has_film(scene: Scene, joint: str) -> bool:
     return scene.joints[joint].kind == "lubricated"
 
 
@@ -119,7 +119,7 @@ JOINTS = (
              title="penetration, max", shown="um", extreme=Extreme.LARGEST),
     Quantity("min_film", "m", "least film thickness, 0 where surfaces touch",
              MOTION, lambda run, joint: float(max(0.0, _record(run, joint).gap.min())),
-             Place.JOINT, _lubricated,
+             Place.JOINT, _has_film,
              title="film thickness, min", shown="um", extreme=Extreme.LEAST, curve="gap"),
     IMPACTS,
     Quantity("share_free_flight", "", "share of time in which the surfaces do not touch",

@@ -69,10 +69,10 @@ def _sliding_power(run: Reading, guide: Guide) -> float | None:
     if force is None or len(run.time) < 2:
         return None
     index, direction = run.result.bodies.index(guide.body), np.array(guide.direction)
-    place = part_of(
+    position = part_of(
         run.result.channels, "body_position", lambda values: values[:, index, :2] @ direction
     )
-    power = slopes(run.time, place)
+    power = slopes(run.time, position)
     power *= force
     return run.mean(np.abs(power, out=power))
 
@@ -92,7 +92,7 @@ def _guide_loss(run: Reading, body: str) -> Array:
     return np.zeros_like(run.time) if lost is None else lost
 
 
-def _oiled(scene: Scene, _: str) -> bool:
+def _has_oiled_guides(scene: Scene, _: str) -> bool:
     return scene.guide is not None and scene.guide.viscosity is not None
 
 
@@ -219,7 +219,7 @@ GUIDES = (
              extreme=Extreme.LARGEST, curve="friction"),
     Quantity("min_film", "m",
              "least film thickness of the guide, 0 where surfaces lie in each other",
-             MOTION, _thinnest, Place.GUIDE, _oiled,
+             MOTION, _thinnest, Place.GUIDE, _has_oiled_guides,
              title="guide film thickness, min", shown="um", extreme=Extreme.LEAST, curve="gap"),
     Quantity("peak_moment", "N m", "largest moment of the guide on its body",
              MOMENT, _guide_peak("moment"), Place.GUIDE,

@@ -91,28 +91,28 @@ class Quantity:
     def __post_init__(self) -> None:
         object.__setattr__(self, "shown", self.shown or self.unit)
 
-    def at(self, place: str) -> str:
-        """Return the full name at a place.
+    def full_name(self, owner: str) -> str:
+        """Return the name in tables and files: that of its joint, guide, body or load before it.
 
         >>> from exu_press.quantities import CATALOGUE
-        >>> next(q for q in CATALOGUE if q.name == "min_film").at("crank_pin")
+        >>> next(q for q in CATALOGUE if q.name == "min_film").full_name("crank_pin")
         'joints.crank_pin.min_film'
         """
-        return (
-            f"{self.place.value}.{place}.{self.name}" if self.place is not Place.RUN else self.name
-        )
+        return self.name if self.place is Place.RUN else f"{self.place.value}.{owner}.{self.name}"
 
-    def sized(self, values: Iterable[float]) -> "Quantity":
-        """Return it as a small machine shows it, where its usual unit makes all values small.
+    def in_scaled_unit(self, values: Iterable[float]) -> "Quantity":
+        """Return the quantity in the unit of small machines, where its own makes values small.
 
         >>> from exu_press.quantities.catalogue import JOINT_FORCE
-        >>> JOINT_FORCE.shown, JOINT_FORCE.sized([2e3]).shown, JOINT_FORCE.sized([0.02]).shown
-        ('kN', 'kN', 'mN')
+        >>> [JOINT_FORCE.in_scaled_unit([largest]).shown for largest in (2e3, 0.02)]
+        ['kN', 'mN']
         """
         largest = max(map(abs, values), default=0.0)
         if self.unit not in SIZED or not 0.0 < largest * self.scale < SMALL:
             return self
-        prefix = next((one for one in ("", "m", "u") if largest * PREFIXES[one] >= 1.0), "n")
+        prefix = next(
+            (candidate for candidate in ("", "m", "u") if largest * PREFIXES[candidate] >= 1.0), "n"
+        )
         return replace(self, shown=f"{prefix}{self.unit}")
 
     @property

@@ -40,8 +40,8 @@ class Reading:
 
     def channel(self, name: str) -> Array | None:
         """Return the values of a channel, None where the run does not have it."""
-        found = self.result.channels.get(name)
-        return None if found is None else found.values
+        channel = self.result.channels.get(name)
+        return None if channel is None else channel.values
 
     def largest(self, name: str) -> Largest:
         """Return the peaks of a channel that follows from accelerations."""
@@ -53,8 +53,8 @@ class Reading:
         """Return a function of this reading; it is called once, however many quantities need it."""
         if read not in self._found:
             self._found[read] = read(self)
-        found: Read = self._found[read]
-        return found
+        value: Read = self._found[read]
+        return value
 
     @property
     def time(self) -> Array:

@@ -117,7 +117,7 @@ def _stack_up(run: Reading, load: str, before: Array, after: Array) -> float:
     return float(pressed - above[after].min())
 
 
-def _released(run: Reading, load: str, before: Array, after: Array) -> float:
+def _released_energy(run: Reading, load: str, before: Array, after: Array) -> float:
     rising = run["slider_velocity"] - _ideal(run)[1]
     return given_back(run.time[after], _pull(run)[after], rising[after])
 
@@ -137,7 +137,7 @@ SHEETS = (
              extreme=Extreme.LARGEST),
     Quantity("snap_through_energy", "J",
              "energy that mechanism and drive give back after the fracture, until they pull",
-             ENERGY, partial(_largest, _released), Place.LOAD, _is_sheet,
+             ENERGY, partial(_largest, _released_energy), Place.LOAD, _is_sheet,
              extreme=Extreme.LARGEST),
     Quantity("stack_up", "m",
              "way by which the output jumps ahead of the ideal motion as clearances change sides",

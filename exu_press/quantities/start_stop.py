@@ -44,14 +44,14 @@ def _stops_of(run: Reading) -> list[float]:
     """Return the instants of commands to stop, s, as far as the run got."""
     motor, time = run.result.scene.drive, run.time
     assert motor is not None
-    found = list(motor.stop_time or ())
+    commands = list(motor.stop_time or ())
     if motor.stop_angle_deg is not None:
         reached = np.flatnonzero(run["crank_angle"] >= np.radians(motor.stop_angle_deg))
         if reached.size and reached[0]:
             pair = slice(reached[0] - 1, reached[0] + 1)
             angles = run["crank_angle"][pair]
-            found = [float(np.interp(np.radians(motor.stop_angle_deg), angles, time[pair]))]
-    return [at for at in found if time[0] <= at <= time[-1]]
+            commands = [float(np.interp(np.radians(motor.stop_angle_deg), angles, time[pair]))]
+    return [at for at in commands if time[0] <= at <= time[-1]]
 
 
 def _standstills(run: Reading) -> Iterator[tuple[float, float | None]]:
@@ -79,25 +79,25 @@ def _falls_to_zero(time: Array, values: Array) -> float | None:
     row = int(down[0])
     if row == 0:
         return float(time[0])
-    part = float(values[row - 1] / (values[row - 1] - values[row]))
-    return float(time[row - 1] + part * (time[row] - time[row - 1]))
+    fraction = float(values[row - 1] / (values[row - 1] - values[row]))
+    return float(time[row - 1] + fraction * (time[row] - time[row - 1]))
 
 
 def still_turns(run: Reading) -> bool:
     """Return whether the press does not stand at its end, although it was told to stop."""
-    found = list(_standstills(run))
-    return bool(found) and found[-1][1] is None
+    standstills = list(_standstills(run))
+    return bool(standstills) and standstills[-1][1] is None
 
 
 def _over_stops(run: Reading, channel: str) -> float | None:
     """Return the largest change of a channel from a stop to its standstill, if it has one."""
-    found = list(_standstills(run))
-    if not found or any(at is None for _, at in found):
+    standstills = list(_standstills(run))
+    if not standstills or any(at is None for _, at in standstills):
         return None
     values = run[channel]
     return max(
         abs(float(np.interp(at, run.time, values) - np.interp(stop, run.time, values)))
-        for stop, at in found
+        for stop, at in standstills
         if at is not None
     )
 
@@ -114,7 +114,7 @@ def _stopping_angle(run: Reading, _: str) -> float | None:
 def _starting_time(run: Reading, _: str) -> float | None:
     """Return the longest time from a start until the clutch slips no more."""
     time, slip = run.time, run["flywheel_speed"] - run["crank_speed"]
-    found = []
+    durations = []
     for start in _starts_of(run):
         until = min((at for at in _stops_of(run) if at > start), default=float(time[-1]))
         rows = np.flatnonzero((time >= start - SAME) & (time <= until + SAME))
@@ -123,8 +123,8 @@ def _starting_time(run: Reading, _: str) -> float | None:
         level = _falls_to_zero(time[rows], slip[rows])
         if level is None:
             return None
-        found.append(level - start)
-    return max(found, default=None)
+        durations.append(level - start)
+    return max(durations, default=None)
 
 
 def _per_start(run: Reading, _: str) -> float:

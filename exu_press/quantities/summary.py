@@ -84,12 +84,12 @@ def _strokes(result: Result, run: Reading) -> list[dict[str, float]]:
 
 def run_warnings(result: Result) -> list[str]:
     """Return the warnings of summary.json: about the run's quantities, then about its scene."""
-    found, scene = [], result.scene
+    texts, scene = [], result.scene
     residual = energy_residual(result)
     if result.info["own_items"]:
-        found.append("no energy balance: the energy of your own items is not known")
+        texts.append("no energy balance: the energy of your own items is not known")
     if residual is not None and residual > RESIDUAL:
-        found.append(
+        texts.append(
             f"the energy balance misses {residual:.2g} of the energy: try a smaller "
             "solver.tolerance or solver.step"
         )
@@ -97,19 +97,19 @@ def run_warnings(result: Result) -> list[str]:
         if joint.kind == "lubricated":
             ratio = float(joint.distance.max() / joint.clearance)
             if ratio > NEARLY_TOUCHING:
-                found.append(
+                texts.append(
                     f"{name.replace('_', ' ')}: eccentricity ratio up to {ratio:.3f}; film laws "
                     "for smooth surfaces are hardly valid there"
                 )
-        found += _deep(name, joint, scene.joints[name])
+        texts += _deep(name, joint, scene.joints[name])
     if scene.drive is not None and scene.drive.stops and still_turns(Reading(result)):
         speed = float(result["crank_speed"][-1]) * 30.0 / math.pi
-        found.append(
+        texts.append(
             f"the press does not stand behind its last stop: the crank turns at {speed:.3g} rpm at "
             "the end; try a larger drive.brake_torque, or more revolutions"
         )
     return [
-        *found,
+        *texts,
         *oil_warnings(result),
         *_held_twice(scene),
         *_solids(result),
@@ -117,16 +117,17 @@ def run_warnings(result: Result) -> list[str]:
     ]
 
 
-def _deep(name: str, joint: JointRecord, given: Joint) -> Iterator[str]:
+def _deep(name: str, joint: JointRecord, described: Joint) -> Iterator[str]:
     """Yield a contact that is pressed in too deep for its law."""
-    if not isinstance(given, DryJoint | LubricatedJoint) or given.contact is None:
+    if not isinstance(described, DryJoint | LubricatedJoint) or described.contact is None:
         return
     depth = -float(joint.gap.min())
-    if depth > DEEP * given.radius:
+    if depth > DEEP * described.radius:
         yield (
             f"{name.replace('_', ' ')}: pressed in by up to {1e3 * depth:.3g} mm, "
-            f"{100.0 * depth / given.radius:.3g} % of its radius; contact laws are those of small "
-            "deformations: are the modulus or the stiffness of [contact], and the loads, meant so?"
+            f"{100.0 * depth / described.radius:.3g} % of its radius; contact laws are those of "
+            "small deformations: are the modulus or the stiffness of [contact], and the loads, "
+            "meant so?"
         )
 
 
@@ -150,7 +151,7 @@ def _solids(result: Result) -> Iterator[str]:
     for name, solid in solids.items():
         body, away = mechanism.body(name), math.hypot(*solid["centre_of_mass"])
         flywheel = 0.0 if scene.drive is None or name != mechanism.crank else scene.drive.on_crank
-        said = [
+        differences = [
             f"{what} {solid[what]:.4g} {unit} for {meant:.4g}"
             for what, unit, meant in (
                 ("mass", "kg", body.mass),
@@ -159,6 +160,6 @@ def _solids(result: Result) -> Iterator[str]:
             if abs(solid[what] - meant) > ALIKE * meant
         ]
         if away > ALIKE * mechanism.size:
-            said.append(f"a centre of mass {1e3 * away:.3g} mm from the mechanism's")
-        if said:
-            yield f"bodies.{name}: the solid's own values are taken: {', '.join(said)}"
+            differences.append(f"a centre of mass {1e3 * away:.3g} mm from the mechanism's")
+        if differences:
+            yield f"bodies.{name}: the solid's own values are taken: {', '.join(differences)}"

@@ -33,8 +33,8 @@ WIDTH = 100
 
 def shown_value(quantity: Quantity, value: Value) -> str:
     """Return a value in the unit that tables show, with its error where that is known."""
-    told: Any = None if value.error is None else value.to_dict()
-    return uncertain(value.value, told, quantity.scale, quantity.digits)
+    stated: Any = None if value.error is None else value.to_dict()
+    return uncertain(value.value, stated, quantity.scale, quantity.digits)
 
 
 def comparison_cells(results: Mapping[str, Result]) -> list[list[str]]:
@@ -49,7 +49,7 @@ def comparison_cells(results: Mapping[str, Result]) -> list[list[str]]:
     unit = ""
     for declared in CATALOGUE:
         if declared.title:
-            quantity = declared.sized(_sizes(declared, runs.values()))
+            quantity = declared.in_scaled_unit(_sizes(declared, runs.values()))
             cell = _at_places if quantity.place is not Place.RUN else _of_run
             texts = [cell(quantity, results[label], values) for label, values in runs.items()]
             cells.append([_head(quantity, unit), *texts])
@@ -61,8 +61,8 @@ def _sizes(quantity: Quantity, runs: Iterable[Mapping[str, Value]]) -> Iterator[
     """Yield how large a quantity may be, at all of its places in all runs, SI."""
     for values in runs:
         places = [""] if quantity.place is Place.RUN else _names(values, quantity.place)
-        found = (values.get(quantity.at(place)) for place in places)
-        yield from (abs(v.value) + (v.error or 0.0) for v in found if v and v.value is not None)
+        known = (values.get(quantity.full_name(place)) for place in places)
+        yield from (abs(v.value) + (v.error or 0.0) for v in known if v and v.value is not None)
 
 
 def comparison_lines(results: Mapping[str, Result]) -> list[str]:
@@ -96,24 +96,26 @@ def _of_run(quantity: Quantity, _: Result, values: Mapping[str, Value]) -> str:
 def _at_places(quantity: Quantity, result: Result, values: Mapping[str, Value]) -> str:
     """Return a quantity at its places; alike members of a group as one, the busiest only."""
     names = _names(values, quantity.place)
-    found = {at: values[name] for at in names if (name := quantity.at(at)) in values}
-    found = {at: value for at, value in found.items() if value.value is not None}
-    words = dict(zip(found, (at.replace("_", " ") for at in found), strict=True))
+    value_at = {at: values[name] for at in names if (name := quantity.full_name(at)) in values}
+    value_at = {at: value for at, value in value_at.items() if value.value is not None}
+    words = dict(zip(value_at, (at.replace("_", " ") for at in value_at), strict=True))
     for group, members in mechanism_of(result.scene).groups.items():
-        there = [at for at in members if at in found] if quantity.place is Place.JOINT else []
-        if len(there) == len(members) and _alike([found[at] for at in there]):
-            largest = max(there, key=lambda at: abs(found[at].value or 0.0))
+        member_names = (
+            [at for at in members if at in value_at] if quantity.place is Place.JOINT else []
+        )
+        if len(member_names) == len(members) and _alike([value_at[at] for at in member_names]):
+            largest = max(member_names, key=lambda at: abs(value_at[at].value or 0.0))
             words[largest] = group.replace("_", " ")
-            for at in there:
+            for at in member_names:
                 if at != largest:
                     del words[at]
-    shown, most = list(words), MOST_PLACES
+    listed, most = list(words), MOST_PLACES
     if quantity.place is Place.JOINT:  # those with clearance, or the busiest ideal one
-        shown = [at for at in shown if at in result.clearance_joints] or shown
+        listed = [at for at in listed if at in result.clearance_joints] or listed
         most = MOST_PLACES if result.clearance_joints else 1
-    busiest = sorted(shown, key=lambda at: -_load(values, quantity.place, at))[:most]
-    texts = [f"{words[at]} {shown_value(quantity, found[at])}" for at in shown if at in busiest]
-    rest = len(shown) - len(texts)
+    busiest = sorted(listed, key=lambda at: -_load(values, quantity.place, at))[:most]
+    texts = [f"{words[at]} {shown_value(quantity, value_at[at])}" for at in listed if at in busiest]
+    rest = len(listed) - len(texts)
     return ", ".join([*texts, *[f"{rest} more"] * (rest > 0)]) or "-"
 
 
@@ -130,7 +132,9 @@ def _load(values: Mapping[str, Value], place: Place, at: str) -> float:
     loads = (
         values[name].value
         for quantity in CATALOGUE
-        if quantity.place is place and quantity.kind is LOAD and (name := quantity.at(at)) in values
+        if quantity.place is place
+        and quantity.kind is LOAD
+        and (name := quantity.full_name(at)) in values
     )
     return next((abs(load) for load in loads if load is not None), 0.0)
 
@@ -144,27 +148,27 @@ def _alike(values: Sequence[Value]) -> bool:
 def difference_lines(results: Mapping[str, Result]) -> list[str]:
     """Return in which quantities two runs may be the same, pair by pair, where errors are known."""
     lines = []
-    for (name, one), (other_name, other) in combinations(results.items(), 2):
-        told = [run.info.get("errors", {}) for run in (one, other)]
+    for (name, first), (second_name, second) in combinations(results.items(), 2):
+        stated = [run.info.get("errors", {}) for run in (first, second)]
         unknown = [
-            label for label, errors in zip((name, other_name), told, strict=True) if not errors
+            label for label, errors in zip((name, second_name), stated, strict=True) if not errors
         ]
         if len(unknown) == 2:
             continue
         if unknown:
-            said = f"{unknown[0]} has no errors, so that no difference is sure"
+            statement = f"{unknown[0]} has no errors, so that no difference is sure"
         else:
-            unsure = list(_unsure(*told))
-            said = "all differences exceed their errors"
-            said += f", except in {', '.join(unsure)}" * bool(unsure)
-        lines += textwrap.wrap(f"{name}, {other_name}: {said}", WIDTH, subsequent_indent="  ")
+            unsure = list(_unsure(*stated))
+            statement = "all differences exceed their errors"
+            statement += f", except in {', '.join(unsure)}" * bool(unsure)
+        lines += textwrap.wrap(f"{name}, {second_name}: {statement}", WIDTH, subsequent_indent="  ")
     return lines
 
 
-def _unsure(one: Mapping[str, Error], other: Mapping[str, Error]) -> Iterator[str]:
+def _unsure(first: Mapping[str, Error], second: Mapping[str, Error]) -> Iterator[str]:
     """Yield the quantities whose bounds overlap, but are not exactly the same."""
-    for name, a in one.items():
-        b = other.get(name)
+    for name, a in first.items():
+        b = second.get(name)
         if b is None or a == b:
             continue
         if a["low"] <= b["high"] and b["low"] <= a["high"]:

@@ -35,12 +35,12 @@ def uncertain(
         scale: to the unit that is shown.
         digits: of a figure without error.
 
-    >>> told = {"error": 167.3, "determined": True, "low": 846.7, "high": 1181.3}
-    >>> uncertain(1014.2, told)
+    >>> stated = {"error": 167.3, "determined": True, "low": 846.7, "high": 1181.3}
+    >>> uncertain(1014.2, stated)
     '1010 +- 170'
-    >>> uncertain(1014.2, {**told, "determined": False, "low": 860.1, "high": 1084.6})
+    >>> uncertain(1014.2, {**stated, "determined": False, "low": 860.1, "high": 1084.6})
     '860 to 1080, not determined'
-    >>> uncertain(5, {**told, "error": 0.0})
+    >>> uncertain(5, {**stated, "error": 0.0})
     '5 exact'
     """
     if value is None:
@@ -49,15 +49,15 @@ def uncertain(
         return significant(value * scale, digits)
     if not error["determined"]:
         low, high = error["low"] * scale, error["high"] * scale
-        return f"{_rounded(low, high)} to {_rounded(high, high)}, not determined"
-    spread, shown = error["error"] * scale, value * scale
-    if spread <= abs(shown) * 10.0**-MOST_DIGITS:
-        return f"{significant(shown, digits if isinstance(value, float) else MOST_DIGITS)} exact"
+        return f"{_bound_text(low, high)} to {_bound_text(high, high)}, not determined"
+    spread, scaled = error["error"] * scale, value * scale
+    if spread <= abs(scaled) * 10.0**-MOST_DIGITS:
+        return f"{significant(scaled, digits if isinstance(value, float) else MOST_DIGITS)} exact"
     places = 1 - math.floor(math.log10(spread))
-    return f"{_places(shown, places)} +- {_places(spread, places)}"
+    return f"{_places(scaled, places)} +- {_places(spread, places)}"
 
 
-def _rounded(value: float, largest: float) -> str:
+def _bound_text(value: float, largest: float) -> str:
     """Return a bound with three digits of the larger one."""
     return _places(value, 2 - math.floor(math.log10(abs(largest)))) if largest else f"{value:.3g}"
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from exu_press.quantities.catalogue import Placed, quantities_of, quantity_of
+from exu_press.quantities.catalogue import QuantityAt, quantities_of, quantity_of
 from exu_press.quantities.kind import COUNT
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.uncertain import uncertain
@@ -37,8 +37,8 @@ class Value:
 
     def __str__(self) -> str:
         """Return value, error and unit as people write them."""
-        told = None if self.error is None else self.to_dict()
-        return f"{uncertain(self.value, told)} {self.unit}".strip()
+        stated = None if self.error is None else self.to_dict()
+        return f"{uncertain(self.value, stated)} {self.unit}".strip()
 
     def to_dict(self) -> dict[str, Any]:
         """Return the entry of summary.json."""
@@ -74,25 +74,25 @@ def values_of(result: Result, run: Reading | None = None) -> dict[str, Value]:
     }
 
 
-def numbers_of(result: Result, declared: Mapping[str, Placed]) -> dict[str, float]:
+def numbers_of(result: Result, declared: Mapping[str, QuantityAt]) -> dict[str, float]:
     """Return the values of quantities of a run by name; those that it is too short for left out."""
     run = Reading(result)
-    found = {name: _read(result, placed, run) for name, placed in declared.items()}
-    return {name: float(value) for name, value in found.items() if value is not None}
+    values = {name: _read(result, placed, run) for name, placed in declared.items()}
+    return {name: float(value) for name, value in values.items() if value is not None}
 
 
-def _value(result: Result, placed: Placed, run: Reading) -> Value:
-    told: Any = result.info.get("errors", {}).get(placed.name, {})
-    return Value(placed.name, _read(result, placed, run), placed.quantity.unit, **told)
+def _value(result: Result, placed: QuantityAt, run: Reading) -> Value:
+    stated: Any = result.info.get("errors", {}).get(placed.name, {})
+    return Value(placed.name, _read(result, placed, run), placed.quantity.unit, **stated)
 
 
-def _read(result: Result, placed: Placed, run: Reading) -> float | int | None:
+def _read(result: Result, placed: QuantityAt, run: Reading) -> float | int | None:
     """Return a quantity's value, as it was read before channels were left out."""
     stored = result.info.get("figures", {"quantities": {}})["quantities"]
     if placed.name not in stored:
         if placed not in result.read:
             result.read[placed] = placed.read(run)
-        found: float | int | None = result.read[placed]
-        return found
+        value_read: float | int | None = result.read[placed]
+        return value_read
     value = stored[placed.name]
     return int(value) if value is not None and placed.quantity.kind is COUNT else value

@@ -82,24 +82,24 @@ def wear_depths(result: Result, joint: str) -> tuple[Array, Array]:
     mean = unworn(described)
     reach = mean.clearance - (mean.onset or 0.0)
     profiles = None if described.worn is None else described.worn.profiles()
-    shapes = [_sampled(shape) for shape in profiles or ()]
+    shapes = [_sample_profile(shape) for shape in profiles or ()]
     sectors = 2.0 * np.pi * (np.arange(SECTORS) + 0.5) / SECTORS
     width = 2.0 * np.pi * described.radius / SECTORS
-    found = [np.zeros(SECTORS), np.zeros(SECTORS)]
+    depths = [np.zeros(SECTORS), np.zeros(SECTORS)]
     rubbing = np.flatnonzero(volume)
     for first in range(0, len(rubbing), AT_ONCE):
-        part = rubbing[first : first + AT_ONCE]
-        turned = turned_j[part, None], turned_b[part, None]
+        steps = rubbing[first : first + AT_ONCE]
+        turned = turned_j[steps, None], turned_b[steps, None]
         for end, own in enumerate(turned):
             angle = sectors + own  # of the sectors, as they lie
-            overlap = at[part, :1] * np.cos(angle) + at[part, 1:] * np.sin(angle) - reach
-            for shape, other in zip(shapes, turned, strict=False):
-                overlap -= np.interp(angle - other, *shape, period=2.0 * np.pi)
-            found[end] += worn_by_angle(volume[part], overlap)
-    return found[0] / (width * wear.length), found[1] / (width * wear.length)
+            overlap = at[steps, :1] * np.cos(angle) + at[steps, 1:] * np.sin(angle) - reach
+            for shape, other_angle in zip(shapes, turned, strict=False):
+                overlap -= np.interp(angle - other_angle, *shape, period=2.0 * np.pi)
+            depths[end] += worn_by_angle(volume[steps], overlap)
+    return depths[0] / (width * wear.length), depths[1] / (width * wear.length)
 
 
-def _sampled(shape: Profile) -> tuple[Array, Array]:
+def _sample_profile(shape: Profile) -> tuple[Array, Array]:
     """Return a profile in steps of half a degree."""
     angles = [2.0 * np.pi * i / 720 for i in range(720)]
     return np.array(angles), np.array([shape.at(angle)[0] for angle in angles])
@@ -113,20 +113,20 @@ def guideway_depths(result: Result, body: str) -> Array:
     """
     wear = wear_of(result.scene, "guides", body)
     guide = next(g for g in mechanism_of(result.scene).guides if g.body == body)
-    place = result["body_position"][:, result.bodies.index(body), :2] @ np.array(guide.direction)
-    middle = 0.5 * (place[1:] + place[:-1])
-    low, high = float(place.min()), float(place.max())
+    position = result["body_position"][:, result.bodies.index(body), :2] @ np.array(guide.direction)
+    middle = 0.5 * (position[1:] + position[:-1])
+    low, high = float(position.min()), float(position.max())
     width = max(high - low, 1e-30) / SECTORS
-    part = np.clip(((middle - low) / width).astype(int), 0, SECTORS - 1)
-    shown = guide_channel(mechanism_of(result.scene), body)
-    force, speed = result[f"{shown}_normal_force"], result[f"{shown}_sliding"]
+    cell = np.clip(((middle - low) / width).astype(int), 0, SECTORS - 1)
+    channel = guide_channel(mechanism_of(result.scene), body)
+    force, speed = result[f"{channel}_normal_force"], result[f"{channel}_sliding"]
     rate = archard(wear.coefficient, wear.hardness, 1.0, 1.0) / (width * wear.length)
-    found = np.zeros((2, 2, SECTORS))
+    depths = np.zeros((2, 2, SECTORS))
     for end in (0, 1):
         for side, sign in enumerate((-1.0, 1.0)):
             work = _slid(result, sign * force[:, end], speed[:, end]).work
-            found[end, side] = rate * np.bincount(part, weights=work, minlength=SECTORS)
-    return found
+            depths[end, side] = rate * np.bincount(cell, weights=work, minlength=SECTORS)
+    return depths
 
 
 def depths_of_a_revolution(result: Result) -> dict[str, Any]:
@@ -135,17 +135,17 @@ def depths_of_a_revolution(result: Result) -> dict[str, Any]:
     "journal" and "bearing": joint -> (72,); "guideways": guided body -> largest; for JSON.
     """
     run = Reading(result)
-    found: dict[str, dict[str, Any]] = {"journal": {}, "bearing": {}, "guideways": {}}
+    depths: dict[str, dict[str, Any]] = {"journal": {}, "bearing": {}, "guideways": {}}
     if run.whole is None:
-        return found
+        return depths
     last, turns = _whole(run, run.whole)
     for joint in wearing_joints(result.scene):
         journal, bearing = wear_depths(last, joint)
-        found["journal"][joint] = (journal / turns).tolist()
-        found["bearing"][joint] = (bearing / turns).tolist()
+        depths["journal"][joint] = (journal / turns).tolist()
+        depths["bearing"][joint] = (bearing / turns).tolist()
     for body in wearing_guides(result.scene):
-        found["guideways"][body] = _guideway_depth(last, body) / turns
-    return found
+        depths["guideways"][body] = _guideway_depth(last, body) / turns
+    return depths
 
 
 def _whole(run: Reading, begin: float) -> tuple[Result, float]:
@@ -178,8 +178,8 @@ def _volume(result: Result, joint: str) -> float:
 
 def _ends(result: Result, body: str) -> list[Sliding]:
     """Return the rubbing at the ends of a guided body."""
-    shown = guide_channel(mechanism_of(result.scene), body)
-    force, speed = result[f"{shown}_normal_force"], result[f"{shown}_sliding"]
+    channel = guide_channel(mechanism_of(result.scene), body)
+    force, speed = result[f"{channel}_normal_force"], result[f"{channel}_sliding"]
     return [_slid(result, np.abs(force[:, end]), speed[:, end]) for end in (0, 1)]
 
 
@@ -210,7 +210,7 @@ def _rank(kind: str, run: Reading, place: str) -> int | None:
     return 1 + sum(depth > depths[f"{kind}.{place}"] for depth in depths.values())
 
 
-def _pressed(run: Reading, joint: str) -> Array:
+def _pressure_velocity(run: Reading, joint: str) -> Array:
     """Return mean pressure times sliding speed, (n,), W/m^2."""
     result, described = run.result, run.result.scene.joints[joint]
     assert isinstance(described, DryJoint | LubricatedJoint)
@@ -218,7 +218,7 @@ def _pressed(run: Reading, joint: str) -> Array:
     return sliding_of(result, joint).power / area
 
 
-def _pressed_guide(run: Reading, body: str) -> Array:
+def _guide_pressure_velocity(run: Reading, body: str) -> Array:
     result = run.result
     guide = result.scene.guide
     assert guide is not None
@@ -226,19 +226,21 @@ def _pressed_guide(run: Reading, body: str) -> Array:
     return np.asarray(sum(end.power for end in _ends(result, body)) / area)
 
 
-def _mean(pressed: Callable[[Reading, str], Array], run: Reading, place: str) -> float | None:
-    return None if run.whole is None else run.mean(pressed(run, place))
+def _mean(
+    pressure_velocity: Callable[[Reading, str], Array], run: Reading, place: str
+) -> float | None:
+    return None if run.whole is None else run.mean(pressure_velocity(run, place))
 
 
-def _largest(pressed: Callable[[Reading, str], Array], run: Reading, place: str) -> float:
-    return float(pressed(run, place).max(initial=0.0))
+def _largest(pressure_velocity: Callable[[Reading, str], Array], run: Reading, place: str) -> float:
+    return float(pressure_velocity(run, place).max(initial=0.0))
 
 
 def _rows(place: Place) -> tuple[Quantity, ...]:
     """Return the quantities that joints and guides have alike."""
     joint = place is Place.JOINT
     has, kind = (_wears, "joints") if joint else (_guide_wears, "guides")
-    pressed = _pressed if joint else _pressed_guide
+    pressure_velocity = _pressure_velocity if joint else _guide_pressure_velocity
     area = "the projected area" if joint else "the guided face"
     return (
         Quantity("wear.volume", "m^3",
@@ -248,10 +250,10 @@ def _rows(place: Place) -> tuple[Quantity, ...]:
                  COUNT, partial(_rank, kind), place, has),
         Quantity("wear.pressure_velocity", "W/m^2",
                  f"mean of pressure on {area} times sliding speed, over whole revolutions",
-                 LOAD, partial(_mean, pressed), place, has),
+                 LOAD, partial(_mean, pressure_velocity), place, has),
         Quantity("wear.peak_pressure_velocity", "W/m^2",
                  f"largest pressure on {area} times sliding speed",
-                 LOAD, partial(_largest, pressed), place, has,
+                 LOAD, partial(_largest, pressure_velocity), place, has,
                  extreme=Extreme.LARGEST),
     )  # fmt: skip
 

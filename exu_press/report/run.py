@@ -39,13 +39,15 @@ def joint_table(result: Result) -> str:
     values, joints = values_of(result), result.scene.joints
     shown = [q for q in CATALOGUE if q.place is Place.JOINT and q.title]
     forces = next(q for q in shown if q.kind is LOAD)
-    found = [name for name in joints if values[forces.at(name)].value is not None]
+    found = [name for name in joints if values[forces.full_name(name)].value is not None]
     rows = []
-    for name in sorted(found, key=lambda name: -(values[forces.at(name)].value or 0.0)):
+    for name in sorted(found, key=lambda name: -(values[forces.full_name(name)].value or 0.0)):
         joint = joints[name]
         clearance = f"{joint.clearance * 1e6:g}" if joint.clearance else "-"
         texts = [
-            shown_value(quantity, values[quantity.at(name)]) if quantity.at(name) in values else "-"
+            shown_value(quantity, values[quantity.full_name(name)])
+            if quantity.full_name(name) in values
+            else "-"
             for quantity in shown
         ]
         rows.append([joint_in_words(name), joint.kind, clearance, *texts])
@@ -167,7 +169,7 @@ def _listed(
 ) -> str:
     """Return a table of quantities in words, those that the run does not have left out."""
     read = [(quantity, value_of(result, quantity.name)) for quantity in quantities]
-    values = [(quantity.sized([value.value or 0.0]), value) for quantity, value in read]
+    values = [(quantity.in_scaled_unit([value.value or 0.0]), value) for quantity, value in read]
     rows = [
         [quantity.meaning, f"{shown_value(quantity, value)} {quantity.shown}"]
         for quantity, value in values

@@ -11,7 +11,7 @@ from exu_press.page.study import Column, study_viewer
 from exu_press.plots.file import save_figures
 from exu_press.plots.sweep import sweep_figures
 from exu_press.plots.words import ONE_LINE, describe
-from exu_press.quantities.catalogue import declared
+from exu_press.quantities.catalogue import find_quantity
 from exu_press.quantities.kind import COST
 from exu_press.report.html import page, paragraph, picture, stills, table, warnings
 from exu_press.report.run import scene_parts
@@ -70,7 +70,7 @@ def _live(runs: Table) -> Live | None:
     numeric = [
         name
         for name in runs.columns
-        if (placed := declared(name)) is not None
+        if (placed := find_quantity(name)) is not None
         and placed.quantity.kind is not COST
         and runs.is_numeric(name)
         and len(set(runs[name])) > 1

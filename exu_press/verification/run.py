@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from exu_press.model.state import State
-from exu_press.quantities import Extreme, Placed, Quantity, quantities_of
+from exu_press.quantities import Extreme, Quantity, QuantityAt, quantities_of
 from exu_press.quantities.kind import RESULTANT, SHARE
 from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
@@ -116,7 +116,7 @@ def _told(result: Result, refinements: Iterable[tuple[float, Result]]) -> Result
 def errors_of(
     result: Result,
     refinements: Iterable[tuple[float, Result]],
-    declared: Mapping[str, Placed] | None = None,
+    declared: Mapping[str, QuantityAt] | None = None,
 ) -> Errors:
     """Return a summary's entries of errors.
 
@@ -236,7 +236,7 @@ def _swings(quantity: Quantity) -> bool:
 
 
 def _late(
-    runs: Mapping[float, Result], horizon: float, swings: Mapping[str, Placed]
+    runs: Mapping[float, Result], horizon: float, swings: Mapping[str, QuantityAt]
 ) -> list[Numbers]:
     """Return quantities at instants late in what they are read from, before the horizon (s)."""
     parts = {ratio: settled(run) for ratio, run in runs.items()}
@@ -264,7 +264,7 @@ def _is_of_both(
 
 
 def _sizes(
-    values: Mapping[str, float], told: Mapping[str, Placed]
+    values: Mapping[str, float], told: Mapping[str, QuantityAt]
 ) -> dict[tuple[str, Extreme], float]:
     """Return the largest value of each unit and extreme in a run; what cancels is left out."""
     found: dict[tuple[str, Extreme], float] = {}

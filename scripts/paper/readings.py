@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
 from exu_press.numerics.arrays import Array
-from exu_press.quantities import Placed, Quantity, differentiated_peak, mean_peak, peak
+from exu_press.quantities import Quantity, QuantityAt, differentiated_peak, mean_peak, peak
 from exu_press.quantities.joints import TOUCH
 from exu_press.quantities.kind import LOAD, MOTION, SHARE
 from exu_press.quantities.reading import Reading
@@ -70,9 +70,9 @@ def readings(result: Result) -> dict[str, float]:
     return {name: float(value) for name, value in found.items() if value is not None}
 
 
-def declared(result: Result) -> dict[str, Placed]:
+def declared(result: Result) -> dict[str, QuantityAt]:
     """Return the measures of a run as quantities, of which errors are known."""
-    return {name: Placed(_quantity(name)) for name in readings(result)}
+    return {name: QuantityAt(_quantity(name)) for name in readings(result)}
 
 
 def _quantity(name: str) -> Quantity:

@@ -11,7 +11,7 @@ from exu_press.page.blocks import Blocks
 from exu_press.page.curves import PEAKS, curves_of, shown_unit
 from exu_press.page.marks import dead_centres, impacts, peaks, values_on
 from exu_press.page.scenery import scenery
-from exu_press.quantities.catalogue import declared
+from exu_press.quantities.catalogue import find_quantity
 
 
 def test_every_channel_is_in_a_curve(press):
@@ -41,7 +41,7 @@ def test_peaks_are_on_their_curves(press):
 
     Curves are of the steps' samples, peaks without what alternates from step to step.
     """
-    assert all(declared(each.at("crank_pin")) is not None for each in PEAKS.values())
+    assert all(find_quantity(each.full_name("crank_pin")) is not None for each in PEAKS.values())
     curves = {curve.name: curve for curve in curves_of(press)}
     found = peaks(press, curves.values())
     assert {"slider_acceleration", "crank_pin_force", "crank_pin:gap", "drive_torque"} <= set(found)

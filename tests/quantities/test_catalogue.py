@@ -15,7 +15,7 @@ import exu_press
 from exu_press import InputError, Scene, simulate
 from exu_press.plots.sweep import axes_of, sweep_figure
 from exu_press.quantities import CATALOGUE, Place, add, quantities_of, values_of
-from exu_press.quantities.catalogue import Placed, declared
+from exu_press.quantities.catalogue import QuantityAt, find_quantity
 from exu_press.quantities.table import run_lines
 from exu_press.report.run import run_report
 from exu_press.studies.sweep import Sweep, sweep
@@ -45,7 +45,7 @@ def test_what_a_scene_will_have_is_what_its_run_has(scene):
     result = simulate(scene)
     assert set(values_of(result)) == set(quantities_of(scene))
     for name, placed in quantities_of(scene).items():
-        assert declared(name) == placed
+        assert find_quantity(name) == placed
 
 
 def test_names_are_unique_and_everything_is_said():
@@ -148,7 +148,7 @@ def test_one_that_workers_cannot_declare_is_refused(mine, tmp_path):
 )
 def test_a_kind_follows_from_the_quantity_and_not_from_a_name(name, kind):
     """In a joint named power_pin the eccentricity counted as a load, [load.time] had no errors."""
-    placed = declared(name)
+    placed = find_quantity(name)
     assert placed is not None and placed.quantity.kind.name == kind
     assert placed.quantity.place in (Place.JOINT, Place.LOAD)
 
@@ -166,17 +166,17 @@ def test_a_kind_follows_from_the_quantity_and_not_from_a_name(name, kind):
 )
 def test_a_quantity_of_ones_own_that_is_refused(change, message):
     with pytest.raises(InputError, match=message):
-        add(dataclasses.replace(declared("peak_velocity").quantity, **change))
+        add(dataclasses.replace(find_quantity("peak_velocity").quantity, **change))
 
 
 @pytest.mark.parametrize(
     ("given", "value"), [(np.float64(2.0), 2.0), (np.int64(2), 2), (np.nan, None), (-np.inf, None)]
 )
 def test_what_a_quantity_gives_is_a_plain_number_or_none(given, value):
-    found = Placed(dataclasses.replace(CATALOGUE[0], read=lambda run, at: given)).read(None)
+    found = QuantityAt(dataclasses.replace(CATALOGUE[0], read=lambda run, at: given)).read(None)
     assert found == value and type(found) is type(value)
 
 
 def test_a_quantity_that_gives_no_number_is_named():
     with pytest.raises(InputError, match="quantity stroke: gives 'a'; allowed is a number"):
-        Placed(dataclasses.replace(CATALOGUE[0], read=lambda run, at: "a")).read(None)
+        QuantityAt(dataclasses.replace(CATALOGUE[0], read=lambda run, at: "a")).read(None)

@@ -7,7 +7,7 @@ import pytest
 
 from exu_press import Result, Scene, simulate
 from exu_press.mechanism.press import PAPER_LAWS
-from exu_press.quantities import Placed, Quantity, quantities_of
+from exu_press.quantities import Quantity, QuantityAt, quantities_of
 from exu_press.quantities.kind import DIFFERENCE, MOTION, RESULTANT, SHARE
 from exu_press.quantities.value import numbers_of
 from exu_press.scene import flexible_press
@@ -258,11 +258,11 @@ def test_errors_of_a_quantity_of_ones_own_are_those_of_the_declared_one():
     refinements = [(ratio, simulate(other)) for ratio, other in plan(scene).items()]
     told = errors_of(result, refinements)["errors"]
     force = quantities_of(scene)["joints.crank_pin.peak_force"]
-    own = {"force": Placed(replace(force.quantity, name="force"), "crank_pin")}
+    own = {"force": QuantityAt(replace(force.quantity, name="force"), "crank_pin")}
     mine = errors_of(result, refinements, own)["errors"]["force"]
     assert mine["error"] == pytest.approx(told["joints.crank_pin.peak_force"]["error"])
     late = {
-        "late": Placed(
+        "late": QuantityAt(
             Quantity(
                 "late",
                 "m",
@@ -291,7 +291,7 @@ def test_a_peak_that_is_smaller_than_its_error_is_not_determined(kind, signed, d
         lambda reading, _: float(np.abs(reading["shaking_force"]).max()),
         signed=signed,
     )
-    told = errors_of(run, [(4.0, other)], {"largest": Placed(largest, "")})["errors"]["largest"]
+    told = errors_of(run, [(4.0, other)], {"largest": QuantityAt(largest, "")})["errors"]["largest"]
     assert told["error"] > told["high"] - told["error"] > 0.0
     assert told["determined"] is determined
 
@@ -303,7 +303,7 @@ def test_no_share_may_be_more_than_the_whole():
     def share(reading, _):
         return 0.9 if reading["shaking_force"].any() else 0.2
 
-    asked = {"share": Placed(Quantity("share", "", "of a force", SHARE, share), "")}
+    asked = {"share": QuantityAt(Quantity("share", "", "of a force", SHARE, share), "")}
     told = errors_of(run, [(4.0, other)], asked)["errors"]["share"]
     assert told["error"] > 0.1 and told["high"] == 1.0
 

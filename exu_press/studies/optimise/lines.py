@@ -20,7 +20,7 @@ def report_lines(report: Report) -> list[str]:
     several = len(study.objective) > 1
     lines = [*report.told, f"method: {report.method} ({report.why})"]
     quantities = {
-        name: quantity_of(study.scene, name).quantity.sized(report.numbers(name))
+        name: quantity_of(study.scene, name).quantity.in_scaled_unit(report.numbers(name))
         for name in study.quantities
     }
     heads = (with_unit(name, quantity.shown) for name, quantity in quantities.items())

@@ -30,7 +30,7 @@ def _of_quantity(report: Report, place: int) -> list[str]:
     study = report.study
     name = study.sensitivity.quantities[place]
     found, each = report.indices[place], report.spreads[place]
-    quantity = quantity_of(study.scene, name).quantity.sized([each.middle])
+    quantity = quantity_of(study.scene, name).quantity.in_scaled_unit([each.middle])
     scale = quantity.scale
     unit = f" {quantity.shown}" if quantity.shown else ""
     if found is None:

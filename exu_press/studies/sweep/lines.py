@@ -7,7 +7,7 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.quantities import Place, Quantity
-from exu_press.quantities.catalogue import declared
+from exu_press.quantities.catalogue import find_quantity
 from exu_press.studies.sweep.table import Table
 from exu_press.terminal.columns import columns
 
@@ -60,7 +60,7 @@ def _changing_most(table: Table) -> tuple[str, ...]:
     loose = table.study.scene.joints.with_clearance
     most: dict[Quantity, tuple[float, str]] = {}
     for name in table.columns:
-        placed = declared(name)
+        placed = find_quantity(name)
         if placed is None or not (placed.quantity.title and placed.quantity.kind.has_error):
             continue
         if placed.quantity.place is Place.JOINT and loose and placed.at not in loose:

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from exu_press.mechanism import unit_in_mechanism
-from exu_press.quantities.catalogue import declared
+from exu_press.quantities.catalogue import find_quantity
 from exu_press.scene import DryJoint, Flexible, Scene
 from exu_press.scene.load import LOAD_KINDS
 from exu_press.scene.oil import Oil
@@ -21,7 +21,7 @@ def unit_of(name: str) -> str:
     >>> unit_of("joints.balls.clearance"), unit_of("joints.ball_left.peak_force"), unit_of("status")
     ('m', 'N', '')
     """
-    if (placed := declared(name)) is not None:
+    if (placed := find_quantity(name)) is not None:
         return placed.quantity.unit
     metadata = _metadata(name)
     return "" if metadata is None else str(metadata["unit"])
@@ -40,9 +40,9 @@ def shown_unit(
         values: SI, which are small in a small machine.
         other: unit of a name that is no quantity, where it is no key either.
     """
-    if (placed := declared(name)) is None:
+    if (placed := find_quantity(name)) is None:
         return unit_of(name) if other is None else other, 1.0
-    quantity = placed.quantity.sized(values)
+    quantity = placed.quantity.in_scaled_unit(values)
     return quantity.shown, quantity.scale
 
 
@@ -62,7 +62,7 @@ def meaning_of(name: str) -> str:
     >>> meaning_of("start_angle_deg")
     'crank angle at the start'
     """
-    if (placed := declared(name)) is not None:
+    if (placed := find_quantity(name)) is not None:
         return placed.quantity.meaning
     metadata = _metadata(name)
     return "" if metadata is None else str(metadata["meaning"])

@@ -21,7 +21,7 @@ def report_lines(report: Report) -> list[str]:
         bodies.append([f"{1e6 * value:.5g}" for value in report.clearances(joint)])
     for name in study.names:
         values = report.values(name)
-        quantity = quantity_of(study.scene, name).quantity.sized(filter(None, values))
+        quantity = quantity_of(study.scene, name).quantity.in_scaled_unit(filter(None, values))
         heads.append(with_unit(name, quantity.shown))
         digits = 7 if quantity.unit == "m" else 4
         bodies.append(

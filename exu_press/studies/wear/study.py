@@ -95,4 +95,4 @@ class WearStudy(Study):
         """Full names of the quantities that are followed."""
         if self.wear.quantities is not None:
             return self.wear.quantities
-        return DEAD_CENTRE.name, *(JOINT_FORCE.at(name) for name in self.joints)
+        return DEAD_CENTRE.name, *(JOINT_FORCE.full_name(name) for name in self.joints)

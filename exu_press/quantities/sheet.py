@@ -61,7 +61,7 @@ def _pull(run: Reading) -> Array:
     for joint in mechanism.joints_of(output.name):
         on_output = 1.0 if joint.journal == output.name else -1.0
         pull += on_output * run[f"{joint.name}_force"][:, :2] @ direction
-    return pull
+    return np.asarray(pull)
 
 
 def _ideal(run: Reading) -> tuple[Array, Array, Array]:

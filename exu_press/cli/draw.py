@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.cli.options import SHIPPED, add_set_argument, shipped_names
+from exu_press.cli.options import SHIPPED, add_set_argument, shipped_names, show_warnings
 from exu_press.errors import InputError, prefixed
 from exu_press.mechanism import SHIPPED as MECHANISMS
 from exu_press.mechanism import (
@@ -24,6 +24,7 @@ from exu_press.mechanism import (
     shipped_mechanism,
     slider_crank,
 )
+from exu_press.mechanism.doubtful import doubtful_drawing
 from exu_press.mechanism.examine import Examination, examine
 from exu_press.mechanism.transmission import alike
 from exu_press.scene.file import parse_assignment
@@ -90,6 +91,8 @@ def execute(options: argparse.Namespace) -> int:
         save_figure(drawing_figure(examined, "\n".join(lines), speed), target)
         if not options.quiet:
             print(f"written: {target}")
+    stroke = math.inf if examined.stroke is None else examined.stroke.length
+    show_warnings(doubtful_drawing(mechanism, stroke))
     for complaint in examined.complaints:
         print(f"exu-press: {complaint}", file=sys.stderr)
     return 2 if examined.complaints else 0

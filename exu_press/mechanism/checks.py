@@ -5,7 +5,17 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
 
 from exu_press.errors import InputError
-from exu_press.mechanism.parts import DRIVE, FLYWHEEL, GROUND, Body, Guide, Joint, Output
+from exu_press.mechanism.parts import (
+    DRIVE,
+    FLYWHEEL,
+    GROUND,
+    Body,
+    Guide,
+    Joint,
+    Output,
+    distinct_points,
+    size_of,
+)
 from exu_press.schema.checks import demand_known, demand_name, demand_number, refuse_unknown
 
 __all__ = ["all_of", "check", "check_defaults"]
@@ -169,8 +179,10 @@ def _check_connections(
 ) -> None:
     """Refuse bodies on nothing, rods without two ends, and a crank that is not in the frame."""
     guided = {guide.body for guide in guides}
+    size = size_of(joints)
     for body in bodies:
-        points = {joint.at for joint in joints if body.name in (joint.journal, joint.bearing)}
+        ends = (joint.at for joint in joints if body.name in (joint.journal, joint.bearing))
+        points = distinct_points(ends, size)
         if not points and body.name not in guided:
             raise InputError(f"bodies.{body.name}: no joint and no guide holds it")
         if _is_rod(body) and len(points) != 2:
@@ -187,7 +199,8 @@ def _check_connections(
             f"crank = {crank!r}: has {len(shafts)} joints with the {GROUND}"
             f"{' and a guide' if crank in guided else ''}; allowed is one joint, its shaft"
         )
-    if all(joint.at == shafts[0].at for joint in joints if crank in (joint.journal, joint.bearing)):
+    pins = (joint.at for joint in joints if crank in (joint.journal, joint.bearing))
+    if len(distinct_points(pins, size)) == 1:
         raise InputError(
             f"crank = {crank!r}: all of its joints lie on its shaft, so that it moves nothing; "
             "allowed is a joint beside the shaft"

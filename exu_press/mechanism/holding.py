@@ -21,9 +21,9 @@ from functools import lru_cache
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.mechanism.constraint_rows import ConstraintRows
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Guide, Joint, Point
+from exu_press.mechanism.planar_constraints import INDEPENDENT
 from exu_press.numerics.arrays import Array
 
 __all__ = ["Holding", "SingleAxis", "by_constraints", "holding_of"]
@@ -33,12 +33,6 @@ SOMEWHERE = (1.0, 2.3)
 
 ALL_ROUND = tuple(SOMEWHERE[0] + 2.0 * math.pi * n / 24 for n in range(24))
 """The same all around, at distances shorter than that of two dead centres."""
-
-INDEPENDENT = 1e-7
-"""Part of a constraint's unit row that others must leave."""
-
-KEPT = 1e-6
-"""Angle by which a direction may turn in the frame of a body that keeps it, rad."""
 
 
 @dataclass(frozen=True)
@@ -152,10 +146,12 @@ class _Selection:
     def __init__(self, mechanism: Mechanism, ideal: frozenset[str], crank_angle: float) -> None:
         """Go through the constraints, those to be kept first."""
         motion = mechanism.motion(np.array([crank_angle]), 1.0)
-        self._mechanism = mechanism
+        self._mechanism, constraints = mechanism, mechanism.constraints
         self.angles = {n: float(one.position[0, 2]) for n, one in motion.items()} | {GROUND: 0.0}
-        self._rows = ConstraintRows(mechanism, self.angles)
-        self._basis = np.zeros((0, self._rows.size))
+        jacobian = constraints.jacobian(constraints.coordinates(motion)[0])
+        self._rows = {name: jacobian[rows] for name, rows in constraints.rows.items()}
+        self._rows["drive"] = constraints.angle(mechanism.crank)[None]
+        self._basis = np.zeros((0, jacobian.shape[1]))
         self.directions: dict[str, list[Array]] = {}
         self.held: dict[tuple[str, str], bool] = {}
         redundant: dict[str, None] = {}
@@ -163,12 +159,12 @@ class _Selection:
         joints = [joint for joint in mechanism.joints if joint.name in ideal]
         pivots = list(_pivoted(mechanism, ideal).values())
         parallel = {joint.name: _parallel(joint, guides) for joint in joints}
-        self._take(self._rows.angle(mechanism.crank)[None, :])  # the drive
+        self._take(self._rows["drive"])
         for joint in pivots:
             self.directions[joint.name] = self._take_joint(joint, np.eye(2))
         for guide in mechanism.guides:
-            held = guide.holds_across
-            self.held[guide.body, "across"] = held and self._take_row(self._rows.across(guide))
+            across = self._rows[f"guides.{guide.body}"][:1]
+            self.held[guide.body, "across"] = guide.holds_across and bool(self._take(across))
         for joint in joints:
             if joint not in pivots:
                 along = parallel[joint.name]
@@ -180,8 +176,8 @@ class _Selection:
             if parallel[joint.name] is None and len(self.directions[joint.name]) < 2
         )
         for guide in mechanism.guides:
-            row = self._rows.angle(guide.body)
-            self.held[guide.body, "angle"] = guide.holds_angle and self._take_row(row)
+            angle = self._rows[f"guides.{guide.body}"][1:]
+            self.held[guide.body, "angle"] = guide.holds_angle and bool(self._take(angle))
             both = self.held[guide.body, "across"] and self.held[guide.body, "angle"]
             if guide.holds_angle and not both:
                 redundant[guide.body] = None
@@ -204,18 +200,16 @@ class _Selection:
         self._basis = np.vstack([self._basis, new[:count]])
         return [combinations[:, index] for index in range(count)]
 
-    def _take_row(self, row: Array) -> bool:
-        return bool(self._take(row[None, :]))
-
     def _take_joint(self, joint: Joint, wanted: Array) -> list[Array]:
         """Let a joint hold some of the wanted directions (m, 2); return which."""
-        return [np.asarray(mix @ wanted) for mix in self._take(wanted @ self._rows.of_joint(joint))]
+        rows = self._rows[f"joints.{joint.name}"]
+        return [np.asarray(mix @ wanted) for mix in self._take(wanted @ rows)]
 
     def sign(self, holding: Holding, guides: Mapping[str, tuple[bool, bool]]) -> float:
         """Return the sign of the determinant of drive and constraints that a holding keeps."""
-        rows = [self._rows.angle(self._mechanism.crank)]
+        rows = [*self._rows["drive"]]
         for joint in self._mechanism.joints:
-            both = self._rows.of_joint(joint)
+            both = self._rows[f"joints.{joint.name}"]
             half = holding.single_axis.get(joint.name)
             if half is not None:
                 angle = half.angle + self.angles[half.body]
@@ -223,9 +217,8 @@ class _Selection:
             elif joint.name in holding.joints or joint in holding.pivoted.values():
                 rows += [*both]
         for guide in self._mechanism.guides:
-            across, angle_too = guides[guide.body]
-            rows += [self._rows.across(guide)] * across
-            rows += [self._rows.angle(guide.body)] * angle_too
+            held = np.array(guides[guide.body])
+            rows += [*self._rows[f"guides.{guide.body}"][held]]
         matrix = np.array(rows)
         return float(np.linalg.slogdet(matrix)[0]) if len(rows) == matrix.shape[1] else 0.0
 
@@ -278,7 +271,7 @@ def _single_axis(joint: Joint, first: _Selection, second: _Selection) -> SingleA
             apart = abs(math.remainder(angles[1] - angles[0], math.pi))  # either sense
             if best is None or apart < best[0]:
                 best = apart, SingleAxis(body, angles[0])
-    if best is None or best[0] > KEPT:
+    if best is None or best[0] > INDEPENDENT:
         raise InputError(
             f"joints.{joint.name}: one of its constraints is redundant, in a direction that turns "
             f"with neither {joint.journal} nor {joint.bearing}; give it clearance"

@@ -1,23 +1,24 @@
-"""The ideal motion of a mechanism, found numerically: loop closure by Newton's method.
+"""The ideal motion of a mechanism, found numerically: all constraints at once by Newton's method.
 
 The crank is followed from the drawing over one revolution in steps as long as Newton's method finds
 the next positions close to where the last ones point; a step that jumps, or crosses a position
-where the loops' Jacobian is singular, is halved. Between these knots a quintic polynomial through
-position, velocity and acceleration starts Newton's method for any number of crank angles at once.
-Velocities and accelerations come from the same Jacobian, not from differences.
+where the constraints' Jacobian is singular, is halved. Between these knots a quintic polynomial
+through position, velocity and acceleration starts Newton's method for any number of crank angles at
+once. Velocities and accelerations come from the same Jacobian, not from differences. Redundant
+constraints are kept by least squares.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
-from exu_press.mechanism.assur import Drawing, Group, Pose, groups_of, known_bodies, one_group_of
 from exu_press.mechanism.motion import Motion
+from exu_press.mechanism.parts import PRECISION, Point
+from exu_press.mechanism.planar_constraints import PlanarConstraints, null_space
 from exu_press.numerics.arrays import Array
 
 __all__ = ["Kinematics", "MotionError", "kinematics_of"]
@@ -28,19 +29,31 @@ SHORTEST_STEP = math.radians(1e-4)
 STRAY = 0.1
 """Distance of a step's end from its prediction, rad or relative to the mechanism's size."""
 
-CLOSED = 1e-13
+CLOSED = 1e-14
 """Change of the coordinates, rad or relative to the size, that ends Newton's method."""
 
-DISAGREE = 1e-9
-"""Gap, relative to the size, that redundant loops may leave open."""
+SLOW = 0.1
+"""Part of the last change from which convergence is slow, and the Jacobian is inverted anew."""
+
+STALE = 1e-3
+"""First change from which it is, too."""
+
+FURTHER_KNOTS = 361
+"""Knots of a revolution once it is known, a degree apart."""
 
 SINGULAR = 1e-6
-"""Smallest singular value of a group's loops, relative to the size, that counts as held."""
+"""Smallest singular value of the constraints, relative to the size, that counts as held."""
 
 FAST = 1e2
 """Rate per crank angle from which a singular position is a dead centre, not a branching."""
 
 ITERATIONS = 12
+
+FREE, CRANK = slice(None, -3), slice(-3, None)
+"""Coordinates that follow from those of the crank, which are the last."""
+
+TAKES_PART = 1e-2
+"""Part of the largest motion, or of the largest force, that counts in a singular position."""
 
 
 class MotionError(InputError):
@@ -66,11 +79,11 @@ class MotionError(InputError):
 
 
 class _LostError(ArithmeticError):
-    """Newton's method did not find a group's next position."""
+    """Newton's method did not find the position at one of the angles, or constraints disagree."""
 
-    def __init__(self, group: Group, index: int = 0, *, apart: bool = False) -> None:
+    def __init__(self, index: int = 0, gaps: Array | None = None) -> None:
         super().__init__()
-        self.group, self.index, self.apart = group, index, apart
+        self.index, self.gaps = index, gaps
 
 
 class Kinematics:
@@ -81,55 +94,41 @@ class Kinematics:
             crank angle.
     """
 
-    def __init__(self, name: str, drawing: Drawing, size: float) -> None:
+    def __init__(self, name: str, constraints: PlanarConstraints, shaft: Point) -> None:
         """Follow the crank over a revolution.
 
         Args:
             name: of the mechanism, for messages.
-            drawing: lengths in m.
-            size: the mechanism's, m.
+            constraints: of all bodies, the crank last; its shaft is none of them.
+            shaft: where the crank turns, m.
         """
-        self._name, self._size = name, size
-        self._drawing = drawing = _scaled(drawing, size)
-        self._shaft = next(
-            at
-            for _, at, *ends in drawing.joints
-            if sorted(ends) == sorted((drawing.crank, drawing.frame))
-        )
-        self.groups, loose = groups_of(drawing)
+        self._name, self._constraints = name, constraints
+        self._shaft = complex(*shaft) / constraints.size
+        drawn = np.array(constraints.drawn)
+        held = np.vstack([constraints.jacobian(drawn), np.eye(len(drawn))[CRANK]])
+        loose = constraints.moving(null_space(held))
         if loose:
             raise MotionError(
                 f"{name}: {_listed(loose)} can move although the crank stands still; allowed is "
                 "one degree of freedom. Add the missing joint or guide. If none is missing, draw a "
                 "position in which no two connected links lie in one line",
-                tuple(loose),
+                loose,
             )
-        try:
-            self._go_round()
-        except InputError as refused:
-            if all(group.square for group in self.groups):
-                raise
-            self.groups = [one_group_of(drawing)]  # loops may hold together what none does alone
-            try:
-                self._go_round()
-            except InputError:
-                raise refused from None
-
-    def _go_round(self) -> None:
-        """Follow the crank, and look at every half degree."""
-        self._signs = [_sign(group, group.jacobian(self._drawn(group))) for group in self.groups]
-        self._follow()
-        self.motion(np.radians(np.arange(0.0, 360.0, 0.5)), 1.0)
-
-    def _drawn(self, last: Group) -> dict[str, Pose]:
-        """Return the drawing's poses up to a group, whose coordinates still count."""
-        poses = known_bodies(self._drawing)
-        for group in self.groups:
-            group.place(poses, group.drawn())
-            if group is last:
-                break
-            group.settle(poses)
-        return poses
+        self._angles, self._knots = self._follow(drawn)
+        turned = (self._knots[-1, 0] - drawn) / (2.0 * math.pi)
+        self._turns = np.round(turned)
+        self._turns[0::3] = self._turns[1::3] = 0.0
+        astray = np.abs(turned - self._turns)[None] / PRECISION
+        if bodies := constraints.moving(astray, 1.0):
+            raise MotionError(
+                f"{name}: {_listed(bodies)} do not return to where they were after one revolution "
+                "of the crank",
+                bodies,
+            )
+        angles = np.union1d(self._angles, np.linspace(0.0, 2.0 * math.pi, FURTHER_KNOTS))
+        self._inverses = None
+        levels, self._inverses, _ = self._near(angles)
+        self._angles, self._knots = angles, levels.swapaxes(0, 1)
 
     def motion(self, angle: Array, speed: float) -> dict[str, Motion]:
         """Return the motion of every body for crank angles (n,), rad, at constant speed, rad/s.
@@ -137,223 +136,213 @@ class Kinematics:
         Raises:
             InputError: links lock or branch at one of the angles.
         """
-        angle = np.asarray(angle, dtype=float)
-        poses = self._crank(angle)
+        levels, _, _ = self._near(np.asarray(angle, dtype=float))
+        levels[..., 0::3] *= self._constraints.size
+        levels[..., 1::3] *= self._constraints.size
+        levels *= np.array([1.0, speed, speed**2])[:, None, None]
+        return {
+            name: Motion(*levels[..., 3 * number : 3 * number + 3])
+            for number, name in enumerate(self._constraints.bodies)
+        }
+
+    def _near(self, angle: Array) -> tuple[Array, Array, Array]:
+        """Return what `_at` does at crank angles (n,), from the knots around them."""
         turns = np.floor(angle / (2.0 * np.pi))
         within = angle - 2.0 * np.pi * turns
-        for group, knots in zip(self.groups, self._knots, strict=True):
-            u = _between(self._angles, knots, within)
-            u += (knots[0][-1] - knots[0][0])[:, None] * turns
-            try:
-                inverse = self._close(group, poses, u)
-            except _LostError as lost:
-                raise self._refusal(lost, float(angle[lost.index]), knots[1]) from None
-            group.move(poses, inverse)
-        return {
-            name: _motion(poses[name], len(angle), self._size, speed)
-            for name, *_ in self._drawing.bodies
-        }
-
-    def _crank(self, angle: Any) -> dict[str, Pose]:
-        """Return frame and crank, turning at unit speed."""
-        drawing = self._drawing
-        _, centre, drawn = next(body for body in drawing.bodies if body[0] == drawing.crank)
-        arm = (centre - self._shaft) * np.exp(1j * angle)
-        crank = Pose(self._shaft + arm, drawn + angle)
-        crank.z1, crank.z2, crank.w = 1j * arm, -arm, 1.0
-        return {drawing.frame: Pose(0.0, 0.0), drawing.crank: crank}
-
-    def _follow(self) -> None:
-        """Find the knots: coordinates and their derivatives from 0 to a whole revolution."""
-        angle, step = 0.0, LONGEST_STEP
-        drawn = [(group.drawn(), *np.zeros((2, len(group.members)))) for group in self.groups]
+        knot = np.clip(
+            np.searchsorted(self._angles, within, side="right"), 1, len(self._angles) - 1
+        )
+        levels = _between(self._angles, self._knots, knot, within)
+        levels[0] += 2.0 * np.pi * turns[:, None] * self._turns
+        inverses = None if self._inverses is None else self._inverses[knot]
         try:
-            states = self._step(0.0, drawn, 0.0)
+            return self._at(angle, levels, inverses)
         except _LostError as lost:
-            raise self._refusal(lost, 0.0, np.zeros(1)) from None
-        angles, found = [angle], [states]
-        while angle < 2.0 * math.pi * (1.0 - 1e-12):
-            step = min(step, 2.0 * math.pi - angle)
-            try:
-                states = self._step(angle + step, found[-1], step)
-            except _LostError as lost:
-                step /= 2.0
-                if step < SHORTEST_STEP:
-                    rates = found[-1][self.groups.index(lost.group)][1]
-                    raise self._refusal(lost, angle, rates, found[-1]) from None
-                continue
-            angle += step
-            step = min(2.0 * step, LONGEST_STEP)
-            angles.append(angle)
-            found.append(states)
-        self._angles = np.array(angles)
-        self._knots = [
-            tuple(np.array([states[index][level] for states in found]) for level in range(3))
-            for index in range(len(self.groups))
-        ]
-        for group, (u, _, _) in zip(self.groups, self._knots, strict=True):
-            turned = u[-1] - u[0]
-            turned -= 2.0 * math.pi * group.winding() * np.round(turned / (2.0 * math.pi))
-            if np.abs(turned).max() > DISAGREE:
-                raise MotionError(
-                    f"{self._name}: {_listed(group.bodies)} do not return to where they were "
-                    "after one revolution of the crank",
-                    group.bodies,
-                )
+            last = self._knots[knot[lost.index] - 1]
+            raise self._refusal(lost, float(angle[lost.index]), last) from None
 
-    def _step(
-        self, angle: float, states: list[tuple[Array, Array, Array]], step: float
-    ) -> list[tuple[Array, Array, Array]]:
-        """Return the coordinates and derivatives of all groups one step on, or lose one."""
-        poses, found = self._crank(angle), []
-        for group, (u, u_1, u_2) in zip(self.groups, states, strict=True):
-            predicted = u + step * u_1 + 0.5 * step**2 * u_2
-            now = predicted.copy()
-            inverse = self._close(group, poses, now)
-            if np.abs(now - predicted).max() > STRAY:
-                raise _LostError(group)
-            found.append((now, *group.move(poses, inverse)))
-        return found
+    def _follow(self, drawn: Array) -> tuple[Array, Array]:
+        """Return the knots from 0 to a whole revolution: angles (k,), and levels (k, 3, 3 n)."""
+        angle, step = 0.0, LONGEST_STEP
+        last = np.array([drawn, 0.0 * drawn, 0.0 * drawn])
+        try:
+            last, _, jacobian = self._at(0.0, last)
+            knots = {0.0: last}
+            while angle < 2.0 * math.pi * (1.0 - 1e-12):
+                step = min(step, 2.0 * math.pi - angle)
+                predicted = last.copy()
+                predicted[0] += step * last[1] + 0.5 * step**2 * last[2]
+                predicted[1] += step * last[2]
+                try:
+                    levels, _, jacobian_after = self._at(angle + step, predicted)
+                    strays = np.abs(levels - predicted)[0, ..., FREE].max(initial=0.0) > STRAY
+                    if strays or np.linalg.slogdet(jacobian.T @ jacobian_after)[0] <= 0.0:
+                        raise _LostError  # on another branch
+                except _LostError:
+                    step /= 2.0
+                    if step < SHORTEST_STEP:
+                        raise
+                    continue
+                angle, last, jacobian = angle + step, levels, jacobian_after
+                knots[angle] = last
+                step = min(2.0 * step, LONGEST_STEP)
+        except _LostError as lost:
+            raise self._refusal(lost, angle, last) from None
+        return np.array(list(knots)), np.array(list(knots.values()))
 
-    def _close(self, group: Group, poses: dict[str, Pose], u: Array) -> Array:
-        """Bring coordinates (k,) or (k, n) to where the loops close; return the inverse there."""
-        last = math.inf
-        for _ in range(ITERATIONS):
-            group.place(poses, u)
-            jacobian = group.jacobian(poses)
-            inverse = _inverse(group, jacobian)
-            change = np.moveaxis((inverse @ group.gaps(poses)[..., None])[..., 0], -1, 0)
-            u -= change
-            largest = float(np.abs(change).max())
-            if largest < CLOSED or (largest < 1e-10 and largest > 0.1 * last):
-                break
-            last = largest
-        else:
-            raise _LostError(group, int(np.argmax(np.abs(change).max(axis=0))))
-        group.place(poses, u)
-        gaps = np.abs(group.gaps(poses)).max(axis=-1)
-        if gaps.max() > DISAGREE:
-            raise _LostError(group, int(np.argmax(gaps)), apart=True)
-        crossed = _sign(group, jacobian) != self._signs[self.groups.index(group)]
-        if np.any(crossed):
-            raise _LostError(group, int(np.argmax(crossed)))
-        return inverse
+    def _at(
+        self, angle: float | Array, near: Array, inverse: Array | None = None
+    ) -> tuple[Array, Array, Array]:
+        """Return coordinates at crank angles (...), and two derivatives by them, (3, ..., 3 n).
 
-    def _refusal(
-        self,
-        lost: _LostError,
-        angle: float,
-        rates: Array,
-        states: Sequence[tuple[Array, Array, Array]] = (),
-    ) -> MotionError:
-        """Return the error for a position in which a group cannot be followed."""
+        Args:
+            angle: rad.
+            near: levels (3, ..., 3 n) close to those that follow.
+            inverse: of a Jacobian close to those there, (..., 3 n - 3, m).
+
+        Returns:
+            Levels, inverses and Jacobians (..., m, 3 n - 3).
+        """
+        levels = near.copy()
+        x, y, drawn = self._constraints.drawn[CRANK]
+        arm = (complex(x, y) - self._shaft) * np.exp(1j * np.asarray(angle))
+        centres = self._shaft + arm, 1j * arm, -arm
+        for level, centre, turned in zip(levels, centres, (drawn + angle, 1.0, 0.0), strict=True):
+            level[..., -3], level[..., -2], level[..., -1] = centre.real, centre.imag, turned
+        q, q_1, q_2 = levels
+        constraints = self._constraints
+
+        def jacobian_of_q() -> Array:
+            return constraints.jacobian(q)[..., FREE]
+
+        inverse = _correct(q, constraints.residuals, inverse, jacobian_of_q)
+        gaps = np.abs(constraints.residuals(q))
+        if gaps.max(initial=0.0) > PRECISION:
+            index = int(np.argmax(gaps.max(axis=-1)))
+            raise _LostError(index, gaps.reshape(-1, gaps.shape[-1])[index])
+        jacobian = constraints.jacobian(q)
+        free = jacobian[..., FREE]
+        inverse = _correct(q_1, lambda rate: _product(jacobian, rate), inverse, lambda: free)
+        gamma = constraints.rates(q, q_1)
+        inverse = _correct(q_2, lambda a: gamma + _product(jacobian, a), inverse, lambda: free)
+        return levels, inverse, free
+
+    def _refusal(self, lost: _LostError, angle: float, last: Array) -> MotionError:
+        """Return the error for a crank angle at which constraints cannot be followed.
+
+        Args:
+            lost: why.
+            angle: that was reached, rad.
+            last: levels (3, 3 n) there, or before.
+        """
+        constraints, jacobian = self._constraints, self._constraints.jacobian(last[0])
+        jacobian[:, CRANK] = 0.0
+        fast = float(np.abs(last[1]).max()) > FAST
         where = f"at crank angle {math.degrees(angle) % 360.0:.4g} deg"
-        bodies = _listed(lost.group.bodies)
-        if lost.apart and not lost.group.square:
-            return MotionError(
-                f"{self._name}: joints and guides hold {bodies} more than once and do not agree "
-                f"{where}. Remove the redundant one, or draw parts that move alike exactly alike",
-                lost.group.bodies,
-                angle,
-                self._places(angle, states),
+        if lost.gaps is not None and not fast:
+            open_rows = lost.gaps > TAKES_PART * lost.gaps.max()
+            bodies = constraints.moving(jacobian[open_rows])
+            text = (
+                f"joints and guides hold {_listed(bodies)} more than once and do not agree {where}."
+                " Remove the redundant one, or draw parts that move alike exactly alike"
             )
-        fast = float(np.abs(rates).max()) > FAST
-        does = "lock: they reach no further" if fast else "lock or branch"
-        return MotionError(
-            f"{self._name}: {bodies} {does} {where}",
-            lost.group.bodies,
-            angle,
-            self._places(angle, states),
-        )
-
-    def _places(
-        self, angle: float, states: Sequence[tuple[Array, Array, Array]]
-    ) -> dict[str, Array]:
-        """Return every body's (x, y, angle), m and rad, at a crank angle; none without states."""
-        if not states:
-            return {}
-        poses = self._crank(angle)
-        for group, (u, _, _) in zip(self.groups, states, strict=True):
-            group.place(poses, u)
-            group.settle(poses)
-        return {
-            name: np.array(
-                [
-                    self._size * poses[name].z.real,
-                    self._size * poses[name].z.imag,
-                    poses[name].angle,
-                ]
+        else:  # what moves freely in the singular position, and is under stress there
+            forces, _, motions = np.linalg.svd(jacobian[:, FREE])
+            motion = np.append(motions[-1], np.zeros(3))[None]
+            stress = forces[:, len(motions) - 1, None] * jacobian
+            moved, stressed = (
+                constraints.moving(values, TAKES_PART * np.abs(values).max())
+                for values in (motion, stress)
             )
-            for name, *_ in self._drawing.bodies
-        }
+            bodies = tuple(body for body in moved if body in stressed) or moved
+            does = "lock: they reach no further" if fast else "lock or branch"
+            text = f"{_listed(bodies)} {does} {where}"
+        poses = last[0].reshape(-1, 3) * (constraints.size, constraints.size, 1.0)
+        poses_of = dict(zip(constraints.bodies, poses, strict=True))
+        return MotionError(f"{self._name}: {text}", bodies, angle, poses_of)
 
 
-@lru_cache(maxsize=64)
-def kinematics_of(name: str, drawing: Drawing, size: float) -> Kinematics:
+@lru_cache(maxsize=16)
+def kinematics_of(name: str, constraints: PlanarConstraints, shaft: Point) -> Kinematics:
     """Return the kinematics of a drawing, which scenes that differ in their joints alone share."""
-    return Kinematics(name, drawing, size)
+    return Kinematics(name, constraints, shaft)
 
 
-def _scaled(drawing: Drawing, size: float) -> Drawing:
-    """Return a drawing with lengths relative to a size."""
-    return drawing._replace(
-        bodies=tuple((name, centre / size, angle) for name, centre, angle in drawing.bodies),
-        joints=tuple((name, at / size, one, other) for name, at, one, other in drawing.joints),
-    )
+def _correct(
+    values: Array,
+    residuals: Callable[[Array], Array],
+    inverse: Array | None,
+    jacobian: Callable[[], Array],
+) -> Array:
+    """Correct free coordinates (..., 3 n), or their rates, by Newton's method, in place.
+
+    Args:
+        values: of all coordinates, those of the crank known.
+        residuals: (..., m) of the values.
+        inverse: of a Jacobian near by; it is made anew while convergence is slow.
+        jacobian: of the residuals, at the values now.
+
+    Returns:
+        The last inverse.
+    """
+    last = math.inf
+    for iteration in range(ITERATIONS):
+        if inverse is None:
+            inverse = _inverse(jacobian())
+        change = _product(inverse, residuals(values))
+        values[..., FREE] -= change
+        largest = float(np.abs(change).max(initial=0.0))
+        slow = largest > SLOW * last
+        if largest < CLOSED * max(1.0, float(np.abs(values).max())) or (largest < 1e-10 and slow):
+            return inverse
+        if slow or (iteration == 0 and largest > STALE):
+            inverse = None
+        last = largest
+    raise _LostError(int(np.argmax(np.abs(change).max(axis=-1))))
 
 
-def _inverse(group: Group, jacobian: Array) -> Array:
-    """Return the inverse of a group's Jacobian; the pseudo-inverse where loops are redundant."""
+def _inverse(jacobian: Array) -> Array:
+    """Return inverses (..., n, m) of Jacobians (..., m, n), for least squares where m > n."""
+    turned = jacobian.swapaxes(-1, -2)
     try:
-        inverse = np.asarray(
-            np.linalg.inv(jacobian) if group.square else np.linalg.pinv(jacobian), float
-        )
+        if jacobian.shape[-2] == jacobian.shape[-1]:
+            inverse = np.linalg.inv(jacobian)
+        else:
+            inverse = np.linalg.inv(turned @ jacobian) @ turned
     except np.linalg.LinAlgError:
-        index = int(np.argmin(np.abs(np.linalg.svd(jacobian, compute_uv=False)[..., -1])))
-        raise _LostError(group, index) from None
+        sizes = np.linalg.svd(jacobian, compute_uv=False)[..., -1]
+        raise _LostError(int(np.argmin(sizes))) from None
     size = np.sqrt((inverse**2).sum(axis=(-2, -1)))
     if not size.max() < 1.0 / SINGULAR:
-        raise _LostError(group, int(np.argmax(size)))
-    return inverse
+        raise _LostError(int(np.argmax(size)))
+    return np.asarray(inverse)
 
 
-def _sign(group: Group, jacobian: Array) -> Array:
-    return np.sign(np.linalg.det(jacobian)) if group.square else np.array(1.0)
+def _product(matrices: Array, vectors: Array) -> Array:
+    return np.asarray((matrices @ vectors[..., None])[..., 0])
 
 
-def _between(angles: Array, knots: tuple[Array, ...], at: Array) -> Array:
-    """Return coordinates (k, n) by the quintic polynomials between the knots."""
-    index = np.clip(np.searchsorted(angles, at, side="right") - 1, 0, len(angles) - 2)
-    width = (angles[index + 1] - angles[index])[:, None]
-    x = (at - angles[index])[:, None] / width
-    (a, b), (a_1, b_1), (a_2, b_2) = (
-        (width**level * part[index], width**level * part[index + 1])
-        for level, part in enumerate(knots)
-    )
+def _between(angles: Array, knots: Array, knot: NDArray[np.intp], at: Array) -> Array:
+    """Return levels (3, n, 3 b) by the quintic polynomials that end at some knots (n,)."""
+    width = (angles[knot] - angles[knot - 1])[:, None]
+    x = (at - angles[knot - 1])[:, None] / width
+    a, a_1, a_2 = (width**level * knots[knot - 1, level] for level in range(3))
+    b, b_1, b_2 = (width**level * knots[knot, level] for level in range(3))
     c_2 = 0.5 * a_2
     gap, gap_1, gap_2 = b - a - a_1 - c_2, b_1 - a_1 - a_2, b_2 - a_2
     c_3 = 10.0 * gap - 4.0 * gap_1 + 0.5 * gap_2
     c_4 = -15.0 * gap + 7.0 * gap_1 - gap_2
     c_5 = 6.0 * gap - 3.0 * gap_1 + 0.5 * gap_2
-    found: NDArray[np.float64] = a + x * (a_1 + x * (c_2 + x * (c_3 + x * (c_4 + x * c_5))))
-    return found.T.copy()
+    powers = np.polynomial.polynomial
+    coefficients = np.array([a, a_1, c_2, c_3, c_4, c_5])
+    return np.array(
+        [
+            powers.polyval(x, powers.polyder(coefficients, level), tensor=False) / width**level
+            for level in range(3)
+        ]
+    )
 
 
-def _motion(pose: Pose, count: int, size: float, speed: float) -> Motion:
-    """Return a body's motion in m, rad and s."""
-    levels = []
-    for z, angle, scale in (
-        (pose.z, pose.angle, 1.0),
-        (pose.z1, pose.w, speed),
-        (pose.z2, pose.a, speed**2),
-    ):
-        values = np.empty((count, 3))
-        values[:, 0], values[:, 1] = scale * size * np.real(z), scale * size * np.imag(z)
-        values[:, 2] = scale * angle
-        levels.append(values)
-    return Motion(*levels)
-
-
-def _listed(names: Any) -> str:
+def _listed(names: Sequence[str]) -> str:
     *first, last = names
     return f"{', '.join(first)} and {last}" if first else last

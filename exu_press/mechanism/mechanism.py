@@ -8,11 +8,20 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.mechanism.assur import Drawing
 from exu_press.mechanism.checks import all_of, check, check_defaults
 from exu_press.mechanism.kinematics import Kinematics, kinematics_of
 from exu_press.mechanism.motion import Motion
-from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point
+from exu_press.mechanism.parts import (
+    GROUND,
+    Body,
+    Guide,
+    Joint,
+    Output,
+    Point,
+    distinct_points,
+    size_of,
+)
+from exu_press.mechanism.planar_constraints import PlanarConstraints, planar_constraints
 from exu_press.numerics.arrays import Array
 
 __all__ = ["Mechanism"]
@@ -95,8 +104,8 @@ class Mechanism:
 
     def rod_inertia(self, body: Body) -> float:
         """Return m l^2 / 12 of a uniform rod between a body's joints; nan if not in two places."""
-        places = list(dict.fromkeys(joint.at for joint in self.joints_of(body.name)))
-        return body.mass * math.dist(*places) ** 2 / 12 if len(places) == 2 else math.nan
+        ends = distinct_points((joint.at for joint in self.joints_of(body.name)), self.size)
+        return body.mass * math.dist(*ends) ** 2 / 12 if len(ends) == 2 else math.nan
 
     @property
     def slider(self) -> str:
@@ -106,8 +115,7 @@ class Mechanism:
     @property
     def size(self) -> float:
         """Largest distance of two joints along x or y in the drawing, m."""
-        positions = np.array([joint.at for joint in self.joints])
-        return float(np.ptp(positions, axis=0).max())
+        return size_of(self.joints)
 
     @property
     def shaft(self) -> Joint:
@@ -197,8 +205,9 @@ class Mechanism:
         """Return the crank angle, rad, close by at which the ideal output turns back."""
         for _ in range(3):
             _, rate, bend = (part[0] for part in self.ideal_slider(np.array([near]), 1.0))
-            near -= rate / bend if bend else 0.0
-        return float(near % (2.0 * np.pi))
+            if abs(rate) < math.radians(0.5) * abs(bend):  # nor where both are rounding
+                near -= rate / bend
+        return round(float(near), 12) % (2.0 * math.pi)
 
     def travel(self, position: Array) -> Array:
         """Return the slider's positions (n,), m, of its centre's (n, 2 or 3)."""
@@ -213,19 +222,16 @@ class Mechanism:
         """Return the components (n,) of vectors (n, 2 or 3) in the output's direction."""
         return np.asarray(vectors[:, :2] @ np.array(self.output.direction))
 
-    @property
-    def drawing(self) -> Drawing:
-        """The geometry alone."""
-        return Drawing(
-            bodies=tuple((b.name, complex(*b.centre_of_mass), b.angle) for b in self.bodies),
-            joints=tuple((j.name, complex(*j.at), j.journal, j.bearing) for j in self.joints),
-            guides=tuple((guide.body, complex(*guide.direction)) for guide in self.guides),
-            crank=self.crank,
-            frame=GROUND,
-        )
+    @cached_property
+    def constraints(self) -> PlanarConstraints:
+        """What joints and guides hold where they are ideal."""
+        return planar_constraints(self.bodies, self.joints, self.guides, self.size)
 
     def _kinematics(self) -> Kinematics:
-        return kinematics_of(self.name, self.drawing, self.size)
+        bodies = sorted(self.bodies, key=lambda body: body.name == self.crank)
+        joints = [joint for joint in self.joints if joint != self.shaft]
+        constraints = planar_constraints(bodies, joints, self.guides, self.size)
+        return kinematics_of(self.name, constraints, self.shaft.at)
 
 
 def _unit(direction: Point) -> Point:

@@ -10,19 +10,15 @@ References
    chapter 3.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.mechanism.constraint_rows import ConstraintRows
 from exu_press.mechanism.mechanism import Mechanism
+from exu_press.mechanism.planar_constraints import null_space
 from exu_press.numerics.arrays import Array
 
 __all__ = ["Mobility", "mobility_of"]
-
-INDEPENDENT = 1e-9
-"""Smallest singular value, relative to the largest, of constraints that count as independent."""
 
 
 @dataclass(frozen=True)
@@ -66,44 +62,27 @@ class Mobility:
 
 def mobility_of(mechanism: Mechanism) -> Mobility:
     """Return a mechanism's mobility with ideal joints and guides, as it is drawn."""
-    jacobian = ConstraintRows(mechanism, {body.name: body.angle for body in mechanism.bodies})
-    rows = {f"joints.{joint.name}": jacobian.of_joint(joint) for joint in mechanism.joints}
-    for guide in mechanism.guides:
-        both = jacobian.across(guide), jacobian.angle(guide.body)
-        rows[f"guides.{guide.body}"] = np.array(both)
-    held = jacobian.angle(mechanism.crank)[None, :]
+    constraints = mechanism.constraints
+    jacobian = constraints.jacobian(np.array(constraints.drawn))
+    held = constraints.angle(mechanism.crank)[None]
 
-    def degrees(chosen: Sequence[Array]) -> int:
-        return jacobian.size - _rank(np.vstack(chosen))
+    def free(left_out: str, *further: Array) -> Array:
+        rows = [rows for name, rows in constraints.rows.items() if name != left_out]
+        return null_space(np.vstack([jacobian[np.concatenate(rows)], *further]))
 
-    def turns(chosen: Sequence[Array]) -> bool:
-        return degrees(chosen) > degrees([*chosen, held])
+    def turns(left_out: str) -> bool:
+        return len(free(left_out)) > len(free(left_out, held))
 
-    every = list(rows.values())
-    moving = turns(every)
-    suspects = [] if moving else [name for name in rows if name != f"joints.{mechanism.shaft.name}"]
-    too_many = tuple(
-        name for name in suspects if turns([row for other, row in rows.items() if other != name])
-    )
+    moving = turns("")
+    suspects = [] if moving else list(constraints.rows)
     return Mobility(
         bodies=len(mechanism.bodies),
         joints=len(mechanism.joints),
         guides=len(mechanism.guides),
-        degrees=degrees(every),
+        degrees=len(free("")),
         turns=moving,
-        loose=tuple(mechanism.bodies[index].name for index in _moving(np.vstack([*every, held]))),
-        too_many=too_many,
+        loose=constraints.moving(free("", held)),
+        too_many=tuple(
+            name for name in suspects if name != f"joints.{mechanism.shaft.name}" and turns(name)
+        ),
     )
-
-
-def _rank(matrix: Array) -> int:
-    values = np.linalg.svd(matrix, compute_uv=False)
-    return int((values > INDEPENDENT * values[0]).sum())
-
-
-def _moving(matrix: Array) -> list[int]:
-    """Return the indices of bodies that move in the null space of constraints (m, 3 n)."""
-    _, values, directions = np.linalg.svd(matrix)
-    null = directions[int((values > INDEPENDENT * values[0]).sum()) :]
-    moved = np.abs(null).max(axis=0, initial=0.0).reshape(-1, 3).max(axis=1)
-    return [int(index) for index in np.flatnonzero(moved > INDEPENDENT)]

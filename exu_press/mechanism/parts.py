@@ -1,12 +1,14 @@
 """Parts of a mechanism, in the coordinates of one assembled drawing."""
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 __all__ = [
     "DRIVE",
     "FLYWHEEL",
     "GROUND",
+    "PRECISION",
     "ROD",
     "Body",
     "Guide",
@@ -15,6 +17,8 @@ __all__ = [
     "Output",
     "Point",
     "Spring",
+    "distinct_points",
+    "size_of",
     "steel_cube",
 ]
 
@@ -29,6 +33,10 @@ STEEL_DENSITY = 7850.0
 
 ROD = math.nan
 """Inertia of a body that is a uniform rod between its two joints; `Mechanism` fills it in."""
+
+PRECISION = 1e-6
+"""Part of a drawing's size to which it is drawn: closer points are one, and redundant constraints
+agree to this."""
 
 Point = tuple[float, float]
 
@@ -164,6 +172,23 @@ class Output:
     def across(self) -> Point:
         """Unit vector to the right of the direction."""
         return self.direction[1], -self.direction[0]
+
+
+def size_of(joints: Sequence[Joint]) -> float:
+    """Return the largest distance of two joints along x or y in the drawing, m."""
+    return max(
+        (max(values) - min(values) for values in zip(*(j.at for j in joints), strict=True)),
+        default=0.0,
+    )
+
+
+def distinct_points(points: Iterable[Point], size: float) -> list[Point]:
+    """Return the points of a drawing of some size, m, of those that lie in one place the first."""
+    distinct: list[Point] = []
+    for point in points:
+        if all(math.dist(point, before) > PRECISION * size for before in distinct):
+            distinct.append(point)
+    return distinct
 
 
 def steel_cube(mass: float) -> float:

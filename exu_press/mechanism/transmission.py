@@ -11,16 +11,21 @@ References
    Oxford University Press 2017, sections 1.10 and 3.18.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from itertools import combinations
 
 import numpy as np
 
-from exu_press.mechanism.assur import groups_of
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Joint
+from exu_press.mechanism.planar_constraints import null_space
 from exu_press.numerics.arrays import Array
 
 __all__ = ["alike", "transmission_angles"]
+
+
+LARGEST_GROUP = 4
+"""Bodies; where none so small is held, all that are left are one group."""
 
 
 def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
@@ -42,45 +47,56 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
         (body, point), _ = sorted(mechanism.ends(joint), key=lambda end: end[0] == GROUND)
         return motion[body].at(point).position[:, :2]
 
-    found: dict[str, Array] = {}
-    for group in groups_of(mechanism.drawing)[0]:
-        if len(group.bodies) != 2:
+    transmission: dict[str, Array] = {}
+    for dyad, before in _groups(mechanism):
+        if len(dyad) != 2:
             continue
-        inner, outer = _joints(mechanism, group.bodies)
-        links = [body for body in group.bodies if body not in guides]
-        if len(inner) != 1 or any(len(outer[body]) != 1 for body in links) or not links:
+        joints = {body: mechanism.joints_of(body) for body in dyad}
+        inner = [joint for joint in joints[dyad[0]] if joint in joints[dyad[1]]]
+        outer = [
+            [j for j in joints[body] if {j.journal, j.bearing} & before]
+            for body in dyad
+            if body not in guides
+        ]
+        if len(inner) != 1 or not outer or any(len(ends) != 1 for ends in outer):
             continue
         at = path(inner[0])
-        lines = [path(outer[body][0]) - at for body in links]
+        lines = [path(ends[0]) - at for ends in outer]
         if len(lines) == 1:
-            guided = next(body for body in group.bodies if body in guides)
+            guided = next(body for body in dyad if body in guides)
             lines.append(np.broadcast_to(np.array(guides[guided].across), at.shape))
-        one, other = lines
-        across = np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])
-        found[inner[0].name] = np.arctan2(across, np.abs((one * other).sum(axis=1)))
-    return found
+        across = np.abs(lines[0][:, 0] * lines[1][:, 1] - lines[0][:, 1] * lines[1][:, 0])
+        along = np.abs((lines[0] * lines[1]).sum(axis=1))
+        transmission[inner[0].name] = np.arctan2(across, along)
+    return transmission
 
 
-def _joints(
-    mechanism: Mechanism, dyad: tuple[str, ...]
-) -> tuple[list[Joint], dict[str, list[Joint]]]:
-    """Return the joints between a dyad's bodies, and those of each with bodies before it."""
-    groups, _ = groups_of(mechanism.drawing)
+def _groups(mechanism: Mechanism) -> Iterator[tuple[tuple[str, ...], set[str]]]:
+    """Yield the smallest sets of bodies that are held, each by all bodies before it: Assur groups.
+
+    The bodies before it come with each.
+    """
+    constraints = mechanism.constraints
+    jacobian = constraints.jacobian(np.array(constraints.drawn))
+    ends = {f"guides.{guide.body}": {guide.body} for guide in mechanism.guides}
+    ends |= {f"joints.{j.name}": {j.journal, j.bearing} for j in mechanism.joints}
     before = {GROUND, mechanism.crank}
-    for group in groups:
-        if group.bodies == dyad:
-            break
-        before.update(group.bodies)
-    inner = [j for j in mechanism.joints if {j.journal, j.bearing} == set(dyad)]
-    outer = {
-        body: [
-            j
-            for j in mechanism.joints_of(body)
-            if (j.bearing if j.journal == body else j.journal) in before
-        ]
-        for body in dyad
-    }
-    return inner, outer
+    left = [body for body in constraints.bodies if body != mechanism.crank]
+
+    def is_held(bodies: tuple[str, ...]) -> bool:
+        known = {*bodies, *before}
+        names = [name for name, of in ends.items() if of & {*bodies} and of <= known]
+        columns = [3 * constraints.bodies.index(body) + k for body in bodies for k in range(3)]
+        rows = [row for name in names for row in constraints.rows[name]]
+        return len(rows) >= len(columns) and not len(null_space(jacobian[rows][:, columns]))
+
+    while left:
+        sizes = range(1, min(LARGEST_GROUP, len(left)) + 1)
+        sets = (chosen for size in sizes for chosen in combinations(left, size))
+        group = next(filter(is_held, sets), tuple(left))
+        yield group, {*before}
+        before.update(group)
+        left = [body for body in left if body not in group]
 
 
 def alike(transmission: Mapping[str, Array]) -> list[tuple[str, Array]]:

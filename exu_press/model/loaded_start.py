@@ -17,7 +17,8 @@ import numpy as np
 
 from exu_press.joints.interface import DryInterface, InterfaceLaw
 from exu_press.joints.joint import SHALLOW
-from exu_press.mechanism import GROUND, Joint, Motion
+from exu_press.mechanism import GROUND, Motion
+from exu_press.mechanism.planar_constraints import INDEPENDENT, null_space
 from exu_press.model.joints import interfaces_of
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
@@ -39,10 +40,6 @@ THICKEST = 0.98
 SHARPEST = 5.0
 """Part of itself that a joint's force may change by in a radian of the crank: where a journal is
 changing sides it rests nowhere."""
-
-RANK = 1e-7
-"""Singular value over the largest one: smaller ones belong to constraints that hold the same
-twice."""
 
 
 def moved_start(
@@ -111,13 +108,14 @@ def loaded_start(system: System) -> dict[str, Motion]:
     if speed > 0.0:
         rates = (poses[-1] - poses[0]) / ((ANGLES[-1] - ANGLES[0]) / speed)
     velocity = problem.on_constraints(poses[middle], rates)
+    position, velocity = poses[middle] * problem.scale, velocity * problem.scale
     return {
         name: Motion(
-            poses[middle, None, 3 * i : 3 * i + 3],
+            position[None, 3 * i : 3 * i + 3],
             velocity[None, 3 * i : 3 * i + 3],
             problem.ideal[name].acceleration[middle : middle + 1],
         )
-        for i, name in enumerate(problem.names)
+        for i, name in enumerate(problem.constraints.bodies)
     }
 
 
@@ -126,85 +124,59 @@ class _Problem:
 
     Attributes:
         system: whose start is wanted.
-        names: of the bodies; each has three places x, y and angle among all coordinates.
+        constraints: of all joints and guides, in coordinates relative to the mechanism's size.
+        scale: units of all coordinates, m and rad.
         loose: joints with clearance.
         films: (m,), which of these have one.
         ideal: name -> ideal motion at the angles.
-        crank: place of the crank's angle.
+        ideal_q: its coordinates, (k, n).
     """
 
     def __init__(self, system: System) -> None:
         """Take the ideal motion."""
         scene, self.mechanism = system.scene, system.mechanism
-        self.system, self.names = system, [body.name for body in self.mechanism.bodies]
-        ideal = scene.joints.ideal
-        self.loose = [joint for joint in self.mechanism.joints if joint.name not in ideal]
+        self.system, self.constraints = system, self.mechanism.constraints
+        size = self.constraints.size
+        self.scale = np.tile([size, size, 1.0], len(self.constraints.bodies))
+        self.loose = [j for j in self.mechanism.joints if j.name not in scene.joints.ideal]
         self.films = np.array(
             [scene.joints[joint.name].kind == "lubricated" for joint in self.loose]
         )
-        self._tight = [joint for joint in self.mechanism.joints if joint.name in ideal]
+        rows = self.constraints.rows
+        self._loose_rows = np.concatenate([rows[f"joints.{joint.name}"] for joint in self.loose])
+        self._crank = self.constraints.angle(self.mechanism.crank)
         self.angles = scene.start_angle + ANGLES
         self.ideal = self.mechanism.motion(self.angles, scene.start_speed)
-        self.crank = 3 * self.names.index(self.mechanism.crank) + 2
-        self._scale = np.tile([1.0, 1.0, 1.0 / self.mechanism.size], len(self.names))
+        self.ideal_q = self.constraints.coordinates(self.ideal)
 
-    def gap(self, joint: Joint, q: Array) -> tuple[Array, Array]:
-        """Return journal - bearing of a joint, (2,), and its Jacobian, (2, n)."""
-        apart, rows = np.zeros(2), np.zeros((2, len(q)))
-        for sign, (body, point) in zip((1.0, -1.0), self.mechanism.ends(joint), strict=True):
-            if body == GROUND:
-                apart += sign * np.array(point)
-                continue
-            i = 3 * self.names.index(body)
-            c, s = math.cos(q[i + 2]), math.sin(q[i + 2])
-            x, y = c * point[0] - s * point[1], s * point[0] + c * point[1]
-            apart += sign * np.array([q[i] + x, q[i + 1] + y])
-            rows[:, i : i + 3] = sign * np.array([[1.0, 0.0, -y], [0.0, 1.0, x]])
-        return apart, rows
+    def gaps(self, q: Array) -> tuple[Array, Array]:
+        """Return journal - bearing of the loose joints, (2 m,), and the Jacobian, (2 m, n)."""
+        residuals, rows = self.constraints.residuals(q), self.constraints.jacobian(q)
+        return residuals[self._loose_rows], rows[self._loose_rows]
 
     def held(self, q: Array, ideal: Array) -> tuple[Array, Array]:
         """Return the residuals of ideal joints, guides and drive at q, and their Jacobian."""
-        missed: list[float] = []
-        rows: list[Array] = []
-        for joint in self._tight:
-            apart, jacobian = self.gap(joint, q)
-            missed += apart.tolist()
-            rows += list(jacobian)
-        columns = np.eye(len(q))
-        for guide in self.mechanism.guides:
-            i = 3 * self.names.index(guide.body)
-            across = np.array(guide.across)
-            rows += [across @ columns[i : i + 2], columns[i + 2]]
-            missed += [float(across @ (q - ideal)[i : i + 2]), float((q - ideal)[i + 2])]
-        missed.append(float((q - ideal)[self.crank]))
-        return np.array(missed), np.array([*rows, columns[self.crank]])
-
-    def correction(self, rows: Array, missed: Array) -> Array:
-        """Return the smallest change of the coordinates that satisfies the constraints."""
-        scaled = rows * self._scale
-        return np.asarray(self._scale * np.linalg.lstsq(scaled, -missed, rcond=RANK)[0])
-
-    def free(self, rows: Array) -> Array:
-        """Return the motions (n, m) that constraints leave free."""
-        _, sizes, directions = np.linalg.svd(rows * self._scale)
-        rank = int((sizes > RANK * sizes[0]).sum())
-        return np.asarray(self._scale[:, None] * directions[rank:].T)
+        residuals, rows = (
+            np.delete(values, self._loose_rows, axis=0)
+            for values in (self.constraints.residuals(q), self.constraints.jacobian(q))
+        )
+        return np.append(residuals, self._crank @ (q - ideal)), np.vstack([rows, self._crank])
 
     def on_constraints(self, q: Array, q_t: Array) -> Array:
         """Return velocities that the constraints allow, next to the given ones."""
         rows = self.held(q, q)[1]
         wanted = np.zeros(len(rows))
         wanted[-1] = self.system.scene.start_speed
-        return np.asarray(q_t + self.correction(rows, rows @ q_t - wanted))
+        return np.asarray(q_t + correction(rows, rows @ q_t - wanted))
 
     def pressing(self, i: int) -> Array:
-        """Return the forces (n,) that the joints have to exert on the bodies at one angle."""
+        """Return the forces (n,), N m, that joints have to exert on coordinates at one angle."""
         scene, speed = self.system.scene, self.system.scene.start_speed
         crank = self.angles, np.full(len(ANGLES), speed)
         slider = self.ideal[self.mechanism.slider]
         height = self.mechanism.travel(slider.position) - self.mechanism.bottom
         velocity = self.mechanism.along(slider.velocity)
-        found = np.zeros(3 * len(self.names))
+        found = np.zeros(len(self.scale))
         for k, body in enumerate(self.mechanism.bodies):
             moving, mass, inertia = self.ideal[body.name], body.mass, body.inertia
             arm = np.zeros(2)
@@ -217,12 +189,17 @@ class _Problem:
             fx, fy = mass * a[0], mass * (a[1] + scene.gravity)
             found[3 * k : 3 * k + 3] = fx, fy, inertia * a[2] + arm[0] * fy - arm[1] * fx
         for load in self.system.loads.values():
-            k = 3 * self.names.index(load.body)
+            k = 3 * self.constraints.bodies.index(load.body)
             size = load.force(ANGLES / (speed or math.inf), crank, (height, velocity))
             angle = self.ideal[load.body].position[:, 2]
             found[k : k + 2] -= size[i] * np.array(load.direction)
             found[k + 2] -= load.moment(size, angle)[i]
-        return found
+        return np.asarray(found * self.scale)
+
+
+def correction(rows: Array, residuals: Array) -> Array:
+    """Return the smallest change of the coordinates that satisfies constraints."""
+    return np.asarray(np.linalg.lstsq(rows, -residuals, rcond=INDEPENDENT)[0])
 
 
 class _Instant:
@@ -235,15 +212,14 @@ class _Instant:
 
     def __init__(self, problem: _Problem, i: int) -> None:
         """Find the loads on the joints; several that bear one load share it evenly."""
-        self._problem = problem
-        parts = [problem.ideal[name] for name in problem.names]
-        self.ideal: Array = np.concatenate([part.position[i] for part in parts])
-        self._omega = {n: problem.ideal[n].velocity[i, 2] for n in problem.names} | {GROUND: 0.0}
-        self._free = problem.free(problem.held(self.ideal, self.ideal)[1])
-        rows = np.vstack([problem.gap(joint, self.ideal)[1] for joint in problem.loose])
-        self._reach = rows @ self._free
+        self._problem, self.ideal = problem, problem.ideal_q[i]
+        self._omega = {n: m.velocity[i, 2] for n, m in problem.ideal.items()} | {GROUND: 0.0}
+        self._angle = {n: m.position[i, 2] for n, m in problem.ideal.items()} | {GROUND: 0.0}
+        self._free = null_space(problem.held(self.ideal, self.ideal)[1]).T
+        self._reach = problem.gaps(self.ideal)[1] @ self._free
         pressing = self._free.T @ problem.pressing(i)
-        forces = np.linalg.lstsq(self._reach.T, pressing, rcond=RANK)[0]
+        forces = np.linalg.lstsq(self._reach.T, pressing, rcond=INDEPENDENT)[0]
+        forces = forces / problem.constraints.size
         self.forces = forces[0::2] + 1j * forces[1::2]
 
     def eccentricities(self, pressed: Array) -> Array:
@@ -276,8 +252,7 @@ class _Instant:
             n = wanted[k] / size
             angle, depth, slope = math.atan2(n[1], n[0]), 0.0, 0.0
             for body, shape in zip((joint.journal, joint.bearing), profiles, strict=True):
-                at = 0.0 if body == GROUND else self.ideal[3 * problem.names.index(body) + 2]
-                worn, change, _ = shape.at(angle - at)
+                worn, change, _ = shape.at(angle - self._angle[body])
                 depth, slope = depth + worn, slope + change
             clearance = unworn(kind).clearance
             if kind.onset is not None and size > clearance - kind.onset:
@@ -287,16 +262,15 @@ class _Instant:
         return found
 
     def moved(self, wanted: Array) -> Array:
-        """Return the coordinates (n,) with eccentricities (2 m,) as far as they are possible."""
+        """Return the coordinates (n,) with eccentricities (2 m,), m, as far as possible."""
         problem, q = self._problem, self.ideal
-        inverse = np.linalg.pinv(self._reach, rcond=RANK)
-        wanted = self._reach @ (inverse @ wanted)
+        inverse = np.linalg.pinv(self._reach, rcond=INDEPENDENT)
+        wanted = self._reach @ (inverse @ wanted) / problem.constraints.size
         for _ in range(3):
-            apart = np.concatenate([problem.gap(joint, q)[0] for joint in problem.loose])
-            q = q + self._free @ (inverse @ (wanted - apart))
-            missed, rows = problem.held(q, self.ideal)
-            q = q + problem.correction(rows, missed)
-        return q
+            q = q + self._free @ (inverse @ (wanted - problem.gaps(q)[0]))
+            residuals, rows = problem.held(q, self.ideal)
+            q = q + correction(rows, residuals)
+        return np.asarray(q)
 
 
 def _borne(

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from exu_press.laws.film import FILM_LAWS
+from exu_press.mechanism.doubtful import doubtful_drawing
 from exu_press.scene.applied import applied_loads
 from exu_press.scene.joint import LubricatedJoint
 from exu_press.scene.own_joint import OwnJoint
@@ -25,15 +26,6 @@ SOFTEST, STIFFEST = 1e9, 1.2e12
 
 LIGHTEST, HEAVIEST = 100.0, 25000.0
 """kg/m^3: foams, and osmium."""
-
-LARGEST = 30.0
-"""m, of a mechanism."""
-
-FAR = 3.0
-"""Sizes of the mechanism, from a body's joints to its centre of mass."""
-
-SHORT = 0.02
-"""Stroke over the crank's circle: a shorter one is hardly meant."""
 
 MILLI = 1e-3
 
@@ -71,32 +63,14 @@ def _drawing(scene: Scene) -> Iterator[str]:
     """Yield parts of a drawing of another size than machines, or than the rest of it."""
     mechanism = mechanism_of(scene)
     size = mechanism.size
-    if size > LARGEST:
-        yield (
-            f"the mechanism {mechanism.name} is {size:.3g} m large. Lengths are in m: is the "
-            "drawing in mm? Then divide its lengths by 1000."
-        )
+    position = mechanism.ideal_slider(np.linspace(0.0, 2.0 * math.pi, 181), 1.0)[0]
+    yield from doubtful_drawing(mechanism, float(np.ptp(position)))
     for name, joint in scene.joints.grouped.items():
         if not isinstance(joint, OwnJoint) and joint.radius > size:
             yield (
                 f"joints.{name}.radius = {joint.radius:g} m is larger than the mechanism of "
                 f"{size:.3g} m.{_slip(joint.radius, 1e-3 * size, size, 'm')}"
             )
-    for body in mechanism.bodies:
-        joints = [joint.at for joint in mechanism.joints_of(body.name)]
-        away = min((math.dist(body.centre_of_mass, at) for at in joints), default=0.0)
-        if away > FAR * size:
-            yield (
-                f"bodies.{body.name}.centre_of_mass lies {away:.3g} m from the next joint of the "
-                f"body, in a mechanism of {size:.3g} m: is it in the coordinates of the drawing?"
-            )
-    stroke = float(np.ptp(mechanism.ideal_slider(np.linspace(0.0, 2.0 * math.pi, 181), 1.0)[0]))
-    if mechanism.guides and stroke < SHORT * 2.0 * mechanism.crank_radius:
-        yield (
-            f"the output moves {1e3 * stroke:.3g} mm only, while the crank's circle is "
-            f"{2e3 * mechanism.crank_radius:.3g} mm wide. `exu-press draw` shows the drawing: is "
-            "a link too short?"
-        )
 
 
 def _guides(scene: Scene) -> Iterator[str]:

@@ -23,6 +23,12 @@ def test_a_mechanism_file_is_described(drawn, capsys):
         assert part in out
 
 
+def test_a_drawing_in_millimetres_is_warned_of(capsys):
+    lengths = ["--set", "slider_crank.crank_radius=30", "--set", "slider_crank.rod_length=150"]
+    assert main(["draw", "slider_crank", *lengths]) == 0
+    assert "is the drawing in mm?" in " ".join(capsys.readouterr().err.split())
+
+
 @pytest.mark.parametrize("kind", ["svg", "pdf"])
 def test_a_picture_is_written(drawn, kind, capsys):
     target = drawn.with_suffix(f".{kind}")

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from drawings import four_bar, slider_crank
+from drawings import four_bar, slider_crank, stephenson
 
+from exu_press.mechanism import Press, press
 from exu_press.mechanism.transmission import alike, transmission_angles
 
 ANGLES = np.radians(np.arange(0.0, 360.0, 5.0))
@@ -27,6 +28,17 @@ def test_of_a_four_bar():
     across = crank**2 + base**2 - 2 * crank * base * np.cos(ANGLES + at)
     cosine = (coupler**2 + rocker**2 - across) / (2 * coupler * rocker)
     assert found["knuckle"] == pytest.approx(np.arccos(np.abs(cosine)), abs=1e-11)
+
+
+def test_links_that_close_in_larger_groups_only_have_none():
+    assert transmission_angles(stephenson(), ANGLES) == {}
+
+
+def test_of_the_dyads_of_a_press():
+    """The right half holds the slider, which holds the left plunger: its link has none."""
+    found = set(transmission_angles(press(Press()), ANGLES))
+    right = {"knuckle_6_right", "plunger_pin_right"}
+    assert found == {"slide_pin", "counterweight_pin", "knuckle_6_left"} | right
 
 
 def test_the_same_angles_are_named_together_smallest_first():

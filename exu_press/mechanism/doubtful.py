@@ -1,0 +1,46 @@
+"""Drawings that are allowed but hardly meant: lengths in another unit, links of slips."""
+
+import math
+from collections.abc import Iterator
+
+from exu_press.mechanism.mechanism import Mechanism
+
+__all__ = ["doubtful_drawing"]
+
+LARGEST = 30.0
+"""m, of a mechanism."""
+
+FAR = 3.0
+"""Sizes of the mechanism, from a body's joints to its centre of mass."""
+
+SHORT = 0.02
+"""Stroke over the crank's circle: a shorter one is hardly meant."""
+
+
+def doubtful_drawing(mechanism: Mechanism, stroke: float) -> Iterator[str]:
+    """Yield warnings about a drawing of another size than machines, or than the rest of it.
+
+    Args:
+        mechanism: drawn.
+        stroke: of its output, m; infinite where the crank does not turn.
+    """
+    size = mechanism.size
+    if size > LARGEST:
+        yield (
+            f"the mechanism {mechanism.name} is {size:.3g} m large. Lengths are in m: is the "
+            "drawing in mm? Then divide its lengths by 1000."
+        )
+    for body in mechanism.bodies:
+        joints = [joint.at for joint in mechanism.joints_of(body.name)]
+        away = min((math.dist(body.centre_of_mass, at) for at in joints), default=0.0)
+        if away > FAR * size:
+            yield (
+                f"bodies.{body.name}.centre_of_mass lies {away:.3g} m from the next joint of the "
+                f"body, in a mechanism of {size:.3g} m: is it in the coordinates of the drawing?"
+            )
+    if mechanism.guides and stroke < SHORT * 2.0 * mechanism.crank_radius:
+        yield (
+            f"the output moves {1e3 * stroke:.3g} mm only, while the crank's circle is "
+            f"{2e3 * mechanism.crank_radius:.3g} mm wide. `exu-press draw` shows the drawing: is "
+            "a link too short?"
+        )

@@ -1,0 +1,147 @@
+"""The constraints of a planar mechanism: joints and guides as one system.
+
+Lengths are relative to the mechanism's size, so that displacements compare with rotations.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exu_press.mechanism.constraint import Coincidence, PointOnLine, Poses, RotationRatio
+from exu_press.mechanism.motion import Motion
+from exu_press.mechanism.parts import GROUND, PRECISION, Body, Guide, Joint, Point
+from exu_press.numerics.arrays import Array
+
+__all__ = ["INDEPENDENT", "PlanarConstraints", "null_space", "planar_constraints"]
+
+INDEPENDENT = 10.0 * PRECISION
+"""Singular value, over the largest one, from which constraints count as independent."""
+
+Constraint = Coincidence | PointOnLine | RotationRatio
+
+
+@dataclass(frozen=True)
+class PlanarConstraints:
+    """Residuals, Jacobian and rates of constraints, for coordinates (..., 3 n) of n bodies.
+
+    Attributes:
+        size: of the mechanism, m.
+        bodies: names, in the order of their coordinates x and y, over the size, and angle, rad.
+        drawn: coordinates in the drawing, (3 n,).
+        constraints: with their names. "joints.NAME" has two rows, journal minus bearing along x
+            and y; "guides.BODY" has one across it and one of the angle.
+    """
+
+    size: float
+    bodies: tuple[str, ...]
+    drawn: tuple[float, ...]
+    constraints: tuple[tuple[str, Constraint], ...]
+
+    @cached_property
+    def _by_kind(self) -> list[tuple[list[str], Constraint]]:
+        """Names of all constraints of a kind, and their fields as arrays."""
+        kinds: dict[type, dict[str, Constraint]] = {}
+        for name, constraint in self.constraints:
+            kinds.setdefault(type(constraint), {})[name] = constraint
+        return [
+            (list(alike), kind(*map(np.array, zip(*alike.values(), strict=True))))
+            for kind, alike in kinds.items()
+        ]
+
+    @cached_property
+    def rows(self) -> Mapping[str, NDArray[np.intp]]:
+        """Name -> its rows."""
+        rows: dict[str, list[int]] = {name: [] for name, _ in self.constraints}
+        names = [
+            name
+            for names, kind in self._by_kind
+            for _ in kind.gradients(Poses(np.array(self.drawn)))
+            for name in names
+        ]
+        for number, name in enumerate(names):
+            rows[name].append(number)
+        return {name: np.array(numbers) for name, numbers in rows.items()}
+
+    def residuals(self, q: Array) -> Array:
+        """Return by how much the constraints are not kept, (..., m)."""
+        poses = Poses(q)
+        return np.concatenate([r for _, kind in self._by_kind for r in kind.residuals(poses)], -1)
+
+    def jacobian(self, q: Array) -> Array:
+        """Return the residuals' derivatives by the coordinates, (..., m, 3 n)."""
+        poses = Poses(q)
+        gradients = [
+            (len(names), g) for names, kind in self._by_kind for g in kind.gradients(poses)
+        ]
+        matrix = np.zeros((*q.shape[:-1], sum(count for count, _ in gradients), q.shape[-1] + 3))
+        first = 0
+        for count, terms in gradients:
+            row = np.arange(first, first + count)
+            for body, by_centre, by_angle in terms:
+                matrix[..., row, 3 * body] = np.real(by_centre)
+                matrix[..., row, 3 * body + 1] = np.imag(by_centre)
+                matrix[..., row, 3 * body + 2] = by_angle
+            first += count
+        return matrix[..., :-3]  # without the frame
+
+    def rates(self, q: Array, q_t: Array) -> Array:
+        """Return the residuals' second derivatives in time without accelerations, (..., m)."""
+        poses = Poses(q, q_t)
+        return np.concatenate([r for _, kind in self._by_kind for r in kind.rates(poses)], -1)
+
+    def coordinates(self, motions: Mapping[str, Motion]) -> Array:
+        """Return the coordinates (k, 3 n) of bodies that move over k instants."""
+        poses = [motions[body].position / (self.size, self.size, 1.0) for body in self.bodies]
+        return np.concatenate(poses, axis=-1)
+
+    def angle(self, body: str) -> Array:
+        """Return the row of a body's angle, (3 n,)."""
+        return np.asarray(np.eye(len(self.drawn))[3 * self.bodies.index(body) + 2])
+
+    def moving(self, directions: Array, least: float = INDEPENDENT) -> tuple[str, ...]:
+        """Return the bodies that move in one of the directions (k, 3 n), which have unit length."""
+        moved = np.abs(directions).max(axis=0, initial=0.0).reshape(-1, 3).max(axis=1)
+        return tuple(self.bodies[index] for index in np.flatnonzero(moved > least))
+
+
+def planar_constraints(
+    bodies: Sequence[Body], joints: Sequence[Joint], guides: Sequence[Guide], size: float
+) -> PlanarConstraints:
+    """Return the constraints of ideal joints and guides on bodies, in a drawing of some size, m."""
+    index = {body.name: number for number, body in enumerate(bodies)} | {GROUND: len(bodies)}
+    drawn = {body.name: body for body in bodies} | {GROUND: Body(GROUND, 0.0)}
+
+    def end(name: str, at: Point) -> tuple[int, complex]:
+        return index[name], complex(*drawn[name].local(at)) / size
+
+    def constraints() -> Iterator[tuple[str, Constraint]]:
+        for joint in joints:
+            ends = *end(joint.journal, joint.at), *end(joint.bearing, joint.at)
+            yield f"joints.{joint.name}", Coincidence(*ends)
+        for guide in guides:
+            body = drawn[guide.body]
+            ends = index[guide.body], 0j, *end(GROUND, body.centre_of_mass)
+            yield f"guides.{guide.body}", PointOnLine(*ends, complex(*guide.across))
+            turning = RotationRatio(index[guide.body], index[GROUND], 1.0, body.angle)
+            yield f"guides.{guide.body}", turning
+
+    return PlanarConstraints(
+        size,
+        tuple(body.name for body in bodies),
+        tuple(q for b in bodies for q in (*(x / size for x in b.centre_of_mass), b.angle)),
+        tuple(constraints()),
+    )
+
+
+def null_space(rows: Array, least: float = INDEPENDENT) -> Array:
+    """Return orthonormal motions (k, n) that constraints (m, n) allow.
+
+    Args:
+        rows: of a Jacobian.
+        least: singular value, over the largest one, from which a constraint counts.
+    """
+    _, sizes, directions = np.linalg.svd(rows)
+    return np.asarray(directions[int((sizes > least * sizes[0]).sum()) :])

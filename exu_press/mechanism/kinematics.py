@@ -44,7 +44,7 @@ FURTHER_KNOTS = 361
 SINGULAR = 1e-6
 """Smallest singular value of the constraints, relative to the size, that counts as held."""
 
-FAST = 1e2
+FAST = 30.0
 """Rate per crank angle from which a singular position is a dead centre, not a branching."""
 
 ITERATIONS = 12
@@ -53,7 +53,8 @@ FREE, CRANK = slice(None, -3), slice(-3, None)
 """Coordinates that follow from those of the crank, which are the last."""
 
 TAKES_PART = 1e-2
-"""Part of the largest motion, or of the largest force, that counts in a singular position."""
+"""Part of the largest gap, or of the largest product of motion and force in a singular position,
+with which a body has its share in it."""
 
 
 class MotionError(InputError):
@@ -149,9 +150,7 @@ class Kinematics:
         """Return what `_at` does at crank angles (n,), from the knots around them."""
         turns = np.floor(angle / (2.0 * np.pi))
         within = angle - 2.0 * np.pi * turns
-        knot = np.clip(
-            np.searchsorted(self._angles, within, side="right"), 1, len(self._angles) - 1
-        )
+        knot = np.searchsorted(self._angles[1:-1], within, side="right") + 1
         levels = _between(self._angles, self._knots, knot, within)
         levels[0] += 2.0 * np.pi * turns[:, None] * self._turns
         inverses = None if self._inverses is None else self._inverses[knot]
@@ -248,13 +247,14 @@ class Kinematics:
             )
         else:  # what moves freely in the singular position, and is under stress there
             forces, _, motions = np.linalg.svd(jacobian[:, FREE])
-            motion = np.append(motions[-1], np.zeros(3))[None]
+            motion = np.append(motions[-1], np.zeros(3))
             stress = forces[:, len(motions) - 1, None] * jacobian
-            moved, stressed = (
-                constraints.moving(values, TAKES_PART * np.abs(values).max())
+            motion, stress = (
+                np.abs(values).reshape(-1, len(constraints.bodies), 3).max(axis=(0, 2))
                 for values in (motion, stress)
             )
-            bodies = tuple(body for body in moved if body in stressed) or moved
+            both = motion * stress
+            bodies = tuple(np.array(constraints.bodies)[both > TAKES_PART * both.max()])
             does = "lock: they reach no further" if fast else "lock or branch"
             text = f"{_listed(bodies)} {does} {where}"
         poses = last[0].reshape(-1, 3) * (constraints.size, constraints.size, 1.0)

@@ -167,7 +167,8 @@ class Mechanism:
         Raises:
             InputError: the mechanism has another mobility than the crank's, locks or branches.
         """
-        return self._kinematics().motion(angle, speed)
+        motions = self._kinematics().motion(angle, speed)
+        return {body.name: motions[body.name] for body in self.bodies}
 
     def ideal_slider(self, angle: Array, speed: float) -> tuple[Array, Array, Array]:
         """Return position (m), velocity and acceleration of the slider with ideal joints."""

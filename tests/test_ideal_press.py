@@ -60,7 +60,7 @@ def test_both_balls_carry_the_same_force_and_together_the_slider():
     result = run("press")
     left, right = result["ball_left_force"], result["ball_right_force"]
     scale = np.abs(left).max()
-    assert np.abs(left - right).max() < 1e-6 * scale  # Newton's tolerance
+    assert np.abs(left - right).max() < 2e-6 * scale  # Newton's tolerance
     lifted = 1347.0 * (result["slider_acceleration"] + 9.81)
     # The force on the ball is the opposite of the one on the slider.
     assert np.abs((left + right)[1:, 1] + lifted[1:]).max() < 1e-6 * scale

@@ -9,6 +9,7 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
+from exu_press.numerics.piecewise import evaluate
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.studies.curve_file import OVER, CurveFile, computed, factor_to
@@ -28,7 +29,7 @@ class Beside:
     Attributes:
         curve: contents of the file.
         measured: (m,).
-        values: computed ones there, (m,), on lines between steps.
+        values: computed ones there, (m,).
         unit: of both.
     """
 
@@ -59,11 +60,7 @@ def beside(file: Path, curve: CurveFile, result: Result) -> Beside:
     Raises:
         InputError: the run has no such channel, or not over all of the curve.
     """
-    at, values, unit = computed(str(file), curve, result)
-    if values.ndim != 1:
-        raise InputError(
-            f"{file}: column {curve.name!r} has several values at a time; allowed is one"
-        )
+    at, polynomials, unit = computed(str(file), curve, result)
     measured = factor_to(f"{file}: {curve.name}", curve.unit, unit) * curve.values
     begin, end = float(at[0]), float(at[-1])
     if curve.at[0] < begin - 1e-9 or curve.at[-1] > end + 1e-9:
@@ -71,7 +68,7 @@ def beside(file: Path, curve: CurveFile, result: Result) -> Beside:
             f"{file}: {curve.over} from {curve.at[0]:g} to {curve.at[-1]:g}; allowed is a part of "
             f"the run, from {begin:g} to {end:g} (--set revolutions=... makes it longer)"
         )
-    return Beside(curve, measured, np.interp(curve.at, at, values), unit)
+    return Beside(curve, measured, evaluate(at, polynomials, curve.at), unit)
 
 
 def beside_rows(name: str, runs: Mapping[str, Mapping[str, Any]]) -> list[list[str]]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
+from exu_press.numerics.piecewise import hermite, unbent
 from exu_press.result import Result
 from exu_press.schema.checks import nearest
 from exu_press.schema.two_columns import read_two_columns
@@ -17,6 +18,13 @@ __all__ = ["OVER", "CurveFile", "computed", "factor_to", "read_curve"]
 
 OVER = {"time": "s", "crank_angle": "deg"}
 """First column -> the unit that it is converted to."""
+
+RATES = {
+    "crank_angle": "crank_speed",
+    "slider_position": "slider_velocity",
+    "slider_velocity": "slider_acceleration",
+}
+"""Channel -> the channel of its rate."""
 
 STATED = re.compile(r"#\s*samples\s*[=:]\s*(\d+)\s*")
 FEWEST = 4
@@ -73,17 +81,21 @@ def read_curve(path: Path) -> CurveFile:
 def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array, str]:
     """Return what a run has of the quantity that a curve shows, over places that increase.
 
+    Between steps it is Hermite's polynomial where the run has the channel's rate; else, as forces
+    have corners and jumps, `unbent`.
+
     Args:
         where: the file, said of a fault.
         curve: whose second column names a channel.
         result: of the run.
 
     Returns:
-        the run's times, s, or crank angles, deg, (n,); the channel's values there; their SI unit.
+        the run's times, s, or crank angles, deg, (n,); coefficients of the polynomials between
+        them, for `numerics.piecewise.evaluate`; their SI unit.
 
     Raises:
-        InputError: the run has no such channel, or its crank stands or turns back where the curve
-            is over the crank angle.
+        InputError: the run has no such channel, or one of several values at a time, or its crank
+            stands or turns back where the curve is over the crank angle.
     """
     name = curve.name
     if name not in result.units:
@@ -91,6 +103,9 @@ def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array
             f"{where}: column {name!r}{nearest(name, result.units)}; allowed are channels of a "
             f"run, as {', '.join(list(result.units)[:8])}"
         )
+    values = result[name]
+    if values.ndim != 1:
+        raise InputError(f"{where}: column {name!r} has several values at a time; allowed is one")
     angle = curve.over == "crank_angle"
     at = np.degrees(result["crank_angle"]) if angle else result.time
     back = (at[1:] <= at[:-1]) & (at[1:] <= curve.at[-1]) & (at[:-1] >= curve.at[0])
@@ -100,7 +115,13 @@ def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array
             f"{where}: over crank_angle; the run's crank stands or turns back at "
             f"{at[first]:.6g} deg, t = {result.time[first]:.6g} s; allowed is a curve over time"
         )
-    return at, result[name], result.units[name]
+    if name not in RATES:
+        return at, unbent(at, values), result.units[name]
+    rate = result[RATES[name]]
+    if angle:
+        with np.errstate(divide="ignore", invalid="ignore"):  # where the crank stands
+            rate = rate / np.degrees(result["crank_speed"])
+    return at, hermite(at, values, rate), result.units[name]
 
 
 def factor_to(where: str, unit: str, wanted: str) -> float:

@@ -5,16 +5,21 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["eccentric", "knuckle"]
+__all__ = ["eccentric", "four_bar", "knuckle"]
 
 
-def eccentric(random: np.random.Generator) -> dict[str, Any]:
-    """Return a random eccentric press: crank, rod, and a slide beside the crank's centre."""
-    crank = float(random.uniform(0.01, 0.15))
+def eccentric(random: np.random.Generator, size: float) -> dict[str, Any]:
+    """Return a random eccentric press: crank, rod, and a slide beside the crank's centre.
+
+    Args:
+        random: generator.
+        size: factor on lengths; masses go with its cube. A crank has 10 to 150 mm times this.
+    """
+    crank = size * float(random.uniform(0.01, 0.15))
     aside = crank * float(random.uniform(-0.3, 0.3))
     rod = crank * float(random.uniform(3.0, 6.0))
     low = -math.sqrt(rod**2 - aside**2) + crank
-    mass = float(10.0 ** random.uniform(-0.5, 2.0))
+    mass = size**3 * float(10.0 ** random.uniform(-0.5, 2.0))
     slide = mass * float(random.uniform(0.5, 5.0))
     return {
         "name": "eccentric",
@@ -34,21 +39,55 @@ def eccentric(random: np.random.Generator) -> dict[str, Any]:
     }
 
 
-def knuckle(random: np.random.Generator) -> dict[str, Any]:
-    """Return a random knuckle press: crank, rod, two links and a ram."""
-    size = float(random.uniform(0.1, 0.6))
+def four_bar(random: np.random.Generator, size: float) -> dict[str, Any]:
+    """Return a random crank-rocker; arguments as those of `eccentric`."""
+    crank = size * float(random.uniform(0.02, 0.15))
+    coupler, rocker = crank * random.uniform([2.5, 2.0], [5.0, 4.0])
+    # Grashof's rule, with room for the transmission angle
+    frame = float(random.uniform(coupler - rocker, coupler + rocker)) * 0.5 + 1.5 * crank
+    frame = min(max(frame, abs(coupler - rocker) + 1.5 * crank), coupler + rocker - 1.5 * crank)
+    at = float(random.uniform(0.0, 2.0 * math.pi))
+    pin = [crank * math.cos(at), crank * math.sin(at)]
+    to_pivot = [frame - pin[0], -pin[1]]
+    distance = math.hypot(*to_pivot)
+    along = (distance**2 + coupler**2 - rocker**2) / (2.0 * distance)
+    across = math.sqrt(coupler**2 - along**2)
+    knuckle = [
+        float(pin[0] + (along * to_pivot[0] - across * to_pivot[1]) / distance),
+        float(pin[1] + (along * to_pivot[1] + across * to_pivot[0]) / distance),
+    ]
+    mass = size**3 * float(10.0 ** random.uniform(-0.5, 1.5))
+    weights = random.uniform(0.3, 2.0, 2)
+    return {
+        "name": "crank_rocker",
+        "crank": "crank",
+        "output": {"body": "rocker", "direction": [1, 0]},
+        "bodies": {
+            "crank": _body([0.5 * pin[0], 0.5 * pin[1]], mass, mass * crank**2),
+            "coupler": _body(_middle(pin, knuckle), mass * float(weights[0])),
+            "rocker": _body(_middle([frame, 0.0], knuckle), mass * float(weights[1])),
+        },
+        "joints": {
+            "shaft": _joint([0.0, 0.0], "crank", "frame"),
+            "crank_pin": _joint(pin, "crank", "coupler"),
+            "knuckle": _joint(knuckle, "rocker", "coupler"),
+            "pivot": _joint([frame, 0.0], "rocker", "frame"),
+        },
+    }
+
+
+def knuckle(random: np.random.Generator, size: float) -> dict[str, Any]:
+    """Return a random knuckle press: crank, rod, two links and a ram; arguments likewise."""
+    cubed = size**3
+    size *= float(random.uniform(0.1, 0.6))
     links = size * random.uniform([0.35, 0.35], [0.65, 0.65])
     bent = np.radians(random.uniform(12.0, 25.0))  # of the upper link, as drawn
     pin = [-float(links[0] * math.sin(bent)), size - float(links[0] * math.cos(bent))]
     low = pin[1] - math.sqrt(links[1] ** 2 - pin[0] ** 2)
     crank = float(random.uniform(0.3, 0.6)) * abs(pin[0])
     shaft = [pin[0] - float(random.uniform(0.8, 1.4)) * size, pin[1]]
-    mass = float(10.0 ** random.uniform(0.0, 1.5))
+    mass = cubed * float(10.0 ** random.uniform(0.0, 1.5))
     ram = mass * float(random.uniform(2.0, 10.0))
-
-    def middle(one: list[float], other: list[float]) -> list[float]:
-        return [0.5 * (a + b) for a, b in zip(one, other, strict=True)]
-
     crank_pin, pivot, wrist = [shaft[0], shaft[1] + crank], [0.0, size], [0.0, low]
     return {
         "name": "knuckle",
@@ -56,9 +95,9 @@ def knuckle(random: np.random.Generator) -> dict[str, Any]:
         "output": {"body": "ram", "direction": [0, 1]},
         "bodies": {
             "crank": _body(shaft, mass, mass * crank**2),
-            "rod": _body(middle(crank_pin, pin), mass),
-            "upper_link": _body(middle(pivot, pin), mass),
-            "lower_link": _body(middle(pin, wrist), mass),
+            "rod": _body(_middle(crank_pin, pin), mass),
+            "upper_link": _body(_middle(pivot, pin), mass),
+            "lower_link": _body(_middle(pin, wrist), mass),
             "ram": _body(wrist, ram, 0.05 * ram * size**2),
         },
         "joints": {
@@ -71,6 +110,10 @@ def knuckle(random: np.random.Generator) -> dict[str, Any]:
         },
         "guides": {"ram": {"direction": [0, 1]}},
     }
+
+
+def _middle(one: list[float], other: list[float]) -> list[float]:
+    return [0.5 * (a + b) for a, b in zip(one, other, strict=True)]
 
 
 def _body(centre: list[float], mass: float, inertia: float | None = None) -> dict[str, Any]:

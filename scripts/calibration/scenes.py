@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from calibration.mechanisms import eccentric, knuckle
+from calibration.mechanisms import eccentric, four_bar, knuckle
 from exu_press import InputError, Scene
 from exu_press.mechanism import SHIPPED, Mechanism
 from exu_press.quantities.dead_centre import ideal_bottom_angle
@@ -16,9 +16,15 @@ __all__ = ["chaotic_scene", "groups_of", "random_scene"]
 
 LAWS = ("none", "coulomb", "stribeck", "lugre_steady", "lugre")
 
-OWN = {"eccentric": eccentric, "knuckle": knuckle}
+OWN = {"own eccentric": eccentric, "own knuckle": knuckle, "own crank_rocker": four_bar}
 
-MECHANISMS = ("press", "slider_crank", *SHIPPED, *OWN)
+MECHANISMS = ("press", "slider_crank", *SHIPPED, *OWN, "own crank_rocker", "own crank_rocker")
+
+WATCH = 0.02
+"""Largest factor on the lengths of machines as small as those in watches."""
+
+SLOW = 30.0
+"""rpm"""
 
 BY_DEFAULT = ("press", "slider_crank", "eccentric_press")
 """Mechanisms with sizes of their own for joints, contact and film."""
@@ -26,7 +32,7 @@ BY_DEFAULT = ("press", "slider_crank", "eccentric_press")
 PARTING = (*3 * ("slider_crank",), "press", "eccentric_press", "four_bar")
 """Mechanisms of chaotic scenes: most are slider-cranks, whose runs are short and part often."""
 
-FORCES = {"press": 6e4, "eccentric_press": 6e4, "six_bar": 3e4, "knuckle": 1e4}
+FORCES = {"press": 6e4, "eccentric_press": 6e4, "six_bar": 3e4, "own knuckle": 1e4}
 """Largest forces of loads, N; of others 1 kN."""
 
 
@@ -80,6 +86,10 @@ def groups_of(scene: Scene) -> list[str]:
     assert solver is not None
     given = scene.mechanism
     found = [f"mechanism: {given if isinstance(given, str) else 'own ' + given.name}"]
+    if not isinstance(given, str) and _reach(given) < WATCH:
+        found.append("size: of a watch")
+    if scene.speed_rpm < SLOW:
+        found.append(f"speed: below {SLOW:g} rpm")
     kinds = {joint.kind for joint in scene.joints.values()}
     mixed = scene.film is not None and scene.film.at_contact == "mixed"
     names = {"dry": "dry", "lubricated": "mixed" if mixed else "lubricated"}
@@ -92,9 +102,13 @@ def groups_of(scene: Scene) -> list[str]:
         found += [f"guides: {kind}", f"friction of guides: {guide.friction}"]
     if scene.drive is not None:
         found.append("motor")
-    found += [f"load: {load.kind}" for load in scene.load.values()]
+    loads = [f"load: {load.kind}" for load in scene.load.values()]
+    found += loads
+    found += ["motor, load: blanking"] if scene.drive and "load: blanking" in loads else []
     if scene.bodies:
         found.append("flexible")
+    if joints == ["dry"] and not (scene.guide or scene.drive or loads or scene.bodies):
+        found.append("joints: dry alone")
     if solver.step is not None:
         found.append("steps: fixed")
     elif solver.tolerance is not None:
@@ -103,26 +117,36 @@ def groups_of(scene: Scene) -> list[str]:
     return sorted({*found})
 
 
+def _reach(mechanism: Mechanism) -> float:
+    """Return the largest distance of a joint from the first one, m."""
+    at = np.array([joint.at for joint in mechanism.joints])
+    return float(np.linalg.norm(at - at[0], axis=1).max())
+
+
 def _drawn(random: np.random.Generator, longest: float) -> dict[str, Any]:
     """Return what may be a scene."""
     name = _one_of(random, MECHANISMS)
+    small = name in OWN and random.random() < 0.3
+    size = float(10.0 ** random.uniform(-3.0, -1.7)) if small else 1.0
     given: dict[str, Any] = {
-        "mechanism": OWN[name](random) if name in OWN else name,
-        "speed_rpm": float(random.uniform(60.0, 400.0)),
+        "mechanism": OWN[name](random, size) if name in OWN else name,
+        "speed_rpm": float(10.0 ** random.uniform(1.0, 2.6)),
         "revolutions": float(random.uniform(0.1, longest)),
         "start_angle_deg": float(random.uniform(0.0, 360.0)),
     }
+    if name in OWN and random.random() < 0.3:
+        given["gravity"] = 0.0
     mechanism = mechanism_of(Scene.from_dict({"mechanism": given["mechanism"]}))
-    given |= _joints(random, mechanism, own_sizes=name not in BY_DEFAULT)
+    given |= _joints(random, mechanism, size, own_sizes=name not in BY_DEFAULT)
     if mechanism.guides and random.random() < 0.4:
-        given["guide"] = _guide(random)
-    if random.random() < 0.15:
+        given["guide"] = _guide(random, size)
+    if random.random() < 0.2:
         given["drive"] = {
-            "inertia": float(10.0 ** random.uniform(0.0, 2.5)),
-            "rated_torque": float(10.0 ** random.uniform(1.5, 3.0)),
+            "inertia": size**5 * float(10.0 ** random.uniform(0.0, 2.5)),
+            "rated_torque": size**3 * float(10.0 ** random.uniform(1.5, 3.0)),
         }
-    if random.random() < 0.4:
-        given |= _load(random, given, mechanism, FORCES.get(name, 1e3))
+    if random.random() < (0.7 if "drive" in given else 0.4):
+        given |= _load(random, given, mechanism, size**2 * FORCES.get(name, 1e3))
     if random.random() < 0.15:
         given["solver"] = {"step": float(10.0 ** random.uniform(-5.5, -4.0))}
     else:
@@ -133,7 +157,7 @@ def _drawn(random: np.random.Generator, longest: float) -> dict[str, Any]:
 
 
 def _joints(
-    random: np.random.Generator, mechanism: Mechanism, *, own_sizes: bool
+    random: np.random.Generator, mechanism: Mechanism, size: float, *, own_sizes: bool
 ) -> dict[str, Any]:
     """Return the tables of joints: most scenes have clearance in one, some in two."""
     kind = str(random.choice(["dry", "lubricated", "mixed", "ideal"], p=[0.45, 0.2, 0.2, 0.15]))
@@ -141,13 +165,13 @@ def _joints(
         return {}
     names = [joint.name for joint in mechanism.joints if not joint.spherical]
     several = min(len(names), 1 + int(random.random() < 0.2))
-    sizes = {"radius": 0.02} if own_sizes else {}
-    length = {"length": 0.03} if own_sizes else {}
+    sizes = {"radius": 0.02 * size} if own_sizes else {}
+    length = {"length": 0.03 * size} if own_sizes else {}
     drawn: dict[str, Any] = {"joints": {}}
     for name in random.choice(names, several, replace=False):
         drawn["joints"][str(name)] = {
             "kind": "dry" if kind == "dry" else "lubricated",
-            "clearance": float(10.0 ** random.uniform(-4.7, -3.7)),
+            "clearance": size * float(10.0 ** random.uniform(-4.7, -3.7)),
             **sizes,
         }
     if kind != "dry":
@@ -164,18 +188,27 @@ def _joints(
         drawn["contact"] = {"restitution": float(random.uniform(0.5, 0.95)), **length}
         if mechanism.name == "press":  # its contact is damped by steps
             del drawn["contact"]["restitution"]
+        elif not length and random.random() < 0.3:
+            drawn["contact"] = {
+                "shape": "point",
+                "stiffness": float(10.0 ** random.uniform(8.0, 9.5)),
+                "exponent": float(random.choice([1.0, 1.5])),
+                "damping": "step",
+                "damping_max": float(10.0 ** random.uniform(4.0, 6.0)),
+                "damping_depth": float(10.0 ** random.uniform(-6.0, -5.0)),
+            }
     return drawn
 
 
-def _guide(random: np.random.Generator) -> dict[str, Any]:
+def _guide(random: np.random.Generator, size: float) -> dict[str, Any]:
     """Return [guide]: with clearance, elastic, or ideal with friction."""
     kind = str(random.choice(["clearance", "elastic", "ideal"], p=[0.6, 0.2, 0.2]))
     law = _one_of(random, LAWS[1:] if kind == "ideal" else LAWS)
     drawn: dict[str, Any] = {"friction": law, **_coefficients(random, law)}
     if kind == "clearance":
-        drawn["clearance"] = float(10.0 ** random.uniform(-5.0, -4.0))
+        drawn["clearance"] = size * float(10.0 ** random.uniform(-5.0, -4.0))
     elif kind == "elastic":
-        drawn["lateral_stiffness"] = float(10.0 ** random.uniform(7.0, 9.0))
+        drawn["lateral_stiffness"] = size * float(10.0 ** random.uniform(7.0, 9.0))
     return drawn
 
 

@@ -11,6 +11,7 @@ from scipy.signal import butter, sosfilt, sosfilt_zi
 
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
+from exu_press.numerics.piecewise import evaluate, unbent
 from exu_press.schema.checks import Table, key
 from exu_press.studies.curve_file import CurveFile, factor_to, read_curve
 from exu_press.studies.fit.measured import under_of
@@ -130,7 +131,7 @@ class Matched:
         return {n: getattr(self, n) for n in names if getattr(self, n) is not None}
 
 
-def matched(curve: Curve, wanted: Array, at: Array, computed: Array) -> Matched | None:
+def matched(curve: Curve, wanted: Array, at: Array, polynomials: Array) -> Matched | None:
     """Return the computed curve with the sensor's parameters that fit best; None if too short.
 
     The parameters of the sensor are fitted inside of each evaluation of the keys (variable
@@ -140,7 +141,7 @@ def matched(curve: Curve, wanted: Array, at: Array, computed: Array) -> Matched 
         curve: measured data, and unknowns of the sensor.
         wanted: measured values, SI, (m,).
         at: where the run has values, (n,), increasing.
-        computed: there, (n,).
+        polynomials: their coefficients between these, (4, n - 1).
     """
     places = curve.read.at
     if places[0] + curve.shift[0] < at[0] - 1e-9 or places[-1] + curve.shift[1] > at[-1] + 1e-9:
@@ -148,10 +149,10 @@ def matched(curve: Curve, wanted: Array, at: Array, computed: Array) -> Matched 
     unknown = (curve.shift, curve.low_cut, curve.high_cut)
 
     def recorded(shift: float, low: float | None, high: float | None) -> Matched:
-        t, values = at, computed
+        t, between = at, polynomials
         if low is not None or high is not None:
-            t, values = _filtered(at, computed, low, high)
-        found = np.interp(places + shift, t, values)
+            t, between = _filtered(at, polynomials, low, high)
+        found = evaluate(t, between, places + shift)
         offset = float((wanted - found).mean()) if curve.offset else 0.0
         return Matched(found + offset, offset, shift, low, high)
 
@@ -179,15 +180,15 @@ def matched(curve: Curve, wanted: Array, at: Array, computed: Array) -> Matched 
 
 
 def _filtered(
-    at: Array, values: Array, low: float | None, high: float | None
+    at: Array, polynomials: Array, low: float | None, high: float | None
 ) -> tuple[Array, Array]:
     """Return a curve through the sensor's band, at even times, from rest in its first value."""
     fastest = max(f for f in (low, high) if f is not None)
     number = max(int((at[-1] - at[0]) * fastest * PER_PERIOD), len(at)) + 1
     even = np.linspace(at[0], at[-1], number)
-    found, rate = np.interp(even, at, values), (number - 1) / (at[-1] - at[0])
+    found, rate = evaluate(at, polynomials, even), (number - 1) / (at[-1] - at[0])
     for corner, kind in ((low, "highpass"), (high, "lowpass")):
         if corner is not None:
             sections = butter(2, corner, kind, fs=rate, output="sos")
             found = sosfilt(sections, found, zi=sosfilt_zi(sections) * found[0])[0]
-    return even, np.asarray(found)
+    return even, unbent(even, found)

@@ -3,7 +3,9 @@
 import dataclasses
 import hashlib
 import json
+import math
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -22,13 +24,27 @@ from exu_press.studies.fit.study import Fit
 
 __all__ = ["Problem", "file_of"]
 
+FINER = 0.1
+"""Tolerance (or fixed step) of the runs that curves' errors are found with, over the study's."""
+
+FAR = 0.1
+"""Scaled distance from where the runs' errors are known at which they are found anew."""
+
+OF_DEVIATION = 0.5
+"""Standard deviation over the error of a number, which 95 % of true values are within."""
+
 
 class Problem:
     """The residuals of a fit.
 
+    What runs miss is part of the residuals' variance. A number has its own error. The error of a
+    curve has one shape all along, so that it is one further unknown with a standard deviation of 1:
+    the covariance of its residuals is I + d d^T, with d the difference from a finer run.
+
     Attributes:
         study: to be run.
         evaluation: its runs.
+        errors: of runs in the unit of residuals, (numbers,): of curves with their signs.
     """
 
     def __init__(
@@ -41,6 +57,11 @@ class Problem:
         self._keys = {n: each for n, each in study.keys.items() if isinstance(each, Range)}
         every = [*(one.under for one in study.measured), *(one.under for one in study.curve)]
         self._under: list[Point] = [u for n, u in enumerate(every) if u not in every[:n]]
+        sizes = [len(one.read.at) for one in study.curve]
+        ends = len(study.measured) + np.cumsum([0, *sizes])
+        self._curves = [slice(a, b) for a, b in pairwise(ends)]
+        self.errors = np.zeros(ends[-1])
+        self._known_at: Array | None = None
 
     @property
     def count(self) -> float:
@@ -60,8 +81,24 @@ class Problem:
         return float(self._keys[name].share(np.asarray(value)))
 
     def __call__(self, points: Array) -> Array:
-        """Return residuals, (points, numbers); NaN in all of a row one of whose runs failed."""
-        asked = [{**self.point(x), **under} for x in points for under in self._under]
+        """Return residuals, (points, numbers); NaN in all of a row one of whose runs failed.
+
+        They are multiplied by the root of their inverse covariance.
+        """
+        found = self._of_runs(points)
+        number = len(self.study.measured)
+        found[:, :number] /= np.hypot(1.0, OF_DEVIATION * self.errors[:number])
+        for curve in self._curves:
+            d = self.errors[curve]
+            square = float(d @ d)
+            if square > 0.0:
+                part = (1.0 - 1.0 / (1.0 + square) ** 0.5) / square
+                found[:, curve] -= part * np.outer(found[:, curve] @ d, d)
+        return found
+
+    def _of_runs(self, points: Array, **finer: float) -> Array:
+        """Return residuals in units of the measured uncertainties, as `__call__`."""
+        asked = [{**self.point(x), **under, **finer} for x in points for under in self._under]
         rows = self.evaluation.rows_of(asked)
         number = len(self._under)
         return np.array(
@@ -87,17 +124,41 @@ class Problem:
             self._matched(one, scenes[self._under.index(one.under)]) for one in self.study.curve
         ]
 
-    def errors(self, rows: Sequence[Row]) -> Array:
-        """Return the errors of evaluations in the unit of residuals, (numbers,), as far as known.
+    def renew_errors(self, x: Array, checked: Callable[[Array], Sequence[Row]]) -> bool:
+        """Find the runs' errors at a point, if it is far from where they are known; return if so.
 
         Args:
-            rows: with errors, one for each place of measuring.
+            x: scaled keys; a point that has run.
+            checked: returns the rows with errors at such a point, one a place of measuring.
+
+        Raises:
+            InputError: the finer runs that curves need failed.
         """
-        found = []
+        if self._known_at is not None and np.abs(x - self._known_at).max(initial=0.0) <= FAR:
+            return False
+        rows, found = checked(x), []
         for one in self.study.measured:
             error = error_in(rows[self._under.index(one.under)], one.quantity)
             found.append((error or 0.0) / one.uncertainty * one.weight**0.5)
-        return np.array(found + [0.0] * sum(len(one.read.at) for one in self.study.curve))
+        self.errors[: len(found)] = found
+        if self._curves:
+            solver = self.study.scene.solver
+            assert solver is not None
+            name = "tolerance" if solver.step is None else "step"
+            finer = {
+                f"solver.{name}": FINER * getattr(solver, name),
+                "solver.max_steps": math.ceil(solver.max_steps / FINER),
+            }
+            apart = (self._of_runs(x[None]) - self._of_runs(x[None], **finer))[0, len(found) :]
+            if not np.isfinite(apart).all():
+                raise InputError(
+                    f"{'; '.join(self.evaluation.told())}: no run with a {FINER:g} times as large "
+                    f"solver.{name} tells the errors of curves; the cure is narrower ranges, or "
+                    "what the runs' reasons say"
+                )
+            self.errors[len(found) :] = apart
+        self._known_at = x
+        return True
 
     def check_curves(self, x: Array, rows: Sequence[Row]) -> None:
         """Check that channels are there, and that no curve lasts longer than runs are predictable.

@@ -1,6 +1,6 @@
 """Run a fit."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +46,7 @@ class Report:
         count: independent numbers less the sensors' parameters.
         numbers: computed beside [[measured]].
         curves: measured and computed beside [[curve]].
-        errors: of the numbers' evaluation over their uncertainties.
+        errors: of runs over the uncertainties, of numbers and of samples of curves, (numbers,).
         scene: fitted.
         told: how many runs gave numbers, in lines.
     """
@@ -70,7 +70,7 @@ class Report:
 
     @property
     def largest_error(self) -> float:
-        """Return that of a number's evaluation, over its uncertainty."""
+        """Return that of a run in a number or a sample of a curve, over its uncertainty."""
         return float(self.errors.max(initial=0.0))
 
     @property
@@ -199,7 +199,9 @@ def fitted(problem: Problem, checked: Any) -> Report:
             "what the runs' reasons say"
         )
     first = starts[0]
-    step = steps(problem, first.x, first.residuals, problem.errors(checked(first.x)))
+    problem.renew_errors(first.x, checked)
+    starts = _evaluated(problem, starts)
+    step = steps(problem, first.x, starts[0].residuals, problem.errors)
     lost = 0
     if asked.method == EVOLUTION:
         found = evolved(problem, len(names), asked.generations, asked.seed)
@@ -212,6 +214,8 @@ def fitted(problem: Problem, checked: Any) -> Report:
             "narrower ranges, or what the runs' reasons say"
         )
     for _ in range(SEARCHES_AGAIN + 1):
+        if problem.renew_errors(minima[0].x, checked):
+            minima, _ = searched(problem, _evaluated(problem, minima), step)
         best = minima[0]
         try:
             derivative = jacobian(problem, best.x, best.residuals, step)
@@ -227,13 +231,19 @@ def fitted(problem: Problem, checked: Any) -> Report:
         lower = min(better, key=lambda one: one.chi_square)
         again, _ = searched(problem, [lower], step)
         minima = sorted([*again, lower, *minima[1:]], key=lambda one: one.chi_square)
-    errors = problem.errors(checked(best.x))
-    return _report(problem, minima, lost, derivative, intervals, errors)
+    return _report(problem, minima, lost, derivative, intervals)
+
+
+def _evaluated(problem: Problem, minima: list[Minimum]) -> list[Minimum]:
+    """Return points with their residuals as the runs' errors are known now, best first."""
+    residuals = problem(np.array([one.x for one in minima]))
+    new = [replace(one, residuals=row) for one, row in zip(minima, residuals, strict=True)]
+    return sorted(new, key=lambda one: one.chi_square)
 
 
 def _report(
     problem: Problem, minima: list[Minimum], lost: int, derivative: Array,
-    intervals: list[Interval], errors: Array,
+    intervals: list[Interval],
 ) -> Report:  # fmt: skip
     study, best = problem.study, minima[0]
     names = list(study.keys)
@@ -265,7 +275,7 @@ def _report(
         count=problem.count,
         numbers=numbers,
         curves=[(wanted, told) for wanted, told in curves if told is not None],
-        errors=errors,
+        errors=np.abs(problem.errors),
         scene=study.scene_at(problem.point(best.x)),
         told=problem.evaluation.told(),
     )

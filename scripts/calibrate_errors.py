@@ -60,7 +60,7 @@ FINE_STEP = 0.25
 GROWTH = 0.3
 """Power of one over the tolerance with which a run's time goes, measured: 0.2 to 0.3."""
 
-LIMIT = 90
+LIMIT = 40
 """s of processor time, after which a scene's process is ended."""
 
 A_MINUTE = 60.0  # s

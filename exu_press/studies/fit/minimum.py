@@ -15,10 +15,10 @@ ALIKE = 0.05
 """Scaled distance below which two minima are one."""
 
 MOST_STEPS = 25
-CHANGE = 1e-3
+CHANGE = 1e-4
 """Change of the sum of squares below which a further step does not matter, relative."""
 
-SHIFT = 1e-3
+SHIFT = 1e-5
 """Shift over a key's range, likewise."""
 
 

@@ -30,6 +30,10 @@ FINER = 0.1
 FAR = 0.1
 """Scaled distance from where the runs' errors are known at which they are found anew."""
 
+REMAINS = 0.5
+"""Part of a curve's difference from a finer run: that has errors of its own, and other keys other
+ones."""
+
 OF_DEVIATION = 0.5
 """Standard deviation over the error of a number, which 95 % of true values are within."""
 
@@ -37,9 +41,9 @@ OF_DEVIATION = 0.5
 class Problem:
     """The residuals of a fit.
 
-    What runs miss is part of the residuals' variance. A number has its own error. The error of a
-    curve has one shape all along, so that it is one further unknown with a standard deviation of 1:
-    the covariance of its residuals is I + d d^T, with d the difference from a finer run.
+    What runs miss is part of the residuals' variance. A number has its own error. That of a curve
+    is its difference d from a finer run, which is taken away. It has one shape all along, so that
+    what remains is one further unknown: the covariance is I + e e^T, with e = REMAINS d.
 
     Attributes:
         study: to be run.
@@ -83,17 +87,18 @@ class Problem:
     def __call__(self, points: Array) -> Array:
         """Return residuals, (points, numbers); NaN in all of a row one of whose runs failed.
 
-        They are multiplied by the root of their inverse covariance.
+        They are without what runs miss, times the root of their inverse covariance.
         """
         found = self._of_runs(points)
         number = len(self.study.measured)
         found[:, :number] /= np.hypot(1.0, OF_DEVIATION * self.errors[:number])
         for curve in self._curves:
-            d = self.errors[curve]
-            square = float(d @ d)
+            found[:, curve] -= self.errors[curve]
+            remains = REMAINS * self.errors[curve]
+            square = float(remains @ remains)
             if square > 0.0:
                 part = (1.0 - 1.0 / (1.0 + square) ** 0.5) / square
-                found[:, curve] -= part * np.outer(found[:, curve] @ d, d)
+                found[:, curve] -= part * np.outer(found[:, curve] @ remains, remains)
         return found
 
     def _of_runs(self, points: Array, **finer: float) -> Array:
@@ -147,6 +152,7 @@ class Problem:
             name = "tolerance" if solver.step is None else "step"
             finer = {
                 f"solver.{name}": FINER * getattr(solver, name),
+                "solver.max_step_deg": FINER**0.5 * solver.max_step_deg,
                 "solver.max_steps": math.ceil(solver.max_steps / FINER),
             }
             apart = (self._of_runs(x[None]) - self._of_runs(x[None], **finer))[0, len(found) :]

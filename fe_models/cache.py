@@ -69,13 +69,13 @@ def reduced_part(
     """
     reduction = reduction or Reduction()
     file = cache_file(part, reduction, default_folder() if folder is None else Path(folder))
-    found = load(file)
-    if found is not None:
-        return found
-    made = reduce_part(part, reduction, report)
+    stored = load(file)
+    if stored is not None:
+        return stored
+    reduced = reduce_part(part, reduction, report)
     with contextlib.suppress(OSError):  # a cache is a help, not a need
-        save(made, file)
-    return made
+        save(reduced, file)
+    return reduced
 
 
 def default_folder() -> Path:

@@ -96,8 +96,8 @@ class CrankDimensions:
 
     def web_radius_for(self, volume: float) -> float:
         """Return the web radius [m] that gives the volume [m^3], all else as it is."""
-        others = self.volume() - 2.0 * pi * self.web_thickness * self.web_radius**2
-        return sqrt((volume - others) / (2.0 * pi * self.web_thickness))
+        remaining_volume = self.volume() - 2.0 * pi * self.web_thickness * self.web_radius**2
+        return sqrt((volume - remaining_volume) / (2.0 * pi * self.web_thickness))
 
     def key(self) -> dict[str, Any]:
         """Return the dimensions."""
@@ -142,7 +142,7 @@ class LinkageDimensions:
                 f"width, {0.5 * self.shank_width:g}"
             )
 
-    def stretched(self, factor: float) -> Self:
+    def scale_widths(self, factor: float) -> Self:
         """Return the shape with every width (z) times `factor`: so is its volume."""
         widths = ("big_width", "small_width", "shank_width", "pocket_depth")
         return replace(self, **{name: factor * getattr(self, name) for name in widths})

@@ -65,8 +65,8 @@ class FlexibleBody:
         """
         if self.node_modes is None:
             mean = np.mean([self.places[point] for point in points], axis=0)
-            place = [float(value) for value in mean]
-            marker: Any = MarkerBodyRigid(bodyNumber=self.object_number, localPosition=place)
+            position = [float(value) for value in mean]
+            marker: Any = MarkerBodyRigid(bodyNumber=self.object_number, localPosition=position)
         else:
             marker = MarkerSuperElementPosition(
                 bodyNumber=self.object_number,
@@ -88,8 +88,8 @@ class FlexibleBody:
         """
         interface = self.part.interface(face)
         if self.node_modes is None:
-            place = np.asarray(interface.centre) + np.asarray(offset, dtype=float)
-            marker: Any = MarkerBodyRigid(bodyNumber=self.object_number, localPosition=list(place))
+            point = np.asarray(interface.centre) + np.asarray(offset, dtype=float)
+            marker: Any = MarkerBodyRigid(bodyNumber=self.object_number, localPosition=list(point))
         else:
             marker = MarkerSuperElementRigid(
                 bodyNumber=self.object_number,

@@ -47,7 +47,7 @@ class Statics:
         flexibility = np.array(moved).reshape(rows.shape[0], rows.shape[0])
         self.flexibility: Array = 0.5 * (flexibility + flexibility.T)
 
-    def carried(self, moved: Array, frequencies: Array, loaded: Array) -> Array:
+    def work_shares(self, moved: Array, frequencies: Array, loaded: Array) -> Array:
         """Return each mode's share of the work of loads, (k, modes), in rows of at most 1.
 
         Args:
@@ -58,8 +58,8 @@ class Statics:
         exact = self.flexibility[np.ix_(loaded, loaded)]
         scale = 1.0 / np.sqrt(np.diag(exact))
         sizes, directions = np.linalg.eigh(scale[:, None] * exact * scale)
-        kept = sizes > STIFF * sizes.max(initial=0.0)
-        whiten = (directions[:, kept] / np.sqrt(sizes[kept])).T * scale
+        significant = sizes > STIFF * sizes.max(initial=0.0)
+        whiten = (directions[:, significant] / np.sqrt(sizes[significant])).T * scale
         return np.asarray(whiten @ moved[loaded] / (2.0 * np.pi * frequencies))
 
     @staticmethod
@@ -68,7 +68,7 @@ class Statics:
         rest = np.eye(len(carried)) - carried @ carried.T
         return float(np.linalg.eigvalsh(rest)[-1]) if rest.size else 0.0
 
-    def enough(self, carried: Array, wanted: float, name: str) -> list[int]:
+    def needed_modes(self, carried: Array, allowed_error: float, name: str) -> list[int]:
         """Return the numbers of the modes that are needed for an error; others are left out.
 
         Args:
@@ -79,18 +79,18 @@ class Statics:
         Raises:
             InputError: even all of them leave more.
         """
-        left = self.error(carried)
-        if left > wanted:
+        remaining_error = self.error(carried)
+        if remaining_error > allowed_error:
             raise InputError(
-                f"{name}: flexibility_error = {wanted:g}: {carried.shape[1]} modes leave "
-                f'{left:.2g}; allowed is as much, or method = "craig_bampton"'
+                f"{name}: flexibility_error = {allowed_error:g}: {carried.shape[1]} modes leave "
+                f'{remaining_error:.2g}; allowed is as much, or method = "craig_bampton"'
             )
-        kept = list(range(carried.shape[1]))
+        needed = list(range(carried.shape[1]))
         for mode in np.argsort((carried**2).sum(axis=0), kind="stable").tolist():
-            fewer = [one for one in kept if one != mode]
-            if self.error(carried[:, fewer]) <= wanted:
-                kept = fewer
-        return kept
+            fewer = [number for number in needed if number != mode]
+            if self.error(carried[:, fewer]) <= allowed_error:
+                needed = fewer
+        return needed
 
 
 def moved_in_plane(carried: Array, frequencies: Array, centrifugal: Array) -> list[int]:

@@ -92,8 +92,8 @@ class StepFile:
             "faces": {name: [list(corner) for corner in box] for name, box in self.faces.items()},
             "axes": {name: asdict(axis) for name, axis in self.axes.items()},
             "patches": {
-                name: asdict(each) if isinstance(each, Sides) else [asdict(one) for one in each]
-                for name, each in self.patches.items()
+                name: asdict(patch) if isinstance(patch, Sides) else [asdict(box) for box in patch]
+                for name, patch in self.patches.items()
             },
         }
 

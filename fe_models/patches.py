@@ -10,7 +10,7 @@ from fe_models.arrays import Array
 from fe_models.dimensions import Box, Patch, Sides
 from fe_models.errors import InputError
 
-__all__ = ["name_patches", "within"]
+__all__ = ["lies_within", "name_patches"]
 
 NEAR = 1e-4
 """m: how far a face may lie outside of a box; drawings are rounded to tenths of a mm."""
@@ -40,10 +40,10 @@ def name_patches(
     taken: dict[int, str] = {i: name for i, name in enumerate(before) if name in held}
     for name, patch in patches.items():
         if isinstance(patch, Sides):
-            found = _sides(shape, patch, name, where)
+            numbers = _sides(shape, patch, name, where)
         else:
-            found = set().union(*(_faces(shape, before, held, one, name, where) for one in patch))
-        for i in sorted(found):
+            numbers = set().union(*(_faces(shape, before, held, p, name, where) for p in patch))
+        for i in sorted(numbers):
             if i in taken:
                 raise InputError(
                     f"{where}: {taken[i]} and {name} hold the same face; allowed are different ones"
@@ -56,27 +56,29 @@ def _faces(
     shape: Any,
     names: Iterable[str | None],
     held: Collection[str],
-    one: Patch,
+    patch: Patch,
     what: str,
     where: str,
 ) -> set[int]:
     """Return the numbers of the faces that are meant."""
-    if one.box is None:
-        found = {i for i, name in enumerate(names) if name == one.name}
-        if not found:
+    if patch.box is None:
+        numbers = {i for i, name in enumerate(names) if name == patch.name}
+        if not numbers:
             known = sorted({name for name in names if name and name not in held})
             raise InputError(
-                f"{where}: has no face named {one.name!r} for {what}; its faces are named "
+                f"{where}: has no face named {patch.name!r} for {what}; its faces are named "
                 f"{', '.join(map(repr, known)) or 'nothing at all'}"
             )
-        return found
-    found = {i for i, face in enumerate(shape.faces) if within(face.bounding_box, one.box, NEAR)}
-    if not found:
+        return numbers
+    numbers = {
+        i for i, face in enumerate(shape.faces) if lies_within(face.bounding_box, patch.box, NEAR)
+    }
+    if not numbers:
         raise InputError(
-            f"{where}: no face for {what} lies wholly within {_ranges(one.box)}; the solid fills "
+            f"{where}: no face for {what} lies wholly within {_ranges(patch.box)}; the solid fills "
             f"{_ranges(tuple(shape.bounding_box))}, in m"
         )
-    return found
+    return numbers
 
 
 def _sides(shape: Any, sides: Sides, what: str, where: str) -> set[int]:
@@ -95,7 +97,7 @@ def _sides(shape: Any, sides: Sides, what: str, where: str) -> set[int]:
             f"{where}: has no plane faces on both sides across the guide's direction; allowed as "
             "faces.guide are the names of faces, or ranges of x, y and z that hold them"
         )
-    return {i for i, place in places.items() if place < low + NEAR or place > high - NEAR}
+    return {i for i, position in places.items() if position < low + NEAR or position > high - NEAR}
 
 
 def _plane(face: Any) -> tuple[Array, Array] | None:
@@ -115,7 +117,7 @@ def _plane(face: Any) -> tuple[Array, Array] | None:
     return origin, normal / size
 
 
-def within(bounds: Any, box: Box, near: float) -> bool:
+def lies_within(bounds: Any, box: Box, near: float) -> bool:
     """Return whether a bounding box, two points, lies within another, m."""
     (lowest, highest), (low, high) = bounds, box
     return all(lowest[i] >= low[i] - near and highest[i] <= high[i] + near for i in range(3))

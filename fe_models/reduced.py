@@ -41,11 +41,11 @@ class ReducedInterface:
         modes = (self.translation.T[None, :, :] + turned).transpose(0, 2, 1)
         return self.centre + arms, modes.reshape(9, self.translation.shape[1])
 
-    def moved_point(self, place: Sequence[float]) -> tuple[Array, Array]:
+    def moved_point(self, point: Sequence[float]) -> tuple[Array, Array]:
         """Return a point (1, 3) that moves rigidly with the mean motion, and its modes (3, n)."""
-        arm = np.asarray(place, dtype=float) - self.centre
+        arm = np.asarray(point, dtype=float) - self.centre
         turned = np.cross(self.rotation.T, arm).T
-        return np.asarray(place, dtype=float)[None, :], self.translation + turned
+        return np.asarray(point, dtype=float)[None, :], self.translation + turned
 
 
 @dataclass(frozen=True)
@@ -100,9 +100,11 @@ class ReducedPart:
         The motions are those of meta["motions"], (face, motion). What a row lacks to 1 is left out.
         """
         motions = {
-            (one.face, motion): row
-            for one in self.interfaces
-            for motion, row in zip(MOTIONS, (*one.translation, *one.rotation), strict=True)
+            (interface.face, motion): row
+            for interface in self.interfaces
+            for motion, row in zip(
+                MOTIONS, (*interface.translation, *interface.rotation), strict=True
+            )
         }
         moved = np.array([motions[face, motion] for face, motion in self.meta["motions"]])
         omega = 2.0 * np.pi * self.frequencies

@@ -119,23 +119,23 @@ def reduce_model(part: Part, model: Any, reduction: Reduction) -> ReducedPart:
     if reduction.method == "free":
         (basis, cholesky), fixed = _free_basis(model, count), np.zeros(0)
     else:
-        wanted = None if by_error else count
-        basis, fixed, cholesky = _craig_bampton_basis(part, model, wanted)
+        mode_count = None if by_error else count
+        basis, fixed, cholesky = _craig_bampton_basis(part, model, mode_count)
     frequencies, modes = _orthogonalise(model, basis, basis.shape[1] if by_error else count)
     rows = interface_rows(part, model)
     statics = Statics(model, rows, cholesky)
     motions = [motion for interface in part.interfaces for motion in interface.motions]
     loaded = np.array([motion in reduction.loads for motion in motions], dtype=bool)
-    carried = statics.carried(rows @ modes, frequencies, loaded)
-    kept = list(range(len(frequencies)))
+    carried = statics.work_shares(rows @ modes, frequencies, loaded)
+    selected = list(range(len(frequencies)))
     if reduction.flexibility_error is not None:
-        kept = statics.enough(carried, reduction.flexibility_error, part.name)
+        selected = statics.needed_modes(carried, reduction.flexibility_error, part.name)
     elif set(reduction.loads) <= PLANE:
         outward = model.mass @ (model.nodes * (1.0, 1.0, 0.0)).ravel()
-        kept = moved_in_plane(carried, frequencies, outward @ modes)
-    frequencies, modes, carried = frequencies[kept], modes[:, kept], carried[:, kept]
-    exact, left = np.diag(statics.flexibility), statics.error(carried)
-    return _package(part, model, reduction, frequencies, modes, fixed, exact, left)
+        selected = moved_in_plane(carried, frequencies, outward @ modes)
+    frequencies, modes, carried = frequencies[selected], modes[:, selected], carried[:, selected]
+    exact, remaining_error = np.diag(statics.flexibility), statics.error(carried)
+    return _package(part, model, reduction, frequencies, modes, fixed, exact, remaining_error)
 
 
 def interface_rows(part: Part, model: Any) -> sp.csr_matrix:
@@ -245,7 +245,7 @@ def _package(
     modes: Array,
     fixed: Array,
     exact: Array,
-    left: float = 1.0,
+    flexibility_error: float = 1.0,
 ) -> ReducedPart:
     """Return the reduced part: interface motions, couplings, and the surface of everything."""
     from fe_models.stress import nodal_stress
@@ -298,7 +298,7 @@ def _package(
             "unknowns": model.unknowns,
             "tetrahedra": len(model.elements),
             "motions": [[i.face, motion] for i in part.interfaces for motion in i.motions],
-            "flexibility_error": left,
+            "flexibility_error": flexibility_error,
         },
     )
 
@@ -313,11 +313,11 @@ def _axis(nodes: Array, centre: Array) -> Array:
         arm = (nodes - centre)[:, columns]
         rows = np.column_stack([2.0 * arm, np.ones(len(arm))])
         squares = (arm**2).sum(axis=1)
-        found, _, rank, _ = np.linalg.lstsq(rows, squares)
-        missed = np.abs(rows @ found - squares).max()
-        if rank == rows.shape[1] and missed < ROUND * squares.max():
+        solution, _, rank, _ = np.linalg.lstsq(rows, squares)
+        residual = np.abs(rows @ solution - squares).max()
+        if rank == rows.shape[1] and residual < ROUND * squares.max():
             moved = np.zeros(3)
-            moved[columns] = found[:-1]
+            moved[columns] = solution[:-1]
             return np.asarray(centre + moved)
     return centre
 

@@ -49,21 +49,22 @@ def name_round_faces(shape: Any, axes: Mapping[str, Axis], where: str) -> None:
     """
     if not axes:
         return
-    found = [one for face in shape.faces if (one := _round(face)) is not None]
+    round_faces = [round_face for face in shape.faces if (round_face := _round(face)) is not None]
     taken: dict[int, str] = {}
     for name, axis in axes.items():
-        group = _chosen(shape, [one for one in found if _suits(one, axis)], axis, name, where)
+        suitable = [face for face in round_faces if _suits(face, axis)]
+        group = _chosen(shape, suitable, axis, name, where)
         if not group:
-            raise InputError(f"{where}: {_nothing(found, axis, name)}")
-        for one in group:
-            place = found.index(one)
-            if place in taken:
+            raise InputError(f"{where}: {_nothing(round_faces, axis, name)}")
+        for round_face in group:
+            number = round_faces.index(round_face)
+            if number in taken:
                 raise InputError(
-                    f"{where}: {taken[place]} and {name} hold the same face ({one}); allowed are "
-                    "different ones: say which by radius or z"
+                    f"{where}: {taken[number]} and {name} hold the same face ({round_face}); "
+                    "allowed are different ones: say which by radius or z"
                 )
-            taken[place] = name
-            one.face.name = name
+            taken[number] = name
+            round_face.face.name = name
 
 
 def _round(face: Any) -> _Round | None:
@@ -100,43 +101,46 @@ def _xyz(point: Any) -> tuple[float, float, float]:
     return float(x), float(y), float(z)
 
 
-def _suits(one: _Round, axis: Axis) -> bool:
+def _suits(face: _Round, axis: Axis) -> bool:
     return (
-        one.sphere == axis.sphere
-        and _distance(one, axis) <= NEAR
-        and (axis.radius is None or abs(one.radius - axis.radius) <= NEAR)
-        and (axis.z is None or (one.low >= axis.z[0] - NEAR and one.high <= axis.z[1] + NEAR))
+        face.sphere == axis.sphere
+        and _distance(face, axis) <= NEAR
+        and (axis.radius is None or abs(face.radius - axis.radius) <= NEAR)
+        and (axis.z is None or (face.low >= axis.z[0] - NEAR and face.high <= axis.z[1] + NEAR))
     )
 
 
-def _distance(one: _Round, axis: Axis) -> float:
-    return hypot(one.x - axis.place[0], one.y - axis.place[1])
+def _distance(face: _Round, axis: Axis) -> float:
+    return hypot(face.x - axis.place[0], face.y - axis.place[1])
 
 
-def _chosen(shape: Any, found: list[_Round], axis: Axis, name: str, where: str) -> list[_Round]:
+def _chosen(
+    shape: Any, round_faces: list[_Round], axis: Axis, name: str, where: str
+) -> list[_Round]:
     """Return the one group of faces of the same radius that touch; holes or shafts as is meant."""
-    groups = _groups(found)
+    groups = _groups(round_faces)
     if len(groups) > 1:
         meant = [group for group in groups if _is_hole(shape, group[0]) == axis.hole]
         groups = meant if len(meant) == 1 else groups
     if len(groups) > 1:
-        each = "; ".join(str(_whole(group)) for group in groups)
+        descriptions = "; ".join(str(_whole(group)) for group in groups)
         raise InputError(
-            f"{where}: {len(groups)} round faces lie about {name}: {each}. Say which by radius or z"
+            f"{where}: {len(groups)} round faces lie about {name}: {descriptions}. Say which by "
+            "radius or z"
         )
     return groups[0] if groups else []
 
 
-def _groups(found: Iterable[_Round]) -> list[list[_Round]]:
+def _groups(round_faces: Iterable[_Round]) -> list[list[_Round]]:
     """Return faces of one radius that touch along z, together."""
     groups: list[list[_Round]] = []
-    for one in sorted(found, key=lambda face: (round(face.radius / NEAR), face.low)):
+    for face in sorted(round_faces, key=lambda face: (round(face.radius / NEAR), face.low)):
         last = groups[-1] if groups else []
-        touches = last and abs(last[-1].radius - one.radius) <= NEAR
-        if touches and one.low <= max(face.high for face in last) + NEAR:
-            last.append(one)
+        touches = last and abs(last[-1].radius - face.radius) <= NEAR
+        if touches and face.low <= max(face.high for face in last) + NEAR:
+            last.append(face)
         else:
-            groups.append([one])
+            groups.append([face])
     return groups
 
 
@@ -146,36 +150,36 @@ def _whole(group: list[_Round]) -> _Round:
     return _Round(first.face, first.sphere, first.x, first.y, first.radius, low, high)
 
 
-def _is_hole(shape: Any, one: _Round) -> bool:
+def _is_hole(shape: Any, face: _Round) -> bool:
     """Return whether there is material around a round face rather than inside of it."""
-    middle, small = 0.5 * (one.low + one.high), 0.02 * one.radius
+    middle, small = 0.5 * (face.low + face.high), 0.02 * face.radius
     for turn in np.arange(0.1, 2.0 * pi, 0.7):
-        inside, outside = (
-            (shape * Sphere(Pnt(one.x + r * cos(turn), one.y + r * sin(turn), middle), small)).mass
-            > 0.0
-            for r in (one.radius - 2.0 * small, one.radius + 2.0 * small)
+        points = (
+            Pnt(face.x + r * cos(turn), face.y + r * sin(turn), middle)
+            for r in (face.radius - 2.0 * small, face.radius + 2.0 * small)
         )
+        inside, outside = ((shape * Sphere(point, small)).mass > 0.0 for point in points)
         if inside != outside:
             return bool(outside)
     return False
 
 
-def _nothing(found: Iterable[_Round], axis: Axis, name: str) -> str:
+def _nothing(round_faces: Iterable[_Round], axis: Axis, name: str) -> str:
     """Return a message where no face suits an axis, with the distance of the nearest one."""
     kind = "sphere" if axis.sphere else "cylinder along z"
     asked = "" if axis.radius is None else f" of radius {axis.radius:g} m"
     asked += "" if axis.z is None else f" within z = {list(axis.z)}"
     x, y = axis.place
     text = f"no {kind}{asked} lies about {name}, at ({x:.6g}, {y:.6g}) m of the file"
-    alike = [one for one in found if one.sphere == axis.sphere]
+    alike = [candidate for candidate in round_faces if candidate.sphere == axis.sphere]
     if not alike:
         return f"{text}; it has none at all"
-    near = min(alike, key=lambda one: _distance(one, axis))
+    near = min(alike, key=lambda candidate: _distance(candidate, axis))
     away = _distance(near, axis)
     if away <= NEAR:
-        about = {str(one): None for one in alike if _distance(one, axis) <= NEAR}
+        about = {str(candidate): None for candidate in alike if _distance(candidate, axis) <= NEAR}
         return f"{text}; there are {'; '.join(about)}"
-    x, y = (round(place, 9) + 0.0 for place in (near.x, near.y))  # without -0 and 1e-17
+    x, y = (round(coordinate, 9) + 0.0 for coordinate in (near.x, near.y))  # without -0 and 1e-17
     return (
         f"{text}; the nearest one's axis is {1e3 * away:.4g} mm away, at ({x:.6g}, {y:.6g}) "
         f"({near}); allowed is {1e3 * NEAR:g} mm"

@@ -130,10 +130,16 @@ def _three_nodes(nodes: Array) -> NDArray[np.int64]:
     along = arm[second] / np.linalg.norm(arm[second])
     across = arm - np.outer(arm @ along, along)
     third = int(np.argmax((across**2).sum(axis=1)))
-    two = np.sort(np.argsort(np.abs(along), kind="stable")[:2])  # the two axes most across
+    transverse = np.sort(np.argsort(np.abs(along), kind="stable")[:2])  # the two axes most across
     normal = np.cross(along, across[third])
-    one = int(np.argmax(np.abs(normal)))
+    axis = int(np.argmax(np.abs(normal)))
     return np.array(
-        [3 * first, 3 * first + 1, 3 * first + 2, *(3 * second + two), 3 * third + one],
+        [
+            3 * first,
+            3 * first + 1,
+            3 * first + 2,
+            *(3 * second + transverse),
+            3 * third + axis,
+        ],
         dtype=np.int64,
     )

@@ -9,7 +9,7 @@ from netgen.occ import Cylinder, MoveTo, Pnt, Vec, Z  # type: ignore[import-unty
 
 from fe_models.dimensions import Box, CrankDimensions, LinkageDimensions
 from fe_models.errors import InputError
-from fe_models.patches import within
+from fe_models.patches import lies_within
 from fe_models.step_check import check_step, read_step
 
 __all__ = ["crank_shaft", "freeze", "from_step", "linkage", "thaw"]
@@ -72,10 +72,10 @@ def from_step(path: Path, scale: float, faces: Mapping[str, Box]) -> Any:
     if scale != 1.0:
         shape = shape.Scale(Pnt(0, 0, 0), scale)
     for name, box in faces.items():
-        found = [face for face in shape.faces if within(face.bounding_box, box, 1e-6)]
-        for face in found:
+        named_faces = [face for face in shape.faces if lies_within(face.bounding_box, box, 1e-6)]
+        for face in named_faces:
             face.name = name
-        if not found:
+        if not named_faces:
             lowest, highest = box
             raise InputError(
                 f"STEP file {path}: no face lies wholly inside the box of {name!r}, "

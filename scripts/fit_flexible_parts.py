@@ -68,7 +68,7 @@ def part_of(name, values):
         shape = CrankShape(**values, web_radius=float(web))
         return Part(name, shape, CRANK_STEEL, CRANK_INTERFACES, 0.06)
     shape = LinkageShape(**values)
-    shape = shape.stretched(MASS[name] / LINKAGE_IRON.density / shape.build().mass)
+    shape = shape.scale_widths(MASS[name] / LINKAGE_IRON.density / shape.build().mass)
     return Part(name, shape, LINKAGE_IRON, LINKAGE_INTERFACES, 0.06)
 
 

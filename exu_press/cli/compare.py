@@ -74,7 +74,7 @@ def execute(options: argparse.Namespace) -> int:
     files = [Path(name) for name in options.given if Path(name).suffix.lower() == CURVES]
     curves = {file: read_curve(file) for file in files}
     runs = [name for name in options.given if Path(name) not in curves]
-    compared = _compared(runs, options.set, measured=bool(curves))
+    compared = _compared(runs, options.set, options.allow_code, measured=bool(curves))
     stored = {label: one for label, one in compared.items() if isinstance(one, Result)}
     if not options.no_pictures:
         from exu_press.plots.file import save_figures
@@ -174,13 +174,14 @@ def _beside(
 
 
 def _compared(
-    given: list[str], assignments: list[str], *, measured: bool
+    given: list[str], assignments: list[str], allow_code: bool, *, measured: bool
 ) -> Mapping[str, Scene | Result]:
     """Return scenes and results by label, all of them read and checked before anything is run.
 
     Args:
         given: names of files.
         assignments: changes of scenes.
+        allow_code: whether scenes may name modules of the user's.
         measured: whether measured curves are beside them, with which one run may be alone.
     """
     if not given:
@@ -192,7 +193,7 @@ def _compared(
         if file.suffix == ".nc":
             one: Scene | Result = Result.load(file)
         else:
-            one = Scene.load(scene_path(name), assignments)
+            one = Scene.load(scene_path(name), assignments, allow_code=allow_code)
         label = file.resolve().parent.name if file.name == RESULT else path.stem
         found[_label(label, found)] = one
     scenes = [one for one in found.values() if isinstance(one, Scene)]

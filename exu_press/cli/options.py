@@ -47,9 +47,19 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
 def add_run_arguments(parser: argparse.ArgumentParser) -> None:
     """Add how scenes are changed and where results go."""
     add_set_argument(parser, "the scene, as in film.viscosity=0.1")
+    add_code_argument(parser)
     parser.add_argument("--out", metavar="DIR", help="where to write (default: out/SCENE)")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
+
+
+def add_code_argument(parser: argparse.ArgumentParser) -> None:
+    """Add the permission to import what a file names."""
+    parser.add_argument(
+        "--allow-code",
+        action="store_true",
+        help="import the modules that kinds of joints name in the file; they run with your rights",
+    )
 
 
 def add_set_argument(parser: argparse.ArgumentParser, of_what: str) -> None:
@@ -80,6 +90,7 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
         "--workers", type=int, metavar="N", help="number of processes (default: the cores)"
     )
     where.add_argument("--dask", metavar="ADDRESS", help="a Dask scheduler, as in tcp://host:8786")
+    add_code_argument(parser)
     parser.add_argument("--out", metavar="DIR", help="where to write (default: out/STUDY)")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
@@ -104,7 +115,7 @@ def check_format(options: argparse.Namespace) -> None:
 
 def scene_of(options: argparse.Namespace) -> Scene:
     """Return the scene that is asked for, with its changes."""
-    return Scene.load(scene_path(options.scene), options.set)
+    return Scene.load(scene_path(options.scene), options.set, allow_code=options.allow_code)
 
 
 def directory_of(options: argparse.Namespace, given: str) -> Path:

@@ -79,7 +79,7 @@ def study_command(
 
         package: Any = import_module(f"exu_press.studies.{name}")
         lines: Any = import_module(f"exu_press.studies.{name}.lines")
-        study = load_study(options.study, getattr(package, kind))
+        study = load_study(options.study, getattr(package, kind), allow_code=options.allow_code)
         more = {} if asked is None else asked(options, study)
         report = getattr(package, name)(
             study, directory, workers=options.workers, dask=options.dask, quiet=options.quiet

@@ -25,9 +25,9 @@ from exu_press.mechanism import GROUND, Joint, Point
 from exu_press.mechanism.holding import SingleAxis
 from exu_press.model.system import System
 from exu_press.scene import DryJoint, LubricatedJoint
+from exu_press.scene.custom import CustomJoint
 from exu_press.scene.joint import LooseJoint, unworn
 from exu_press.scene.laws import ball_film, contact_law, film_law, film_scale_of, friction_law
-from exu_press.scene.own_joint import OwnJoint
 
 if TYPE_CHECKING:
     from exu_press.joints.worn import Worn as WornSurfaces
@@ -48,8 +48,8 @@ def add_ideal_joint(system: System, joint: Joint) -> int:
 def add_clearance_joint(system: System, joint: Joint, kind: LooseJoint) -> ClearanceJoint:
     """Add a joint with clearance."""
     journal, bearing = (_end(system, joint, *end) for end in system.mechanism.ends(joint))
-    if not joint.spherical or isinstance(kind, OwnJoint):
-        worn = None if isinstance(kind, OwnJoint) else _worn(system, joint, kind)
+    if not joint.spherical or isinstance(kind, CustomJoint):
+        worn = None if isinstance(kind, CustomJoint) else _worn(system, joint, kind)
         interfaces = interfaces_of(joint, kind)
         return add_revolute(system.mbs, journal, bearing, interfaces, worn=worn)
     surfaces: dict[str, Any] = {
@@ -73,7 +73,7 @@ def add_clearance_joint(system: System, joint: Joint, kind: LooseJoint) -> Clear
 
 def interfaces_of(joint: Joint, kind: LooseJoint) -> list[InterfaceLaw]:
     """Return the surfaces of a joint with clearance, in its plane."""
-    if isinstance(kind, OwnJoint):
+    if isinstance(kind, CustomJoint):
         return list(kind.interfaces())
     kind = unworn(kind)
     interfaces: list[InterfaceLaw] = []

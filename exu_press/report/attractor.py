@@ -19,7 +19,7 @@ HEAD = ("quantity", "unit", "mean", "scatter", "5 %", "50 %", "95 %")
 def attractor_report(file: Path) -> str:
     """Return the page of a motion in the long run, from attractor.json."""
     with reading(file, "a motion of exu-press attractor") as told:
-        scene = Scene.from_dict(told["scene"])
+        scene = Scene.from_dict(told["scene"], resolve=False)
         found = [["period", str(told["period"]["in_words"])], *_exponent(told)]
         figures = [
             _figure(name, told["units"][name], one) for name, one in told["distributions"].items()

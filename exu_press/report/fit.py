@@ -27,7 +27,8 @@ def fit_report(file: Path) -> str:
         live = _live(told)
         inexact_runs = inexact(told["largest_error_over_uncertainty"])
         chi_square = f"{told['chi_square']:.4g} with {told['degrees_of_freedom']:g}"
-    scene = Scene.from_dict(scene_tables(file.parent / "fitted.toml"))  # complete: nothing is asked
+    # complete: nothing is asked
+    scene = Scene.from_dict(scene_tables(file.parent / "fitted.toml"), resolve=False)
     return study_page(
         file,
         f"Fit: {describe([scene], ONE_LINE)}",

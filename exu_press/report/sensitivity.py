@@ -23,7 +23,7 @@ def sensitivity_report(file: Path) -> str:
     """Return the page of a sensitivity study, from sensitivity.json and samples.csv beside it."""
     with reading(file, "a sensitivity study of exu_press") as told:
         study = from_json(dict[str, Any], file.with_name("study.json").read_bytes(), "study.json")
-        scene, keys = Scene.from_dict(study["scene"]), list(study["keys"])
+        scene, keys = Scene.from_dict(study["scene"], resolve=False), list(study["keys"])
         samples = read_csv(file.with_name("samples.csv"))
         quantities = told["quantities"]
         spreads = [_spread(name, one) for name, one in quantities.items()]

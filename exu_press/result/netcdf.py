@@ -122,7 +122,7 @@ def read(path: Path, kind: type[Kind]) -> Kind:
         scene = from_json(dict[str, Any], _text(file.attributes, "scene"), "scene")
         asked = from_json(list[str], file.attributes.get("asked", b"[]"), "asked")
         return kind(
-            scene=Scene.from_dict(scene, asked),
+            scene=Scene.from_dict(scene, asked, resolve=False),
             channels=_channels(file, "time"),
             info=from_json(Info, _text(file.attributes, "info"), "info"),
             bodies=from_json(tuple[str, ...], _text(file.attributes, "bodies"), "bodies"),

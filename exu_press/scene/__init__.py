@@ -2,12 +2,12 @@
 
 from exu_press.mechanism import Press, SliderCrank
 from exu_press.scene.bodies import Face, Flexible, flexible_press
+from exu_press.scene.custom import CustomJoint
 from exu_press.scene.file import parse_assignment
 from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import BlankingLoad, SheetLoad, SpringLoad, TableLoad
 from exu_press.scene.motor import Motor
-from exu_press.scene.own_joint import OwnJoint
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Solver
 from exu_press.schema.checks import key
@@ -15,6 +15,7 @@ from exu_press.schema.checks import key
 __all__ = [
     "BlankingLoad",
     "Contact",
+    "CustomJoint",
     "DryJoint",
     "ElasticGuide",
     "Face",
@@ -25,7 +26,6 @@ __all__ = [
     "Joints",
     "LubricatedJoint",
     "Motor",
-    "OwnJoint",
     "Press",
     "Scene",
     "SheetLoad",

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, cast
 
 from exu_press.errors import InputError
+from exu_press.scene.custom import CustomJoint, UnresolvedJoint, joint_class
 from exu_press.scene.oil import Oil
-from exu_press.scene.own_joint import OwnJoint, own_kind
 from exu_press.scene.tables import Contact, Film, Friction, asperity_onset
 from exu_press.scene.worn import Worn
 from exu_press.schema.checks import Table, demand_keys, key, plain
@@ -103,7 +103,7 @@ def unworn(joint: DryJoint | LubricatedJoint) -> DryJoint | LubricatedJoint:
     return dataclasses.replace(joint, clearance=clearance, worn=None)
 
 
-LooseJoint = DryJoint | LubricatedJoint | OwnJoint
+LooseJoint = DryJoint | LubricatedJoint | CustomJoint
 Joint = IdealJoint | LooseJoint
 JOINT_KINDS: dict[str, type[Joint]] = {
     kind.kind: kind for kind in (IdealJoint, DryJoint, LubricatedJoint)
@@ -125,16 +125,16 @@ def keys_used(kind: Any, at_contact: Any) -> tuple[str, ...]:
         return (*SIZES, *touching, "worn")
     if kind == "lubricated":
         return (*SIZES, "film", *(touching if at_contact == "mixed" else ()), "worn")
-    own = own_kind(kind)
+    own = joint_class(kind)
     return () if own is None else tuple(field.name for field in dataclasses.fields(own))
 
 
 def refuse_missing(place: str, joint: Joint, *, revolute: bool) -> None:
     """Raise InputError for the first missing key that decides a joint's behaviour."""
-    if isinstance(joint, IdealJoint):
+    if isinstance(joint, IdealJoint | UnresolvedJoint):
         return
     sizes: tuple[str, ...] = SIZES
-    if isinstance(joint, OwnJoint):
+    if isinstance(joint, CustomJoint):
         sizes = tuple(field.name for field in dataclasses.fields(joint))
     needed: dict[str, tuple[Table, tuple[str, ...]]] = {"": (joint, sizes)}
     if joint.contact is not None:
@@ -163,6 +163,8 @@ def _of_damping(contact: Contact) -> tuple[str, ...]:
 def joint_dict(joint: Joint, laws: Mapping[str, Table | None]) -> dict[str, Any]:
     """Return a joint as a nested mapping, with the keys of laws that differ from the scene's."""
     found: dict[str, Any] = {"kind": joint.kind}
+    if isinstance(joint, UnresolvedJoint):
+        return {**found, **joint.keys}
     for field in dataclasses.fields(joint):
         value = getattr(joint, field.name)
         if not isinstance(value, Table):

@@ -6,6 +6,7 @@ from typing import Any
 
 from exu_press.errors import InputError, UnusedKeyError, prefixed
 from exu_press.laws.film import FILM_LAWS
+from exu_press.scene.custom import CustomJoint, UnresolvedJoint, joint_class
 from exu_press.scene.joint import (
     JOINT_KINDS,
     LAW_TABLES,
@@ -18,7 +19,6 @@ from exu_press.scene.joint import (
     refuse_missing,
 )
 from exu_press.scene.laws import contact_law, film_law, friction_law
-from exu_press.scene.own_joint import OwnJoint, own_kind
 from exu_press.scene.tables import Contact, Film
 from exu_press.scene.worn import Worn
 from exu_press.schema.checks import Table, given_in, nearest, refuse_unknown, table_from, table_with
@@ -199,7 +199,8 @@ def keys_given(name: str, given: Any) -> dict[str, Any]:
     """Return the given keys of a joint or group as a mapping with its kind."""
     if isinstance(given, Joint):
         fields = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
-        return {"kind": given.kind, **{k: v for k, v in fields.items() if v is not None}}
+        kind = type(given) if isinstance(given, CustomJoint) else given.kind
+        return {"kind": kind, **{k: v for k, v in fields.items() if v is not None}}
     if isinstance(given, str):
         return {"kind": given}
     if not isinstance(given, Mapping):
@@ -216,7 +217,7 @@ def _joint(
     place = f"joints.{name}"
     kind = given.get("kind")
     with prefixed(f"{place}."):
-        own_class = own_kind(kind)
+        own_class = joint_class(kind)
     if kind not in [*JOINT_KINDS] and own_class is None:
         what = f"{place}.kind = {kind!r}" if "kind" in given else f"{place} has no kind"
         raise InputError(f"{what}: allowed is one of {', '.join(map(repr, JOINT_KINDS))}")
@@ -268,10 +269,10 @@ def _law(place: str, law: str, given: Any, usual: Table) -> Table:
 
 def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
     """Make every law once, so that values outside its range are refused before anything is run."""
-    if isinstance(joint, IdealJoint):
+    if isinstance(joint, IdealJoint | UnresolvedJoint):
         return
     try:
-        if isinstance(joint, OwnJoint):
+        if isinstance(joint, CustomJoint):
             laws = joint.interfaces()
             if not isinstance(laws, list | tuple) or not laws:
                 raise InputError(

@@ -22,9 +22,17 @@ from exu_press.mechanism.examine import require_turning
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.built import Built
 from exu_press.scene.changes import asked_mechanism, changed_keys, drop, named
+from exu_press.scene.custom import UnresolvedJoint, import_kinds, with_unresolved
 from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.file import parse_assignment, scene_tables
-from exu_press.scene.joint import LAW_TABLES, SIZES, joint_dict, oil_of, refuse_missing_damping
+from exu_press.scene.joint import (
+    JOINT_KINDS,
+    LAW_TABLES,
+    SIZES,
+    joint_dict,
+    oil_of,
+    refuse_missing_damping,
+)
 from exu_press.scene.joint_changes import by_group, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.load import Load
@@ -272,9 +280,17 @@ class Scene(Table):
         object.__setattr__(self, "load", loads)
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any], asked: Iterable[str] = ()) -> "Scene":
-        """Return the scene of a nested mapping, as a scene file holds it; `asked` as above."""
-        scene = table_from(cls, "", data)
+    def from_dict(
+        cls, data: Mapping[str, Any], asked: Iterable[str] = (), *, resolve: bool = True
+    ) -> "Scene":
+        """Return the scene of a nested mapping, as a scene file holds it.
+
+        Args:
+            data: its tables.
+            asked: as above.
+            resolve: False takes kinds of joints whose code is not loaded as `UnresolvedJoint`.
+        """
+        scene = table_from(cls, "", data if resolve else with_unresolved(data, JOINT_KINDS))
         object.__setattr__(scene, "asked", frozenset(asked))
         return scene
 
@@ -343,7 +359,7 @@ class Scene(Table):
         data = changed_keys(data, groups, changes)
         while True:
             try:
-                return Scene.from_dict(data, asked)
+                return Scene.from_dict(data, asked, resolve=not self.unresolved)
             except InputError as error:
                 if not isinstance(error, UnusedKeyError) or named(error.name, groups, changes):
                     raise InputError(by_group(str(error), groups, changes)) from None
@@ -363,6 +379,11 @@ class Scene(Table):
         from exu_press import build_with_graphics
 
         return build_with_graphics(self)
+
+    @property
+    def unresolved(self) -> bool:
+        """Whether a joint's kind is code that is not loaded: the scene can be shown, not built."""
+        return any(isinstance(joint, UnresolvedJoint) for joint in self.joints.values())
 
     @property
     def shipped(self) -> str:
@@ -421,21 +442,24 @@ class Scene(Table):
             raise UnusedKeyError(dotted, shown, unused[name])
 
 
-def _load(path: str | Path, assignments: Iterable[str] = ()) -> Scene:
+def _load(path: str | Path, assignments: Iterable[str] = (), *, allow_code: bool = False) -> Scene:
     """Return the scene of a TOML file, changed by "key=value" assignments.
 
     Args:
         path: of the file.
         assignments: as behind `--set`, for `parse_assignment`.
+        allow_code: import the modules that kinds of joints name; they run with the user's rights.
 
     Raises:
         InputError: the file cannot be read or parsed, or the scene is not allowed.
     """
     path = Path(path)
     data = scene_tables(path)
-    with prefixed(f"{path}: "):
-        scene = Scene.from_dict(data, names_in(data))
     changes = dict(map(parse_assignment, assignments))
+    with prefixed(f"{path}: "):
+        if allow_code:
+            import_kinds({**data, **changes})
+        scene = Scene.from_dict(data, names_in(data))
     return scene.replace(changes) if changes else scene
 
 

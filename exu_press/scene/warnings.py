@@ -9,8 +9,8 @@ import numpy as np
 from exu_press.laws.film import FILM_LAWS
 from exu_press.mechanism.doubtful import doubtful_drawing
 from exu_press.scene.applied import applied_loads
+from exu_press.scene.custom import CustomJoint
 from exu_press.scene.joint import LubricatedJoint
-from exu_press.scene.own_joint import OwnJoint
 from exu_press.scene.scene import Scene, mechanism_of
 
 __all__ = ["doubtful_sizes", "scene_warnings"]
@@ -66,7 +66,7 @@ def _drawing(scene: Scene) -> Iterator[str]:
     position = mechanism.ideal_slider(np.linspace(0.0, 2.0 * math.pi, 181), 1.0)[0]
     yield from doubtful_drawing(mechanism, float(np.ptp(position)))
     for name, joint in scene.joints.grouped.items():
-        if not isinstance(joint, OwnJoint) and joint.radius > size:
+        if not isinstance(joint, CustomJoint) and joint.radius > size:
             yield (
                 f"joints.{name}.radius = {joint.radius:g} m is larger than the mechanism of "
                 f"{size:.3g} m.{_slip(joint.radius, 1e-3 * size, size, 'm')}"
@@ -90,7 +90,7 @@ def _guides(scene: Scene) -> Iterator[str]:
 
 def _clearances(scene: Scene) -> Iterator[str]:
     for name, joint in scene.joints.grouped.items():
-        if isinstance(joint, OwnJoint):
+        if isinstance(joint, CustomJoint):
             continue
         clearance, radius = joint.clearance, joint.radius
         film = isinstance(joint, LubricatedJoint)

@@ -13,6 +13,7 @@ from exu_press.parallel.task import Function
 from exu_press.quantities import own_modules, values_of
 from exu_press.result import Result
 from exu_press.scene import Scene
+from exu_press.scene.custom import custom_modules
 from exu_press.schema.stored import from_json
 from exu_press.studies.base.study import Study
 
@@ -59,7 +60,7 @@ class Runs(Batch):
             directory,
             time_limit=study.time_limit,
             kept=_file_is_whole,
-            modules=own_modules(),
+            modules=(*own_modules(), *custom_modules(study.to_dict())),
             label=label,
             quiet=quiet,
             **workers,

@@ -7,6 +7,7 @@ from typing import Any, ClassVar, TypeVar
 
 from exu_press.errors import InputError, prefixed
 from exu_press.scene import Scene
+from exu_press.scene.custom import import_kinds
 from exu_press.schema.checks import Table, key, table_from
 from exu_press.schema.toml import read_toml
 from exu_press.studies.base.keys import Key, keys_from
@@ -124,8 +125,13 @@ def names_in(name: str, given: Any) -> tuple[str, ...]:
     raise InputError(f"{name} = {given!r:.200}: allowed is a list of names of quantities")
 
 
-def load_study(path: str | Path, kind: type[S]) -> S:
+def load_study(path: str | Path, kind: type[S], *, allow_code: bool = False) -> S:
     """Return the study of a TOML file; a scene's path counts from the study's directory.
+
+    Args:
+        path: of the file.
+        kind: of the study.
+        allow_code: import the modules that kinds of joints name; they run with the user's rights.
 
     Raises:
         InputError: the file cannot be read or parsed, or the study or one of its scenes is not
@@ -136,7 +142,10 @@ def load_study(path: str | Path, kind: type[S]) -> S:
     for name, example in (("scene", '"FILE.toml" or a [scene] table'), ("keys", "a [keys] table")):
         if name not in data and (name == "scene" or kind.with_keys):
             raise InputError(f"{path}: no {name}; allowed is {name} = {example}")
+    if allow_code:
+        with prefixed(f"{path}: "):
+            import_kinds(data)
     if isinstance(data["scene"], str):
-        data["scene"] = Scene.load(path.parent / data["scene"])
+        data["scene"] = Scene.load(path.parent / data["scene"], allow_code=allow_code)
     with prefixed(f"{path}: "):
         return table_from(kind, "", kind.located(data, path.parent))

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.parallel import run_batch
+from exu_press.scene.custom import custom_modules
 from exu_press.studies.stability.cases import Case
 from exu_press.studies.stability.judge import WRONG, judge
 from exu_press.studies.stability.report import Report, Row
@@ -42,6 +43,7 @@ def stability(
         directory,
         workers=workers,
         time_limit=TIME_LIMIT,
+        modules=custom_modules({"cases": arguments}),
         label="stability",
         quiet=quiet,
     )

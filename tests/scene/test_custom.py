@@ -5,14 +5,15 @@ import sys
 import pytest
 
 from exu_press import InputError, Scene, simulate
+from exu_press.scene.custom import import_kinds
 
 BUSHING = """
 from dataclasses import dataclass
 from exu_press.joints.interface import FunctionInterface
-from exu_press.scene import OwnJoint, key
+from exu_press.scene import CustomJoint, key
 
 @dataclass(frozen=True)
-class Bushing(OwnJoint):
+class Bushing(CustomJoint):
     stiffness: float = key(None, "radial", "N/m", above=0)
     damping: float = key(0.0, "radial and transverse", "N s/m", at_least=0)
 
@@ -26,7 +27,7 @@ class Bushing(OwnJoint):
 
         return [FunctionInterface(law, self.clearance, lambda e: (0.5 * k * e * e, k * e))]
 
-class Unfinished(OwnJoint):
+class Unfinished(CustomJoint):
     pass
 
 @dataclass(frozen=True)
@@ -49,7 +50,9 @@ def module(tmp_path, monkeypatch):
 
 
 def crank(**changes):
-    return Scene(mechanism="slider_crank", joints={"crank_pin": {**KEYS, **changes}})
+    joints = {"crank_pin": {**KEYS, **changes}}
+    import_kinds({"joints": joints})
+    return Scene(mechanism="slider_crank", joints=joints)
 
 
 @pytest.mark.parametrize(
@@ -92,8 +95,11 @@ def test_a_scene_file_names_it_and_reads_back_equal(tmp_path):
     [
         ({"kind": "no_such_module:Bushing"}, "No module named 'no_such_module'"),
         ({"kind": "a_bushing:Ring"}, "has no attribute 'Ring'"),
-        ({"kind": "a_bushing:NoJoint"}, "derived from OwnJoint"),
-        ({"kind": "a_bushing:Unfinished"}, "the class has no interfaces, which OwnJoint asks for"),
+        ({"kind": "a_bushing:NoJoint"}, "derived from CustomJoint"),
+        (
+            {"kind": "a_bushing:Unfinished"},
+            "the class has no interfaces, which CustomJoint asks",
+        ),
         ({"kind": "a_bushing:Empty"}, r"a_bushing:Empty.interfaces\(\) returns \[\]: allowed is"),
         ({"stifness": 1.0}, "did you mean 'stiffness'"),
         ({"stiffness": -1.0}, "stiffness = -1.0"),
@@ -103,5 +109,7 @@ def test_a_scene_file_names_it_and_reads_back_equal(tmp_path):
 )
 def test_what_is_no_such_joint_is_refused(changes, told):
     keys = {key: value for key, value in {**KEYS, **changes}.items() if value is not None}
+    joints = {"crank_pin": keys}
     with pytest.raises(InputError, match=told):
-        Scene(mechanism="slider_crank", joints={"crank_pin": keys})
+        import_kinds({"joints": joints})
+        Scene(mechanism="slider_crank", joints=joints)

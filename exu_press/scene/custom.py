@@ -1,0 +1,235 @@
+"""Kinds of joints that users write: their classes, and the code that a name in a file stands for.
+
+A name alone imports nothing. It stands for a class that is there already, or for one that an
+installed distribution registers; else its module is imported only where the user allows that.
+"""
+
+import dataclasses
+import re
+import sys
+import traceback
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from exu_press.errors import InputError
+from exu_press.schema.checks import Table, key
+
+if TYPE_CHECKING:
+    from exu_press.joints.interface import InterfaceLaw
+
+__all__ = [
+    "CustomJoint",
+    "UnresolvedJoint",
+    "custom_modules",
+    "import_kinds",
+    "joint_class",
+    "with_unresolved",
+]
+
+IMPORTLIB = import_module.__code__.co_filename
+
+PLACES = re.compile(r"(?:.*\.)?joints\.[^.]+(?:\.kind)?")
+"""Dotted names of keys whose values are kinds, also where a study varies them."""
+
+
+@dataclass(frozen=True)
+class CustomJoint(Table, ABC):
+    """Base of a joint kind of your own; `kind = "my_module:MyClass"` names it in a scene.
+
+    The derived dataclass declares its keys by `exu_press.schema.checks.key`. A key whose default is
+    None has to be given.
+    """
+
+    registered_name: ClassVar[str] = ""
+    """Of the entry point by which an installed distribution offers it."""
+
+    contact: ClassVar[None] = None
+    friction: ClassVar[None] = None
+    worn: ClassVar[None] = None
+    onset: ClassVar[None] = None
+    clearance: float = key(None, "eccentricity that others are compared with", "m", above=0)
+
+    @property
+    def kind(self) -> str:
+        """Name of the class, as a scene has it."""
+        return _name_of(type(self))
+
+    @abstractmethod
+    def interfaces(self) -> Sequence["InterfaceLaw"]:
+        """Return the interface laws that act in parallel; the first has the joint's clearance."""
+
+
+@dataclass(frozen=True)
+class UnresolvedJoint(CustomJoint):
+    """A joint of a result whose kind is code that is not loaded: it is shown, and not built.
+
+    Attributes:
+        name: of the kind.
+        keys: as the result has them.
+    """
+
+    name: str = ""
+    keys: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)
+
+    @property
+    def kind(self) -> str:
+        """Name of the class, as the result has it."""
+        return self.name
+
+    def interfaces(self) -> Sequence["InterfaceLaw"]:
+        """Raise InputError: the laws are unknown."""
+        raise InputError(_refusal(self.name))
+
+
+def joint_class(name: object) -> type[CustomJoint] | None:
+    """Return the class of a kind that a user has written; None for a text that is no such name.
+
+    Args:
+        name: of the kind, or the class itself.
+
+    Raises:
+        InputError: code of that name is not loaded, or the class is no joint kind.
+    """
+    if isinstance(name, type) and issubclass(name, CustomJoint):
+        found: type[CustomJoint] | None = name
+    elif not isinstance(name, str):
+        return None
+    else:
+        found = _loaded(name)
+        if found is None and ":" in name:
+            raise InputError(f"kind = {name!r}: {_refusal(name)}")
+        if found is None:
+            from exu_press.scene.registered import registered_class  # seldom needed
+
+            found = registered_class(name, CustomJoint)
+    if found is not None and (missing := ", ".join(sorted(found.__abstractmethods__))):
+        raise InputError(f"kind = {name!r}: the class has no {missing}, which CustomJoint asks for")
+    return found
+
+
+def import_kinds(data: Mapping[str, Any]) -> None:
+    """Import the modules of the kinds that a scene's or a study's tables name.
+
+    Raises:
+        InputError: a module is not there, fails, or is one of Python's own.
+    """
+    for name in dict.fromkeys(_kinds_in(data)):
+        module, _, inside = name.partition(":")
+        if _loaded(name) is not None:
+            continue
+        if module.partition(".")[0] in sys.stdlib_module_names or "__main__" in module.split("."):
+            raise InputError(
+                f"kind = {name!r}: allowed is a module of your own, not one of Python's or of a "
+                "program"
+            )
+        try:
+            found = vars(import_module(module)).get(inside)
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:  # a module may raise anything, and SystemExit
+            raise InputError(
+                f"kind = {name!r}: {_told(error)}; allowed is a module that Python finds "
+                "(PYTHONPATH names further folders) and one of its classes"
+            ) from None
+        if _loaded(name) is None:
+            what = f"module {module!r} has no attribute {inside!r}"
+            if isinstance(found, type) and issubclass(found, CustomJoint):
+                what = f"this class is {_name_of(found)!r}"
+            elif found is not None:
+                what = "this is no class derived from it"
+            raise InputError(
+                f"kind = {name!r}: {what}; allowed is a dataclass derived from CustomJoint"
+            )
+
+
+def with_unresolved(data: Mapping[str, Any], known: Collection[str]) -> dict[str, Any]:
+    """Return a scene's tables, with joints whose code is not loaded as `UnresolvedJoint`.
+
+    Args:
+        data: of a result.
+        known: kinds that need no code.
+    """
+    joints = data.get("joints")
+    if not isinstance(joints, Mapping):
+        return dict(data)
+    found: dict[str, Any] = dict(joints)
+    for joint, given in joints.items():
+        keys = {"kind": given} if isinstance(given, str) else given
+        if not isinstance(keys, Mapping) or not isinstance(kind := keys.get("kind"), str):
+            continue
+        if kind not in known and _loaded(kind) is None:
+            kept = {name: value for name, value in keys.items() if name != "kind"}
+            clearance: Any = kept.get("clearance")
+            found[joint] = UnresolvedJoint(clearance, kind, kept)
+    return {**data, "joints": found}
+
+
+def custom_modules(data: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the modules that a worker imports for the kinds that a scene's or a study's data name.
+
+    Raises:
+        InputError: a class is of the script itself or of a function, where no import finds it.
+    """
+    modules = set()
+    for kind in filter(None, map(_loaded, _kinds_in(data))):
+        if kind.__module__ == "__main__" or "<locals>" in kind.__qualname__:
+            raise InputError(
+                f"kind = {_name_of(kind)!r}: workers of a study do not run the script that the "
+                "class is in; allowed is a class at the top level of a module that it imports"
+            )
+        modules.add(kind.__module__)
+    return tuple(sorted(modules))
+
+
+def _name_of(kind: type[CustomJoint]) -> str:
+    return kind.registered_name or f"{kind.__module__}:{kind.__qualname__}"
+
+
+def _loaded(name: str) -> type[CustomJoint] | None:
+    """Return the class of a name among those that Python has made by now; the last one counts."""
+    found = [kind for kind in _derived(CustomJoint) if _name_of(kind) == name]
+    return found[-1] if found else None
+
+
+def _derived(base: Any) -> Iterator[type[CustomJoint]]:
+    for kind in base.__subclasses__():
+        yield kind
+        yield from _derived(kind)
+
+
+def _kinds_in(data: Any, path: str = "") -> Iterator[str]:
+    """Yield the names of classes that tables give as kinds, in lists and under dotted keys, too."""
+    if isinstance(data, Mapping):
+        for name, value in data.items():
+            yield from _kinds_in(value, f"{path}.{name}" if path else str(name))
+    elif isinstance(data, list | tuple):
+        for value in data:
+            yield from _kinds_in(value, path)
+    elif isinstance(data, str) and ":" in data and PLACES.fullmatch(path):
+        yield data
+
+
+def _refusal(name: str) -> str:
+    module = name.partition(":")[0]
+    return (
+        f"names code, the module {module!r}, and a file that names code runs it with all your "
+        "rights; if you know what it does, allow it by --allow-code, in Python by "
+        "Scene.load(..., allow_code=True), or import the module yourself"
+    )
+
+
+def _told(error: BaseException) -> str:
+    """Return an error of an import in words, with file and line of the user's module."""
+    kind = "" if isinstance(error, ImportError) else f"{type(error).__name__}: "
+    own = [
+        frame
+        for frame in traceback.extract_tb(error.__traceback__)
+        if not frame.filename.startswith("<") and frame.filename not in (__file__, IMPORTLIB)
+    ]
+    at = f"{own[-1].filename}, line {own[-1].lineno}: " if own else ""
+    if isinstance(error, SyntaxError):
+        at, error = f"{error.filename}, line {error.lineno}: ", SyntaxError(error.msg)
+    return f"{at}{kind}{error}"

@@ -13,8 +13,10 @@ from exu_press.scene import mechanism_of
 
 __all__ = [
     "DeadCentre",
+    "behind_cut_centre",
     "bottom_dead_centres",
     "ideal_bottom_angle",
+    "ideal_top_angle",
     "lowest",
     "lowest_of_strokes",
 ]
@@ -56,6 +58,32 @@ def ideal_bottom_angle(mechanism: Mechanism) -> float:
     angle = np.linspace(0.0, 2.0 * np.pi, 721)
     position = mechanism.ideal_slider(angle, speed=1.0)[0]
     return float(angle[np.argmin(position)])
+
+
+@lru_cache(maxsize=16)
+def ideal_top_angle(mechanism: Mechanism) -> float:
+    """Return the crank angle at which the ideal slider is highest, to half a degree, rad."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 721)
+    position = mechanism.ideal_slider(angle, speed=1.0)[0]
+    return float(angle[np.argmax(position)])
+
+
+def behind_cut_centre(crank_angle: Array, about: float) -> int:
+    """Return the first instant behind a dead centre that the record's beginning cuts.
+
+    A run that begins on a dead centre has its start's transient there. 0 where none is cut, or
+    where the record does not come to that dead centre again.
+
+    Args:
+        crank_angle: (n,), rad, increasing.
+        about: crank angle of the ideal dead centre, rad.
+    """
+    first = float(crank_angle[0])
+    past = (first - about + REACH) % (2.0 * np.pi)
+    again = first - past + REACH + 2.0 * np.pi
+    if not 1e-9 < past < 2.0 * REACH or crank_angle[-1] < again - 1e-9:
+        return 0
+    return int(np.searchsorted(crank_angle, first - past + 2.0 * REACH))
 
 
 def lowest_of_strokes(

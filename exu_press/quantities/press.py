@@ -174,7 +174,7 @@ def _resultants() -> Iterator[Quantity]:
     titles = {
         "shaking.vertical": ("vertical shaking force, max", False),
         "shaking.vertical_mean_1ms": ("mean over 1 ms", True),
-        "shaking.without_counterweight.vertical_mean_1ms": ("without counterweight", True),
+        "shaking.without_counterweight.vertical_mean_1ms": ("mean, without counterweight", True),
     }
     sums = (
         ("shaking", "shaking_force", "shaking force", always),

@@ -5,7 +5,12 @@ from collections.abc import Callable
 import numpy as np
 
 from exu_press.quantities.acceleration import differentiated_peak, mean_peak, peak
-from exu_press.quantities.dead_centre import lowest
+from exu_press.quantities.dead_centre import (
+    behind_cut_centre,
+    ideal_bottom_angle,
+    ideal_top_angle,
+    lowest,
+)
 from exu_press.quantities.kind import DIFFERENCE, LOAD, MOTION
 from exu_press.quantities.quantity import Extreme, Quantity
 from exu_press.quantities.reading import Reading
@@ -36,9 +41,13 @@ def _of_strokes(
 
 
 def _ends(run: Reading) -> tuple[float, float]:
-    """Return the slider's lowest and highest position, m."""
-    position, velocity = run["slider_position"], run["slider_velocity"]
-    return lowest(run.time, position, velocity)[1], -lowest(run.time, -position, -velocity)[1]
+    """Return the slider's lowest and highest position, m, of dead centres that are whole."""
+    angle, mechanism, ends = run["crank_angle"], run.mechanism, []
+    for sign, about in ((1.0, ideal_bottom_angle(mechanism)), (-1.0, ideal_top_angle(mechanism))):
+        first = behind_cut_centre(angle, about)
+        position, velocity = (run[f"slider_{name}"][first:] for name in ("position", "velocity"))
+        ends.append(sign * lowest(run.time[first:], sign * position, sign * velocity)[1])
+    return ends[0], ends[1]
 
 
 SLIDER = (

@@ -89,25 +89,35 @@ def still_turns(run: Reading) -> bool:
     return bool(standstills) and standstills[-1][1] is None
 
 
-def _over_stops(run: Reading, channel: str) -> float | None:
-    """Return the largest change of a channel from a stop to its standstill, if it has one."""
-    standstills = list(_standstills(run))
-    if not standstills or any(at is None for _, at in standstills):
+def _over_stops(run: Reading, amount: Array) -> float | None:
+    """Return the largest change of a growing amount, (n,), from a stop to its standstill.
+
+    None where the press is not stopped, or does not stand behind each stop.
+    """
+    stops, standstills = zip(*_standstills(run), strict=True) if _stops_of(run) else ((), ())
+    if not stops or None in standstills:
         return None
-    values = run[channel]
-    return max(
-        abs(float(np.interp(at, run.time, values) - np.interp(stop, run.time, values)))
-        for stop, at in standstills
-        if at is not None
-    )
+    begin, end = (np.interp(instants, run.time, amount) for instants in (stops, standstills))
+    return float((end - begin).max())
+
+
+def _way(run: Reading) -> Array:
+    """Return the way of the output since the start, (n,), m, there and back across dead centres."""
+    from scipy.interpolate import CubicHermiteSpline  # type: ignore[import-untyped, unused-ignore]
+
+    position = CubicHermiteSpline(run.time, run["slider_position"], run["slider_velocity"])
+    turns = position.derivative().roots(extrapolate=False)
+    instants = np.union1d(run.time, turns[np.isfinite(turns)])
+    way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(position(instants))))])
+    return np.asarray(way[np.searchsorted(instants, run.time)])
 
 
 def _stopping_time(run: Reading, _: str) -> float | None:
-    return _over_stops(run, "time")
+    return _over_stops(run, run.time)
 
 
 def _stopping_angle(run: Reading, _: str) -> float | None:
-    angle = _over_stops(run, "crank_angle")
+    angle = _over_stops(run, run["crank_angle"])
     return None if angle is None else float(np.degrees(angle))
 
 
@@ -155,8 +165,8 @@ START_STOP = (
              MOTION, _stopping_angle,
              has=_stops, title="stopping angle", under=True, extreme=Extreme.LARGEST),
     Quantity("drive.stopping_travel", "m",
-             "largest distance between the output's places at a command to stop and at standstill",
-             MOTION, lambda run, _: _over_stops(run, "slider_position"),
+             "longest way of the output from a command to stop until it stands",
+             MOTION, lambda run, _: _over_stops(run, _way(run)),
              has=_stops, title="stopping travel", shown="mm", under=True, extreme=Extreme.LARGEST),
     Quantity("drive.starting_time", "s",
              "longest time from a command to start until the clutch slips no more",

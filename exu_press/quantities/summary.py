@@ -15,6 +15,7 @@ from exu_press.quantities.reading import Reading
 from exu_press.quantities.start_stop import still_turns
 from exu_press.quantities.value import values_of
 from exu_press.result import JointRecord, Result
+from exu_press.result.windows import settled
 from exu_press.scene import DryJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.assumptions import assumed
 from exu_press.scene.joint import Joint
@@ -24,6 +25,9 @@ __all__ = ["run_warnings", "summary"]
 
 DEEP = 0.01
 """Penetration over radius: strains are about as large, and metals yield below that."""
+
+WIDE = 0.5
+"""Contact radius over the ball's, at which Hertz's paraboloid is 7 % flatter than the ball."""
 
 RESIDUAL = 0.01
 """Residual over the energy exchanged, beyond which the balance casts doubt on the integration."""
@@ -93,7 +97,7 @@ def run_warnings(result: Result) -> list[str]:
             f"the energy balance misses {residual:.2g} of the energy: try a smaller "
             "solver.tolerance or solver.step"
         )
-    for name, joint in result.joints.items():
+    for name, joint in settled(result).joints.items():
         if joint.kind == "lubricated":
             ratio = float(joint.distance.max() / joint.clearance)
             if ratio > NEARLY_TOUCHING:
@@ -121,13 +125,22 @@ def _deep(name: str, joint: JointRecord, described: Joint) -> Iterator[str]:
     """Yield a contact that is pressed in too deep for its law."""
     if not isinstance(described, DryJoint | LubricatedJoint) or described.contact is None:
         return
-    depth = -float(joint.gap.min())
-    if depth > DEEP * described.radius:
+    depth = max(0.0, -float(joint.gap.min()))
+    shown, radius, clearance = name.replace("_", " "), described.radius, described.clearance
+    if depth > DEEP * radius:
         yield (
-            f"{name.replace('_', ' ')}: pressed in by up to {1e3 * depth:.3g} mm, "
-            f"{100.0 * depth / described.radius:.3g} % of its radius; contact laws are those of "
-            "small deformations: are the modulus or the stiffness of [contact], and the loads, "
-            "meant so?"
+            f"{shown}: pressed in by up to {1e3 * depth:.3g} mm, "
+            f"{100.0 * depth / radius:.3g} % of its radius; contact laws are those of small "
+            "deformations: are the modulus or the stiffness of [contact], and the loads, meant so?"
+        )
+    hertz = joint.spherical or described.contact.shape == "point"
+    wide = math.sqrt(depth * radius * (radius + clearance) / clearance)
+    if hertz and described.contact.stiffness is None and wide > WIDE * radius:
+        yield (
+            f"{shown}: pressed in by up to {1e6 * depth:.3g} um, so that the contact's radius is "
+            f"{wide / radius:.2g} times the ball's; Hertz's contact is small against it, and its "
+            "stiffness, of a closely fitting ball, is too small there; the cure is a "
+            "contact.stiffness of your own"
         )
 
 

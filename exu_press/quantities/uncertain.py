@@ -42,6 +42,8 @@ def uncertain(
     '860 to 1080, not determined'
     >>> uncertain(5, {**stated, "error": 0.0})
     '5 exact'
+    >>> uncertain(5, {**stated, "determined": False, "low": 4, "high": 7})
+    '5 (4 to 7, not determined)'
     """
     if value is None:
         return "-"
@@ -49,6 +51,8 @@ def uncertain(
         return significant(value * scale, digits)
     if not error["determined"]:
         low, high = error["low"] * scale, error["high"] * scale
+        if isinstance(value, int):
+            return f"{value} ({low:.3g} to {high:.3g}, not determined)"
         return f"{_bound_text(low, high)} to {_bound_text(high, high)}, not determined"
     spread, scaled = error["error"] * scale, value * scale
     if spread <= abs(scaled) * 10.0**-MOST_DIGITS:

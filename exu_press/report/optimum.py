@@ -11,6 +11,7 @@ from exu_press.report.study import reading, shown_column, study_page
 from exu_press.scene import Scene
 from exu_press.scene.file import scene_tables
 from exu_press.schema.csv_table import read_csv
+from exu_press.studies.optimise.lines import beyond_end
 from exu_press.studies.sweep.units import shown_unit, with_unit
 
 __all__ = ["optimum_report"]
@@ -25,7 +26,7 @@ def optimum_report(file: Path) -> str:
         head = list(columns)
         trials = [dict(zip(head, row, strict=True)) for row in zip(*columns.values(), strict=True)]
         front = [one["keys"] for one in told["front"]]
-        chosen = int(told["chosen"])
+        chosen, at_ends = int(told["chosen"]), list(map(str, told["at_ends"]))
         keys = list(front[chosen])
         places = [_place(front, trial, keys) for trial in trials]
     # complete: nothing is asked
@@ -41,7 +42,7 @@ def optimum_report(file: Path) -> str:
     return study_page(
         file,
         f"Optimum: {describe([scene], ONE_LINE)}",
-        f"{len(trials)} trials, {len(front)} on the front",
+        "; ".join([f"{len(trials)} trials, {len(front)} on the front", *map(beyond_end, at_ends)]),
         [("Points", live), ("Trials", table(("run", *names, "front"), rows, name="runs"))],
         "The front: all trials, and those that no other one beats.",
         scene=scene,

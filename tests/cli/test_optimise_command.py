@@ -55,7 +55,9 @@ def test_several_objectives(tmp_path, capsys):
 def test_one_objective_that_a_solver_of_scipy_finds(tmp_path, capsys):
     """The lightest slider loads the wrist pin least; the limit keeps the rod from its shortest."""
     assert run(tmp_path, ONE.replace("trials = 16", "trials = 40"), "--no-pictures") == 0
-    assert "method: nelder_mead (a run's error is" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "method: nelder_mead (a run's error is" in said
+    assert "chosen: slider_crank.slider_mass lies on the end of its range" in said
     keys = Scene.load(tmp_path / "out" / "chosen.toml").slider_crank
     assert keys.slider_mass == pytest.approx(800.0, rel=0.02)
 

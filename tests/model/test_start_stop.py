@@ -8,6 +8,7 @@ from schedules import LIGHT, OneCoordinate, keys, kloss
 from scipy.integrate import solve_ivp
 
 from exu_press import Scene, simulate
+from exu_press.scene import mechanism_of
 
 FREE = {
     "rated_torque": 1e-3,
@@ -262,3 +263,16 @@ def test_a_press_starts_and_stops_as_a_model_of_two_coordinates_says():
         math.degrees(turned), rel=2e-3
     )
     assert result.quantity("energy.residual").value < 1e-3
+
+
+def test_the_stopping_travel_is_the_way_there_and_back_across_the_dead_centre():
+    result = simulate(rotors(stop_time=[0.78]))
+    angle = result["crank_angle"][np.searchsorted(result.time, 0.78)]
+    stands = angle + math.radians(result.quantity("drive.stopping_angle_deg").value)
+    assert angle < math.pi < stands
+    begin, bottom, end = mechanism_of(result.scene).ideal_slider(
+        np.array([angle, math.pi, stands]), 1.0
+    )[0]
+    travel = result.quantity("drive.stopping_travel").value
+    assert travel == pytest.approx(begin + end - 2.0 * bottom, rel=1e-4)
+    assert travel > 1.2 * abs(end - begin)

@@ -5,6 +5,7 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.quantities import quantities_of, values_of
+from exu_press.quantities.summary import run_warnings
 
 FILM = {"kind": "lubricated", "film": {"at_contact": "mixed", "roughness": 1e-6}}
 
@@ -57,3 +58,50 @@ def test_a_joint_that_is_pressed_in_deep_is_warned_of(modulus):
     said = [text for text in result.summary()["warnings"] if "pressed in by" in text]
     assert (deep > 0.01) == (modulus < 1e9) == bool(said)
     assert all(f"{100.0 * deep:.3g} % of its radius" in text for text in said)
+
+
+@pytest.mark.parametrize("clearance", [5e-6, 1e-4])
+def test_a_ball_whose_contact_is_as_wide_as_itself_is_warned_of(clearance):
+    """Hertz's contact radius is sqrt(R delta), 1 / R = 1 / r - 1 / (r + c)."""
+    pin = {"kind": "dry", "clearance": clearance, "radius": 0.07}
+    scene = Scene(
+        mechanism="slider_crank",
+        joints={"wrist_pin": pin},
+        contact={"shape": "point"},
+        revolutions=0.1,
+    )
+    result = simulate(scene)
+    depth = result.quantity("joints.wrist_pin.peak_penetration").value
+    wide = np.sqrt(depth * 0.07 * (0.07 + clearance) / clearance) / 0.07
+    said = [text for text in result.summary()["warnings"] if "times the ball's" in text]
+    assert (wide > 0.5) == (clearance < 1e-5) == bool(said)
+    assert all(f"{wide:.2g} times the ball's" in text for text in said)
+
+
+def test_the_start_that_is_excluded_is_not_warned_of():
+    result = simulate(
+        Scene(
+            mechanism="slider_crank",
+            joints={"wrist_pin": "lubricated"},
+            film={"viscosity": 0.2, "length": 0.1},
+            revolutions=2.0,
+            solver={"tolerance": 1e-2},
+        )
+    )
+    clearance = result.joints["wrist_pin"].clearance
+
+    def closer(turns):
+        """Put the journal near its bearing in a part of the run."""
+        angle = result["crank_angle"] / (2.0 * np.pi)
+        near = ((angle > turns - 0.2) & (angle < turns + 0.2))[:, None]
+        return result.changed(
+            lambda name, values: (
+                np.where(near, [0.99 * clearance, 0.0], values)
+                if name == "wrist_pin_eccentricity"
+                else values
+            )
+        )
+
+    for turns, expected in ((0.5, False), (1.5, True)):
+        told = run_warnings(closer(turns))
+        assert any("eccentricity ratio up to 0.990" in text for text in told) == expected

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, simulate
+from exu_press.quantities.dead_centre import behind_cut_centre
 from exu_press.quantities.table import run_lines
 
 PIN = {"wrist_pin": {"kind": "dry", "clearance": 1e-4}}
@@ -48,3 +49,24 @@ def test_the_start_is_told(run):
     assert force.max() > 0.0
     short = simulate(crank(revolutions=0.1))
     assert any("with the start" in line for line in run_lines(short))
+
+
+def test_a_dead_centre_that_the_beginning_cuts_is_not_read_where_the_next_one_is():
+    """A film's start lies below the dead centres that follow."""
+    scene = crank(revolutions=1.25, start_angle_deg=180.0, settle=0.0)
+    result = simulate(scene.replace({"joints.wrist_pin.kind": "lubricated"}))
+    position, later = result["slider_position"], result.time > 0.2
+    bottom = result.quantity("bottom_dead_centre").value
+    assert bottom == pytest.approx(position[later].min(), abs=2e-7)
+    assert position[0] < bottom - 1e-6
+
+
+@pytest.mark.parametrize(
+    ("begin", "end", "first"),
+    [(180.0, 540.0, 270.0), (177.0, 560.0, 270.0), (185.0, 540.0, 270.0), (100.0, 460.0, 100.0),
+     (90.0, 450.0, 90.0), (0.0, 720.0, 0.0), (180.0, 530.0, 180.0)],
+)  # fmt: skip
+def test_where_whole_dead_centres_begin(begin, end, first):
+    angle = np.radians(np.arange(begin, end + 0.5))
+    index = behind_cut_centre(angle, np.pi)
+    assert np.degrees(angle[index]) == pytest.approx(first, abs=1.0)

@@ -34,3 +34,8 @@ def test_without_value_or_error():
 def test_bounds():
     told = {"error": 1.0, "determined": False, "low": 0.0, "high": 1084.6}
     assert uncertain(900.0, told) == "0 to 1080, not determined"
+
+
+def test_a_count_that_is_not_determined_has_its_value_too():
+    told = {"error": 2.0, "determined": False, "low": 3, "high": 7}
+    assert uncertain(5, told) == "5 (3 to 7, not determined)"

@@ -8,7 +8,7 @@ from exu_press.studies.optimise.run import Report
 from exu_press.studies.sweep.units import with_unit
 from exu_press.terminal.columns import columns
 
-__all__ = ["report_lines"]
+__all__ = ["beyond_end", "report_lines"]
 
 MOST_LINES = 14
 """Most lines of a front: evenly along it, the chosen point always."""
@@ -39,6 +39,7 @@ def report_lines(report: Report) -> list[str]:
             f"{number} of {len(report.trials.points)} points are not worse than another in "
             f"everything{left}"
         )
+    lines += [beyond_end(name) for name in report.at_ends]
     for name, value in report.finer.items():
         quantity = quantities[name]
         before = float(report.numbers(name)[report.chosen])
@@ -48,6 +49,11 @@ def report_lines(report: Report) -> list[str]:
             f"{significant(value * quantity.scale, 5)} {quantity.shown} ({change})"
         )
     return lines
+
+
+def beyond_end(name: str) -> str:
+    """Return the line of a key whose best value is the last one of its range."""
+    return f"chosen: {name} lies on the end of its range; a wider range may have a better point"
 
 
 def _number(report: Report, name: str, place: int, scale: float) -> str:

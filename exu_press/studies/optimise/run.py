@@ -38,6 +38,9 @@ MOST_CHECKED = 12
 FINER = 0.1
 """Tolerance, or step, of the chosen point's second run over the scene's."""
 
+AT_END = 0.01
+"""Distance from the end of a key's range, over the range, at which a point lies on it."""
+
 SCREEN = 4
 """Part of the trials of one objective that is spread over the ranges first, as 1 / SCREEN."""
 
@@ -78,6 +81,17 @@ class Report:
         place = self.study.quantities.index(quantity)
         return self.trials.numbers[self.places, place]
 
+    @property
+    def at_ends(self) -> list[str]:
+        """Return the keys of the chosen point that lie on an end of their ranges."""
+        point = self.trials.points[self.places[self.chosen]]
+        shares = {
+            name: float(key.share(np.array(point[name])))
+            for name, key in self.study.keys.items()
+            if isinstance(key, Range)
+        }
+        return [name for name, share in shares.items() if not AT_END < share < 1.0 - AT_END]
+
     def to_dict(self) -> dict[str, Any]:
         """Return the contents of optimise.json."""
         names = dict.fromkeys(self.study.quantities)
@@ -99,6 +113,7 @@ class Report:
             "why": self.why,
             "front": points,
             "chosen": self.chosen,
+            "at_ends": self.at_ends,
             "chosen_at_a_tenth_of_the_tolerance": self.finer,
             "trials": len(self.trials.points),
             "runs": self.told,

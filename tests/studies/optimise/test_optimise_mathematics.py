@@ -9,7 +9,7 @@ from exu_press import InputError
 from exu_press.studies.base import Range, Values
 from exu_press.studies.optimise.several import advised, chosen, front, searched
 from exu_press.studies.optimise.single import evolved, judged, simplex, spread_points
-from exu_press.studies.optimise.study import NSGA, TPE
+from exu_press.studies.optimise.study import NSGA, TPE, Limit
 
 KEYS = {f"x{n}": Range(low=0.0, high=1.0) for n in range(4)}
 
@@ -142,3 +142,14 @@ def test_without_optuna_the_cure_is_told(monkeypatch):
     monkeypatch.setitem(sys.modules, "optuna", None)
     with pytest.raises(InputError, match=r"pip install 'exu-press\[optimise\]'"):
         searched(Zdt1(), KEYS, 2, 8, TPE, 0)
+
+
+def test_limits_of_different_size_are_missed_by_their_parts():
+    """50 beyond 100 is more than 300 beyond 1000, and 2 below 4 as much as 500 below 1000."""
+    small, large = Limit("a", below=100.0), Limit("b", below=1000.0)
+    assert small.violation(150.0) == pytest.approx(0.5)
+    assert large.violation(1300.0) == pytest.approx(0.3)
+    assert Limit("a", above=4.0).violation(2.0) == Limit("b", above=1e3).violation(500.0) == 0.5
+    assert Limit("a", below=-100.0).violation(-50.0) == pytest.approx(0.5)
+    assert Limit("a", below=0.0).violation(3.0) == 3.0
+    assert small.violation(99.0) == 0.0

@@ -1,16 +1,13 @@
 """The one kind of error that a user's input can raise; the package below this one raises it too."""
 
-import errno
 import importlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
-from fe_models.errors import InputError
+from fe_models.errors import DiskFullError, InputError
 
 __all__ = [
-    "DISK_FULL",
     "DiskFullError",
     "InputError",
     "UnusedKeyError",
@@ -18,11 +15,8 @@ __all__ = [
     "required_package",
 ]
 
-InputError.__module__ = __name__  # as tracebacks and the reference name it
-
-
-DISK_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-"""Errors of a system that has no room left, for anybody, for this user or in this file."""
+for error in (InputError, DiskFullError):
+    error.__module__ = __name__  # as tracebacks and the reference name it
 
 
 class UnusedKeyError(InputError):
@@ -35,13 +29,6 @@ class UnusedKeyError(InputError):
     def __init__(self, name: str, shown: str, reason: str) -> None:
         super().__init__(f"{shown}: not used by this scene ({reason}); remove it")
         self.name = name
-
-
-class DiskFullError(InputError):
-    """A file cannot be written as its disk is full; the command line exits with status 3."""
-
-    def __init__(self, path: Path, reason: str | None = None) -> None:
-        super().__init__(f"{path}: cannot be written ({reason or 'No space left on device'})")
 
 
 @contextmanager

@@ -1,8 +1,12 @@
 """The one kind of error that a user's input can raise, here and in exu_press."""
 
+import errno
 import re
 
-__all__ = ["InputError"]
+__all__ = ["DiskFullError", "InputError", "disk_full"]
+
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""Errors of a system that has no room left, for anybody, for this user or in this file."""
 
 MOST_LETTERS = 8000
 """Most letters of a message: lists of what is allowed have up to half of them."""
@@ -33,3 +37,25 @@ class InputError(ValueError):
             half = MOST_LETTERS // 2
             text = f"{text[:half]} [...] {text[-half:]}"
         return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text)
+
+
+class DiskFullError(InputError):
+    """A file cannot be written as there is no room left: the message names it.
+
+    The command line exits with status 3: what was computed before is kept.
+    """
+
+
+def disk_full(error: BaseException, path: object = None) -> DiskFullError | None:
+    """Return what says that a disk is full, where that is why an error was raised.
+
+    Args:
+        error: that was raised.
+        path: of the file, where the error has none.
+    """
+    if isinstance(error, DiskFullError):
+        return error
+    if not isinstance(error, OSError) or error.errno not in NO_ROOM:
+        return None
+    file = path or error.filename or "a temporary file"
+    return DiskFullError(f"{file}: cannot be written ({error.strerror})")

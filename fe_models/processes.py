@@ -27,7 +27,7 @@ from pathlib import Path
 from queue import SimpleQueue
 from typing import Any, BinaryIO
 
-from fe_models.errors import InputError
+from fe_models.errors import DiskFullError, InputError, disk_full
 
 __all__ = ["Child", "ChildError", "TimeLimitError", "may_copy"]
 
@@ -37,7 +37,7 @@ PR_SET_PDEATHSIG = 1
 LAST_LETTERS = 2000
 """Of what a child that failed has printed, in the message."""
 
-ANSWER, REPORT, WRONG_INPUT, FAILURE = range(4)
+ANSWER, REPORT, WRONG_INPUT, NO_ROOM, FAILURE = range(5)
 """What a message from a child is."""
 
 
@@ -135,7 +135,7 @@ class Child(AbstractContextManager["Child", None]):
             time_limit: s, after which the child is ended.
 
         Raises:
-            InputError: the function says that the input is wrong.
+            InputError: the function says that the input is wrong, or a disk is full.
             TimeLimitError: it takes too long.
             ChildError: it raises another error, or the process ends.
         """
@@ -152,8 +152,8 @@ class Child(AbstractContextManager["Child", None]):
                     self._progress(*value)
                 elif kind == ANSWER:
                     return value
-                elif kind == WRONG_INPUT:
-                    raise InputError(value)
+                elif kind in (WRONG_INPUT, NO_ROOM):
+                    raise (InputError if kind == WRONG_INPUT else DiskFullError)(value)
                 else:
                     raise ChildError(value)
 
@@ -361,12 +361,15 @@ def _perform(setup: Setup, requests: BinaryIO, answers: BinaryIO) -> None:
                 function = getattr(import_module(module), name)
             value = function(*arguments, *([report] if reports else []))
             answer = pickle.dumps((ANSWER, value))
-        except InputError as error:
-            answer = pickle.dumps((WRONG_INPUT, str(error)))
         except Exception as error:
-            text = " ".join(str(error).partition("\n\nAt:")[0].split())  # without Exudyn's calls
-            name = type(error).__name__
-            answer = pickle.dumps((FAILURE, f"{name}: {text}" if text else name))
+            if full := disk_full(error):
+                answer = pickle.dumps((NO_ROOM, str(full)))
+            elif isinstance(error, InputError):
+                answer = pickle.dumps((WRONG_INPUT, str(error)))
+            else:
+                text = " ".join(str(error).partition("\n\nAt:")[0].split())  # no calls of Exudyn
+                name = type(error).__name__
+                answer = pickle.dumps((FAILURE, f"{name}: {text}" if text else name))
         ready.put(answer)
 
 

@@ -7,6 +7,7 @@ from concurrent.futures import Future
 from contextlib import AbstractContextManager, redirect_stderr, redirect_stdout
 from pathlib import Path
 
+from exu_press.errors import DiskFullError
 from exu_press.parallel.task import Row, Task, row_of_task
 
 
@@ -27,8 +28,12 @@ class InProcess(AbstractContextManager["InProcess", None]):
             redirect_stderr(nowhere),
             warnings.catch_warnings(action="ignore"),
         ):
-            row = row_of_task(task)
-        future.set_result(json.loads(json.dumps(row, allow_nan=False)))
+            try:
+                row = row_of_task(task)
+            except DiskFullError as error:
+                future.set_exception(error)
+            else:
+                future.set_result(json.loads(json.dumps(row, allow_nan=False)))
         return future
 
     def row(self, future: Future[Row]) -> Row:

@@ -13,7 +13,8 @@ from types import ModuleType
 from typing import TextIO
 
 import exu_press
-from exu_press.errors import DISK_FULL, DiskFullError, InputError
+from exu_press.errors import DiskFullError, InputError
+from fe_models.errors import disk_full
 
 __all__ = ["main"]
 
@@ -71,12 +72,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _discard(sys.stdout, sys.stderr)
         return CLOSED_PIPE
     except OSError as error:  # of a path that no system takes, a disk that is full, and the like
-        full = error.errno in DISK_FULL
-        where = error.filename or ("standard output" if full else "the system")
-        print(f"exu-press: {InputError(f'{where}: {error.strerror or error}')}", file=sys.stderr)
-        if full:
+        full = disk_full(error, error.filename or "standard output")
+        where = error.filename or "the system"
+        said = full or InputError(f"{where}: {error.strerror or error}")
+        print(f"exu-press: {said}", file=sys.stderr)
+        if full is not None:
             _discard(sys.stdout)
-        return STOPPED if full else 2
+        return 2 if full is None else STOPPED
     return status
 
 

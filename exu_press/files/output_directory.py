@@ -8,7 +8,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import DISK_FULL, DiskFullError, InputError
+from exu_press.errors import InputError
+from fe_models.errors import disk_full
 
 __all__ = [
     "FORMATS",
@@ -52,9 +53,7 @@ def output_directory(path: str | Path) -> Path:
         with tempfile.TemporaryFile(dir=directory):
             pass
     except OSError as error:
-        if error.errno in DISK_FULL:
-            raise DiskFullError(directory, error.strerror) from None
-        raise InputError(
+        raise disk_full(error, directory) or InputError(
             f"--out {directory}: cannot be written to ({error.strerror}); "
             "allowed is a directory that exists or can be made"
         ) from None
@@ -112,9 +111,9 @@ def writing(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        if error.errno in DISK_FULL:
-            raise DiskFullError(path, error.strerror) from None
-        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
+        raise disk_full(error, path) or InputError(
+            f"{path}: cannot be written ({error.strerror or error})"
+        ) from None
 
 
 @contextmanager

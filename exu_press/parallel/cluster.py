@@ -5,7 +5,7 @@ from concurrent.futures import CancelledError, Future
 from contextlib import AbstractContextManager
 from urllib.parse import urlsplit
 
-from exu_press.errors import InputError, required_package
+from exu_press.errors import DiskFullError, InputError, required_package
 from exu_press.parallel.task import Row, Task
 from exu_press.parallel.workers import perform, worker, worker_died
 
@@ -74,6 +74,8 @@ class Cluster(AbstractContextManager["Cluster", None]):
             return worker_died(f"with every Dask worker it was given to: {_in_a_line(error)}")
         except CancelledError:
             raise self._gone() from None
+        except DiskFullError:
+            raise
         except Exception as error:
             raise InputError(
                 f"dask = {self._address}: its workers cannot do this ({_in_a_line(error)}); they "

@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager, ExitStack
 from pathlib import Path
 from typing import Any, Protocol, Self
 
-from exu_press.errors import InputError
+from exu_press.errors import DiskFullError, InputError
 from exu_press.files.lock import locked
 from exu_press.files.output_directory import output_directory
 from exu_press.parallel.rows import RowFile
@@ -153,11 +153,14 @@ class Batch(ExitStack):
             total: number of runs, for the progress.
 
         Raises:
+            DiskFullError: there is no room for a row or for what its run writes; no other run
+                begins then, and those under way come to their end.
             As `rows` does.
         """
         under_way: dict[str, tuple[Future[Row], Task, list[Chain]]] = {}
         ready: deque[tuple[Chain, Row | None]] = deque((chain, None) for chain in chains)
-        done = 0
+        done = failed = 0
+        full: DiskFullError | None = None
 
         def begin(chain: Chain, row: Row | None) -> None:
             """Hand over the next run of a chain that is not finished yet."""
@@ -183,11 +186,22 @@ class Batch(ExitStack):
                 wait([future for future, _, _ in under_way.values()], return_when=FIRST_COMPLETED)
                 ended = [key for key, (future, _, _) in under_way.items() if future.done()]
                 for future, task, waiting in [under_way.pop(key) for key in ended]:
-                    row = self._workers_at_hand().row(future)
-                    self._file.append(task.key, self._limit, row)
+                    try:
+                        row = self._workers_at_hand().row(future)
+                        self._file.append(task.key, self._limit, row)
+                    except DiskFullError as error:
+                        full, failed = error, failed + 1
+                        continue
                     done += len(waiting)
                     progress.update(done)
                     ready += [(chain, row) for chain in waiting]
+                if full is not None:
+                    ready.clear()
+        if full is not None:
+            raise DiskFullError(
+                f"{full}: {failed} of {total} runs failed, {done} are finished and kept, others "
+                "were not begun; with room on the disk the same command goes on"
+            )
 
     def _finished(self, task: Task, arguments: Mapping[str, Any]) -> Row | None:
         """Return the row of a run that need not be done again, or None."""

@@ -13,6 +13,7 @@ from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.installation.versions import version_of
+from fe_models.errors import disk_full
 
 __all__ = [
     "COMPLETED",
@@ -147,11 +148,16 @@ def row_of(function: Function, arguments: dict[str, Any]) -> Row:
     """Return a function's row with status and reason, in strict JSON: null where it has no number.
 
     An exception is a row too.
+
+    Raises:
+        DiskFullError: there is no room for what the function writes.
     """
     try:
         row = {"status": COMPLETED, "reason": "", **function(arguments)}
         return dict(_strict(row))
     except Exception as error:
+        if full := disk_full(error):
+            raise full from None
         return {"status": FAILED, "reason": _in_a_line(error)}
 
 

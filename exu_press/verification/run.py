@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from exu_press.errors import DiskFullError
 from exu_press.model.state import State
 from exu_press.quantities import Extreme, Quantity, QuantityAt, quantities_of
 from exu_press.quantities.kind import RESULTANT, SHARE
@@ -99,10 +100,17 @@ def with_errors(result: Result, *, start: State | None = None, beside: bool = Tr
 
 
 def _beside(result: Result, refinements: RefinementRuns) -> Result:
-    """Return a result with its errors; without, with a warning, if the refinements have failed."""
+    """Return a result with its errors; the run itself is kept without, if refinements have failed.
+
+    A warning says why, or the reason of the result where a disk is full.
+    """
     try:
         return _told(result, refinements.results() if result.completed else ())
-    except (RuntimeError, KeyboardInterrupt) as error:  # the run itself is done: it is kept
+    except DiskFullError as error:
+        without = _told(result, ())
+        reason = f"no errors of the quantities are known: {error}"
+        return replace(without, info={**without.info, "reason": reason})
+    except (RuntimeError, KeyboardInterrupt) as error:
         why = "interrupted" if isinstance(error, KeyboardInterrupt) else str(error)
         warnings.warn(f"no errors of the quantities are known: {why}", stacklevel=3)
         return _told(result, ())

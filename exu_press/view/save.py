@@ -154,7 +154,7 @@ def _write_mp4(path: Path, partial: Path, frames: Iterator[Image.Image], fps: fl
     if process.returncode:
         last = (messages.decode(errors="replace").strip().splitlines() or ["no message"])[-1]
         if os.strerror(errno.ENOSPC) in last:
-            raise DiskFullError(path)
+            raise DiskFullError(f"--save {path}: {last}")
         raise InputError(f"--save {path}: ffmpeg failed ({last})")
 
 

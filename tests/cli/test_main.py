@@ -55,7 +55,9 @@ def test_a_full_disk_under_the_output_is_said(tmp_path):
     with Path("/dev/full").open("w") as full:
         done = subprocess.run([COMMAND, "doctor"], stdout=full, stderr=subprocess.PIPE, timeout=60)
     assert done.returncode == 3
-    assert done.stderr == b"exu-press: standard output: No space left on device\n"
+    assert (
+        done.stderr == b"exu-press: standard output: cannot be written (No space left on device)\n"
+    )
 
 
 def test_a_display_that_matplotlib_does_not_know_is_not_needed(tmp_path):

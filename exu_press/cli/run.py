@@ -27,7 +27,7 @@ from exu_press.result.unfinished import (
 )
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import assumed_line
-from exu_press.verification.refine import refined
+from exu_press.verification.refine import refinements
 from exu_press.verification.simulate import simulate
 from exu_press.verification.told import delivered_lines
 from exu_press.verification.within import deliver
@@ -147,9 +147,38 @@ def _make_room(unfinished: Path, options: argparse.Namespace) -> None:
     refuse_blocks(unfinished)
 
 
+def _refined(
+    scene: Scene, start: State | None, unfinished: Path, *, quiet: bool
+) -> tuple[Result, bool, str]:
+    """Run a scene, and at finer tolerances where that is needed.
+
+    Returns:
+        The last finished run; whether Ctrl-C ended a finer one; what the user may do.
+    """
+
+    def announce(text: str) -> None:
+        if not quiet:
+            print("\n".join(textwrap.wrap(text, 100, subsequent_indent="  ")), file=sys.stderr)
+
+    finished: list[tuple[Result, str]] = []
+    interrupted = False
+    try:
+        for outcome in refinements(
+            scene, start=start, unfinished=unfinished, quiet=quiet, announce=announce
+        ):
+            finished.append(outcome)
+    except KeyboardInterrupt:
+        if not finished:
+            raise
+        interrupted = True
+    result, remark = finished[-1]
+    return result, interrupted, remark
+
+
 def _run(scene: Scene, start: State | None, directory: Path, options: argparse.Namespace) -> int:
     """Run the scene in a directory of its own; return the exit status."""
     found: list[str] = []
+    interrupted = False
     unfinished = unfinished_of(directory / RESULT)
     _make_room(unfinished, options)
     if options.within is not None:
@@ -161,9 +190,8 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
             scene, errors=errors, start=start, unfinished=unfinished, quiet=options.quiet
         )
     else:
-        result = refined(
-            scene, start=start, unfinished=unfinished, quiet=options.quiet, told=found.append
-        )
+        result, interrupted, remark = _refined(scene, start, unfinished, quiet=options.quiet)
+        found = [remark] if remark else []
     summary = result.summary()
     remove_pictures(directory, "run")
     result.save(directory / RESULT)
@@ -181,6 +209,8 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
     if not options.quiet:
         print("written:", ", ".join(path.name for path in written), f"in {directory}")
     remove(unfinished)
+    if interrupted:
+        raise KeyboardInterrupt
     if summary["reason"]:
         how = "" if result.completed else "stopped early: "
         print(f"exu-press: {how}{summary['reason']}", file=sys.stderr)

@@ -75,7 +75,7 @@ SLIDER = (
              LOAD,
              lambda run, _:
                  differentiated_peak(run.time, run["slider_position"], run["slider_velocity"]),
-             title="differentiated, 1 kHz", under=True, extreme=Extreme.LARGEST, headline=True,
+             title="differentiated, 1 kHz", under=True, extreme=Extreme.LARGEST,
              at_most="peak_acceleration.mean_1ms"),  # the mean over 1 ms of such means
 )  # fmt: skip
 

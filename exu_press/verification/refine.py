@@ -1,7 +1,7 @@
 """A run whose headline quantities are not known well goes on at a finer tolerance."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from exu_press.model.state import State
@@ -10,7 +10,7 @@ from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.verification.run import simulate_with_errors
 
-__all__ = ["doubtful", "refined"]
+__all__ = ["doubtful", "refinements"]
 
 ENOUGH = 0.05
 """Relative error of a quantity: with a larger one it is not known well."""
@@ -39,15 +39,18 @@ def doubtful(result: Result) -> list[str]:
     return found
 
 
-def refined(
+def refinements(
     scene: Scene,
     *,
     start: State | None = None,
     unfinished: Path | None = None,
     quiet: bool = True,
-    told: Callable[[str], None] = lambda text: None,
-) -> Result:
-    """Run a scene, and run it again at finer tolerances while that helps and the budget lasts.
+    announce: Callable[[str], None] = lambda text: None,
+) -> Iterator[tuple[Result, str]]:
+    """Run a scene, and again at finer tolerances while that helps and the budget lasts.
+
+    Yields each result, with what the user may do in the end, or an empty text. A finer run that
+    stops early does not replace the one before it.
 
     Args:
         scene: to be simulated.
@@ -55,32 +58,46 @@ def refined(
         unfinished: directory in which the first run is while it goes on, see `simulate`; it stays
             there, while finer ones go to a temporary directory.
         quiet: False shows the progress.
-        told: is called with what is done next and why, or with what the user may do.
-    """
+        announce: is called before a finer run begins, with why, and how long it may take.
 
+    Raises:
+        KeyboardInterrupt: of Ctrl-C in a finer run; the results before have been yielded.
+    """
     begin = time.perf_counter()
     result = simulate_with_errors(scene, start=start, unfinished=unfinished, quiet=quiet)
     took = first = time.perf_counter() - begin
     spent = 0.0
     while result.completed and (names := doubtful(result)):
+        which = f"{names[0]}{f' and {len(names) - 1} more' if len(names) > 1 else ''}"
+        unknown = f"{which}: not known within {ENOUGH:.0%}"
         solver = result.scene.solver
         assert solver is not None
-        which = f"{names[0]}{f' and {len(names) - 1} more' if len(names) > 1 else ''}"
         if solver.tolerance is None or solver.tolerance <= FINEST:
-            told(f"{which}: not known within {ENOUGH:.0%} with these steps")
-            break
+            yield result, f"{unknown} with these steps"
+            return
         finer = max(solver.tolerance / FINER, FINEST)
         if spent + LONGER * took > BUDGET * first:
-            told(
-                f"{which}: not known within {ENOUGH:.0%}; a tolerance of {finer:.2g} "
-                f"(--set solver.tolerance={finer:.2g}) takes about {LONGER * took:.2g} s, and "
-                f"--within {ENOUGH:.0%} finds the tolerance, or the distribution over revolutions"
+            yield (
+                result,
+                f"{unknown}; a tolerance of {finer:.2g} (--set solver.tolerance={finer:.2g}) takes "
+                f"about {LONGER * took:.2g} s, and --within {ENOUGH:.0%} finds the tolerance, or "
+                "the distribution over revolutions",
             )
-            break
-        told(f"{which}: not known within {ENOUGH:.0%}; goes on at a tolerance of {finer:.2g}")
+            return
+        yield result, ""
+        announce(
+            f"{unknown}; goes on at a tolerance of {finer:.2g}, which may take "
+            f"{LONGER * took:.2g} s; Ctrl-C ends that and keeps the finished run"
+        )
         before = time.perf_counter()
-        again = scene.replace({"solver.tolerance": finer})
-        result = simulate_with_errors(again, start=start, quiet=quiet)
+        again = simulate_with_errors(
+            scene.replace({"solver.tolerance": finer}), start=start, quiet=quiet, interruptible=True
+        )
+        if not again.completed:
+            reason = again.info["reason"]
+            yield result, f"{unknown}; at a tolerance of {finer:.2g} the run stops: {reason}"
+            return
+        result = again
         took = time.perf_counter() - before
         spent += took
-    return result
+    yield result, ""

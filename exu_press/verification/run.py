@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from exu_press.errors import DiskFullError
+from exu_press.integrate import SolverStatus
 from exu_press.model.state import State
 from exu_press.quantities import Extreme, Quantity, QuantityAt, quantities_of
 from exu_press.quantities.kind import RESULTANT, SHARE
@@ -59,6 +60,7 @@ def simulate_with_errors(
     unfinished: Path | None = None,
     quiet: bool = True,
     beside: bool = True,
+    interruptible: bool = False,
 ) -> Result:
     """Simulate, with refinement runs.
 
@@ -69,6 +71,8 @@ def simulate_with_errors(
         quiet: False shows the progress.
         beside: the refinements run in a further process meanwhile; else in this one afterwards, as
             where all cores have their runs already.
+        interruptible: Ctrl-C raises KeyboardInterrupt; else it ends the run early, or leaves it
+            without errors.
 
     Returns:
         The result; `info` and summary have `errors`, quantity by quantity, `horizon` and
@@ -79,7 +83,9 @@ def simulate_with_errors(
         return with_errors(run, start=start, beside=False)
     with RefinementRuns(scene, start) as refinements:
         run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet)
-        return _beside(run, refinements)
+        if interruptible and run.info["status"] == SolverStatus.INTERRUPTED.value:
+            raise KeyboardInterrupt
+        return _beside(run, refinements, interruptible=interruptible)
 
 
 def with_errors(result: Result, *, start: State | None = None, beside: bool = True) -> Result:
@@ -99,7 +105,7 @@ def with_errors(result: Result, *, start: State | None = None, beside: bool = Tr
         return _beside(result, refinements)
 
 
-def _beside(result: Result, refinements: RefinementRuns) -> Result:
+def _beside(result: Result, refinements: RefinementRuns, *, interruptible: bool = False) -> Result:
     """Return a result with its errors; the run itself is kept without, if refinements have failed.
 
     A warning says why, or the reason of the result where a disk is full.
@@ -111,6 +117,8 @@ def _beside(result: Result, refinements: RefinementRuns) -> Result:
         reason = f"no errors of the quantities are known: {error}"
         return replace(without, info={**without.info, "reason": reason})
     except (RuntimeError, KeyboardInterrupt) as error:
+        if interruptible and isinstance(error, KeyboardInterrupt):
+            raise
         why = "interrupted" if isinstance(error, KeyboardInterrupt) else str(error)
         warnings.warn(f"no errors of the quantities are known: {why}", stacklevel=3)
         return _told(result, ())

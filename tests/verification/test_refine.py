@@ -1,11 +1,13 @@
 """A run goes on at a finer tolerance where that is needed, and as long as it is worth it."""
 
+import re
 import time
 from dataclasses import replace
 
 import pytest
 
-from exu_press import Scene, simulate
+from exu_press import Result, Scene, simulate
+from exu_press.cli import main
 from exu_press.verification import refine
 
 SCENE = Scene(mechanism="slider_crank", joints={}, revolutions=0.02)
@@ -46,20 +48,58 @@ def test_doubtful_is_what_is_off_by_more_than_a_twentieth_or_not_determined(bare
 
 def test_it_goes_on_until_it_is_known(bare, monkeypatch):
     asked, said = fake(monkeypatch, bare, lambda tolerance: 100.0 * tolerance, 0.2), []
-    result = refine.refined(SCENE, told=said.append)
+    *_, (result, remark) = refine.refinements(SCENE, announce=lambda text: said.append(len(asked)))
     assert asked == [1e-3, 2.5e-4]
     assert result.scene.solver.tolerance == 2.5e-4
-    assert "stroke" in said[0] and len(said) == 1
+    assert said == [1]  # before the second one
+    assert remark == ""
 
 
 def test_it_ends_when_the_time_is_spent_and_says_what_is_left(bare, monkeypatch):
     asked, said = fake(monkeypatch, bare, lambda tolerance: 1.0, seconds=0.2), []
-    refine.refined(SCENE, told=said.append)
+    *_, (_, remark) = refine.refinements(SCENE, announce=said.append)
     assert 2 <= len(asked) <= 4
-    assert "--set solver.tolerance=" in said[-1] and " s," in said[-1]
+    assert "--set solver.tolerance=" in remark and " s," in remark
+    assert re.search(r"stroke: not known within 5%; goes on .* may take 0\.\d+ s; Ctrl-C", said[0])
 
 
 def test_a_run_that_is_known_is_run_once(bare, monkeypatch):
     asked = fake(monkeypatch, bare, lambda tolerance: 0.0)
-    refine.refined(SCENE, told=pytest.fail)
-    assert len(asked) == 1
+    ((_, remark),) = refine.refinements(SCENE, announce=pytest.fail)
+    assert (len(asked), remark) == (1, "")
+
+
+def test_a_reading_that_nobody_asked_for_makes_no_run(bare):
+    name = "peak_acceleration.differentiated_1khz"
+    value = bare.quantity(name).value
+    error = {"error": 0.5 * value, "determined": True, "low": 0.0, "high": 2.0 * value}
+    assert refine.doubtful(replace(bare, info={**bare.info, "errors": {name: error}})) == []
+
+
+def test_a_finer_run_that_stops_does_not_replace_the_finished_one(bare, monkeypatch):
+    def run(scene, **_):
+        if scene.solver.tolerance < 1e-3:
+            return replace(bare, info={**bare.info, "status": "not converged", "reason": "why"})
+        return stated(bare, 1.0)
+
+    monkeypatch.setattr(refine, "simulate_with_errors", run)
+    *_, (result, remark) = refine.refinements(SCENE)
+    assert result.completed
+    assert remark == "stroke: not known within 5%; at a tolerance of 0.00025 the run stops: why"
+
+
+def test_ctrl_c_in_a_finer_run_keeps_the_finished_one(bare, monkeypatch, tmp_path, capsys):
+    def run(scene, **_):
+        if scene.solver.tolerance < 1e-3:
+            raise KeyboardInterrupt
+        return stated(bare, 1.0)
+
+    monkeypatch.setattr(refine, "simulate_with_errors", run)
+    SCENE.save(tmp_path / "scene.toml")
+    out = tmp_path / "out"
+    assert main(["run", str(tmp_path / "scene.toml"), "--no-pictures", "--out", str(out)]) == 130
+    assert Result.load(out / "run.nc").completed
+    said = capsys.readouterr()
+    assert said.err.endswith("exu-press: interrupted\n")
+    assert "written: run.nc, summary.json in" in said.out
+    assert "peak acceleration" in said.out

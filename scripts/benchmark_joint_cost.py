@@ -19,8 +19,8 @@ from exudyn.itemInterface import (
 
 from exu_press import Scene, add_lubricated_revolute
 from exu_press.integrate import ErrorScales, SolverStatus, SolverTuning
-from exu_press.integrate.problem import Problem
-from exu_press.integrate.settings import Task, prepared
+from exu_press.integrate.system import System
+from exu_press.integrate.task import Task, prepared_settings
 from exu_press.joints import COMPILED
 from exu_press.laws.film import film_scale, pinkus
 from exu_press.solving import settings_for
@@ -64,10 +64,10 @@ def run_chain(add_joint, steps):
     settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = steps * STEP, steps
     # accelerations to 1e-4 of gravity's, as a scene with fixed steps has them
     settings.timeIntegration.newton.absoluteTolerance = 1e-4 * BODIES * MASS * 9.81
-    task = Task(Problem.of(mbs), settings, None, ErrorScales(), SolverTuning())
+    task = Task(System.of(mbs), settings, None, ErrorScales(), SolverTuning())
     task.smallest = STEP / 1024
     start = time.perf_counter()
-    with prepared(settings, task):
+    with prepared_settings(settings, task):
         mbs.SolveDynamic(settings, showHints=False)
     wall_time = time.perf_counter() - start
     solver = mbs.sys["dynamicSolver"]

@@ -6,7 +6,7 @@ import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 
-from exu_press.integrate.problem import FLEXIBLE, MODES, modal_item
+from exu_press.integrate.system import FLEXIBLE, MODES, modal_item
 from exu_press.numerics.arrays import Array
 
 __all__ = ["ModalMass", "follow_modes"]

@@ -1,4 +1,4 @@
-"""Advance any assembled Exudyn system with a tolerance instead of a step, and say how it ended."""
+"""Advance an assembled Exudyn system with a tolerance instead of a step, and say how it ended."""
 
 import math
 import time as clock
@@ -11,12 +11,14 @@ import exudyn as exu
 
 from exu_press.errors import InputError
 from exu_press.integrate.controller import Controller
-from exu_press.integrate.ending import Advice, how_it_ended
+from exu_press.integrate.error import Criteria, default_criteria
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.outcome import Outcome
-from exu_press.integrate.problem import Problem
-from exu_press.integrate.scales import ErrorScales, FoundScales
-from exu_press.integrate.settings import SolverTuning, Task, prepared, refuse_unusable
+from exu_press.integrate.scales import ErrorScales, RunningScales
+from exu_press.integrate.system import System
+from exu_press.integrate.task import SolverTuning, Task, prepared_settings, refuse_unusable
+from exu_press.integrate.termination import Advice, termination
+from exu_press.integrate.user_functions import UserFunctions
 from exu_press.numerics.threads import one_thread
 from exu_press.terminal.progress import Progress
 
@@ -29,9 +31,14 @@ FEW = 80
 """Equations up to which NumPy solves them in one thread by itself."""
 
 
-def _nothing(time: float) -> str:
+def _never_ends(time: float) -> str:
     """Return why a run is to end at a time, s."""
     return ""
+
+
+def _no_corner(time: float) -> float:
+    """Return when a load without corners has its next one, s."""
+    return math.inf
 
 
 def solve_dynamic(
@@ -42,14 +49,15 @@ def solve_dynamic(
     absolute: float = 0.0,
     scales: ErrorScales = NO_SCALES,
     tuning: SolverTuning = DEFAULTS,
+    criteria: Criteria = default_criteria,
     controller: Controller | None = None,
     next_corner: Callable[[float], float] | None = None,
-    watch: Callable[[float], str] = _nothing,
+    watch: Callable[[float], str] = _never_ends,
     sample: float | None = None,
     hold: bool = False,
     event: Callable[[exu.MainSystem, float], float] | None = None,
     bodies: Mapping[int, tuple[str, float]] | None = None,
-    advice: Callable[[Problem, bool], Advice] = Advice,
+    advice: Callable[[System, bool], Advice] = Advice,
     max_steps: int = 1_000_000,
     update_initial_values: bool = False,
     errors: bool = False,
@@ -60,11 +68,10 @@ def solve_dynamic(
     Exudyn's own generalized-alpha advances the system, from `startTime` to `endTime` of the
     settings, whose output, sensors, linear solver and spectral radius (up to 0.95) count. The
     largest step is the time over `numberOfSteps`, the first one `initialStepSize` if that is set,
-    the smallest one `minimumStepSize`. The system may have rigid and flexible bodies in the plane
-    and in space, constraints, joints that slide along cables, springs, loads, user functions,
-    first-order coordinates, data variables, and the clearance joints of this package; user
-    functions of the system (pre-step, post-step, post-Newton, residual) are called as ever.
-    Settings and user functions are put back afterwards; the solver is left in
+    the smallest one `minimumStepSize`. The steps follow what clearance joints of this package,
+    rigid and flexible bodies, constraints, springs and smooth loads need; one warning names what
+    else the system has. User functions of the system (pre-step, post-step, post-Newton, residual)
+    are called as ever. Settings and user functions are put back afterwards; the solver is left in
     `mbs.sys["dynamicSolver"]`.
 
     Args:
@@ -72,23 +79,21 @@ def solve_dynamic(
         settings: Exudyn's.
         tolerance: of the run, relative: velocities to the largest speed, eccentricities to their
             clearances; from 1e-8 to 0.1. None takes fixed steps of the settings' size.
-        absolute: velocity, m/s: errors below it do not count, however small the largest speed. A
-            vibration of a twentieth of it costs no steps.
-        scales: of errors, where they are not to be found from the motion.
+        absolute: velocity, m/s: errors below it do not count, however small the largest speed.
+        scales: of errors, where they are not those of the motion so far.
         tuning: the numbers of step control, to vary them.
-        controller: changes steps for their errors instead of `LimitedGrowth`, which has `safety`
-            and `factor_max` of the tuning.
+        criteria: makes the criteria of the error of a step.
+        controller: changes steps for their errors instead of `LimitedGrowth`, which has `safety`,
+            `factor_min` and `factor_max` of the tuning.
         next_corner: time (s) -> the next instant at which a load has a corner, s, or infinity;
-            steps end on them. None: there are none, and rigid bodies in the plane keep their energy
-            as steps change.
+            steps end on them. None: there are none.
         watch: time (s) -> why the motion has come to its end there, or nothing; is asked after
             every step. ARRIVED ends a run that got where it was to go.
         sample: period of the system's pre-step function, s. Steps end on its multiples, and the
-            function is called once for each period, with its end, as in fixed steps of that size.
-            None: the largest step. 0.0: before every step. A function of time that moves
-            constraints is called wherever these are asked.
-        hold: whether numbers that a pre-step function sets are held from call to call, as by a
-            digital controller. False: they go over from one call to the next, as in fixed steps.
+            function is called once for each period, with its end; what it sets is held. None and
+            0.0: it is called before every try of a step, with the step's end.
+        hold: whether what a pre-step function sets is meant to jump from period to period, as the
+            output of a digital controller; without it a warning says that jumps are not followed.
         event: function (system, time in s) -> number; steps end where it changes its sign, within
             a millionth of the largest step. Not with fixed steps.
         bodies: node number -> name and mass (kg) of its body; nodes that are not named are
@@ -110,9 +115,8 @@ def solve_dynamic(
     Raises:
         InputError: the system is not assembled, there is nothing to solve, the settings ask for
             what has no error estimate, a joint starts with a film's surfaces in touch or a
-            contact deeper than its laws hold, the start is far off a constraint, a force is
-            another one when it is asked for again, or errors are asked for where this process
-            cannot be copied; the system is left as it was.
+            contact deeper than its laws hold, the start is far off a constraint, or errors are
+            asked for where this process cannot be copied; the system is left as it was.
         exudyn.ExudynError: a user function failed.
     """
     refuse_unusable(settings, tolerance, sample, hold=hold)
@@ -122,70 +126,49 @@ def solve_dynamic(
         )
     if event is not None and tolerance is None:
         raise InputError("event: allowed with a tolerance, as fixed steps end on their grid")
-    problem = Problem.of(mbs, bodies)
-    words = advice(problem, tolerance is not None)
-    if problem.joints is not None:
-        problem.joints.refuse_start(words.joint)
-
-    period, told = _period(mbs, settings, sample), list[str]()
+    system = System.of(mbs, bodies)
+    words = advice(system, tolerance is not None)
+    if system.joints is not None:
+        system.joints.refuse_start(words.joint)
+    messages = list(words.about_system(held=hold))
 
     def run(
         tolerance: float | None,
         watch: Callable[[float], str],
         max_steps: int,
         quiet: bool,
-    ) -> tuple[Outcome, FoundScales]:
-        task = Task(problem, settings, tolerance, scales, tuning, absolute)
+    ) -> tuple[Outcome, RunningScales]:
+        task = Task(system, settings, tolerance, scales, tuning, absolute)
+        functions = UserFunctions(system, task.start, (sample or 0.0) * (not task.fixed))
         with Progress("run", task.end - task.start, quiet=quiet) as progress:
             monitor = Monitor(
                 task,
-                next_corner,
+                functions,
+                functions.with_samples(next_corner or _no_corner),
                 watch,
                 progress,
                 max_steps,
-                period,
+                criteria,
                 event,
                 words.long,
                 controller,
-                hold=hold,
             )
             outcome = _run(task, settings, monitor, words, progress)
-        told.extend(words.about_start(monitor.fitted, task))
-        jumps = (0, 0) if hold else monitor.pushed_by_calls
-        told.extend(words.about_functions(jumps, (monitor.set_behind_steps, monitor.steps)))
+        messages.extend(words.about_start(task, monitor.start_changes))
         return outcome, task.scales
 
     if errors:
-        from exu_press.integrate.run_error import with_error  # a run without them loads less
+        from exu_press.integrate.finer_run import with_error  # a run without them loads less
 
-        outcome, found = with_error(
-            run, problem, settings, tolerance, period, watch, max_steps, quiet
-        )
+        outcome = with_error(run, system, settings, tolerance, watch, max_steps, quiet)
     else:
-        outcome, found = run(tolerance, watch, max_steps, quiet)
+        outcome, _ = run(tolerance, watch, max_steps, quiet)
     if update_initial_values:
-        _start_from_here(mbs)
-    told.extend(words.about_outcome(outcome))
-    if found.unseen:
-        told.append(
-            "the system is taken to be at rest: nothing moved by more than "
-            f"{found.rest:.2g} m/s, as rounded positions may, and errors were not judged; longer "
-            "steps, or fixed ones (tolerance=None), follow such a motion"
-        )
-    for text in told:
-        warnings.warn(f"solve_dynamic: {text}", stacklevel=2)
+        _update_initial_values(mbs)
+    messages.extend(words.about_outcome(outcome))
+    for message in messages:
+        warnings.warn(f"solve_dynamic: {message}", stacklevel=2)
     return outcome
-
-
-def _period(mbs: exu.MainSystem, settings: exu.SimulationSettings, sample: float | None) -> float:
-    """Return the period of a pre-step function, s, or 0.0 where there is none."""
-    function: Any = mbs.GetPreStepUserFunction()
-    if function == 0:
-        return 0.0
-    if sample is not None:
-        return sample
-    integration = settings.timeIntegration
-    return (integration.endTime - integration.startTime) / integration.numberOfSteps
 
 
 def _run(
@@ -198,39 +181,33 @@ def _run(
     """Return how a task ended that a monitor watches.
 
     Raises:
-        InputError: the start is far off a constraint, or a force differs when asked for again.
+        InputError: the start is far off a constraint.
     """
-    problem, solver, failure = task.problem, task.solver, ""
-    mbs = problem.mbs
+    system, solver, failure = task.system, task.solver, ""
+    mbs = system.mbs
     mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings
     begun = clock.perf_counter()
     # matrices of a hundred rows: further threads only wait for each other; to look for NumPy's
     # libraries takes as long as a hundred steps
     with (
         monitor.attached(),
-        prepared(settings, task),
+        prepared_settings(settings, task),
         _silent_console(),
-        one_thread() if problem.equations > FEW else nullcontext(),
+        one_thread() if system.equations > FEW else nullcontext(),
     ):
         try:
-            solved = solver.SolveSystem(mbs, settings)
-            if monitor.without_mass:
-                settings.timeIntegration.generalizedAlpha.computeInitialAccelerations = False
-                solved = solver.SolveSystem(mbs, settings)
-            if monitor.again:
-                solved = solver.SolveSystem(mbs, settings)
-            if not solved:
+            if not solver.SolveSystem(mbs, settings):
                 failure = solver.GetErrorString()
         except exu.ExudynError as error:
             failure = str(error)
             if "USER FUNCTION" in failure:  # an error in our own code is no failure of Newton's
                 raise
     wall_time = clock.perf_counter() - begun
-    reached = problem.data.GetTime()
+    reached = system.data.GetTime()
     progress.update(reached - task.start)
-    if monitor.refused:
-        raise InputError(monitor.refused)
-    status, reason = how_it_ended(task, monitor, words, time=reached, failure=failure)
+    if monitor.refusal:
+        raise InputError(monitor.refusal)
+    status, reason = termination(task, monitor, words, time=reached, failure=failure)
     return Outcome(
         status=status,
         reason=reason,
@@ -239,11 +216,11 @@ def _run(
         steps=monitor.steps,
         rejected_steps=monitor.tries - monitor.steps,
         newton_iterations=solver.it.newtonStepsCount,
-        law_evaluations=problem.joints.evaluations if problem.joints else 0,
+        law_evaluations=system.joints.evaluations if system.joints else 0,
     )
 
 
-def _start_from_here(mbs: exu.MainSystem) -> None:
+def _update_initial_values(mbs: exu.MainSystem) -> None:
     """Make the current state the one from which the next run starts."""
     data: Any = mbs.systemData
     initial = exu.ConfigurationType.Initial

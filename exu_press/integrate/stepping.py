@@ -1,18 +1,14 @@
-"""Steps: their sizes, by a tolerance or fixed, and whether they resolved the impacts."""
+"""Steps: their sizes, by a tolerance or fixed, and the events on which they end."""
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import Any
 
 from exu_press.integrate.controller import Controller, LimitedGrowth
 from exu_press.integrate.error import StepError
-from exu_press.integrate.settings import SAME, Task
+from exu_press.integrate.task import SAME, Task
 
-__all__ = ["FixedSteps", "Resolution", "StepControl", "Unresolved"]
-
-LARGEST_JUMP = 0.65
-"""Change of an inertia force within one step, over the run's largest one, above which impacts are
-not resolved."""
+__all__ = ["Event", "FixedSteps", "StepControl"]
 
 
 class StepControl:
@@ -20,7 +16,6 @@ class StepControl:
 
     Attributes:
         error: of the last try.
-        of_force: whether that is too large, in a step that cannot be shorter, as a force jumps.
     """
 
     def __init__(
@@ -28,7 +23,6 @@ class StepControl:
         task: Task,
         estimate: StepError,
         next_corner: Callable[[float], float],
-        next_sample: Callable[[float], float],
         controller: Controller | None = None,
     ) -> None:
         """Control the steps of a task.
@@ -36,66 +30,52 @@ class StepControl:
         Args:
             task: to be solved.
             estimate: of the error of a step.
-            next_corner: time -> the next instant at which a load has a corner, s, or infinity.
-            next_sample: time -> the next one of a grid on which steps end, s, or infinity.
+            next_corner: time -> the next instant on which a step is to end, s, or infinity.
             controller: changes steps for their errors; `LimitedGrowth` unless given.
         """
-        self.error, self.of_force = 0.0, False
-        self._controller = controller or LimitedGrowth(task.tuning, impacts=task.impacts)
+        self.error = 0.0
+        self._controller = controller or LimitedGrowth(task.tuning)
         self._estimate, self._next_corner = estimate, next_corner
-        self._next_sample = next_sample
         self._end, self._smallest, self._largest = task.end, task.smallest, task.largest
         self._no_shorter = task.no_shorter
         self._step = self._first = task.first
         self._asked = 0.0  # what Exudyn is to try, s; shorter than the step, up to a corner
-        # the step that failed last, s, its change of speeds, m/s, and what is left of it, s
-        self._failed, self._change, self._left = math.inf, 0.0, 0.0
 
-    def start_again(self) -> None:
+    def restart(self) -> None:
         """Go on with the first step's size, as the motion begins anew."""
+        self._estimate.restart()
         self._step = self._first
 
     def shorter(self, step: float) -> float:
         """Return with which step to repeat one just tried, s, or 0.0 where it is good enough."""
         error = self._estimate(step)
         if error > 1.0 and step <= self._no_shorter:
-            error = min(error, self._estimate.of_jump(step))
+            error = min(error, self._estimate.of_discontinuity(step))
         self.error = error
         if error <= 1.0:
             return 0.0
-        self.of_force = step <= self._no_shorter and self._changes_with(step)
-        self._failed = self._left = step
-        self._change = self._estimate.change_of_speed()
         self._step = self._asked = step * self._controller.repeated(error)
         return self._step
 
-    def _changes_with(self, step: float) -> bool:
-        """Return whether a jump in a step (s) changes speeds by less than in the longer one before.
+    def accept(self, step: float, *, at_event: bool = False) -> None:
+        """Take the step last tried as done; choose the size of those to come.
 
-        So does that of a force, with the step, however slow the motion is that it meets. What
-        changes speeds by as much in any step is a blow, or a constraint that jumps.
+        Args:
+            step: s.
+            at_event: whether it was shortened to end on an event.
         """
-        allowed = self._change * math.sqrt(step / self._failed)
-        # what failed before lies behind: it had another jump
-        return self._left >= -self._smallest and self._estimate.change_of_speed() < allowed
-
-    def accept(self, step: float) -> None:
-        """Take the step last tried as done; choose the size of those to come."""
-        self._left -= step
-        shortened = step < (1.0 - SAME) * self._asked  # by Exudyn
-        self._estimate.accept(shortened)
-        if shortened and step >= 0.5 * self._step:  # else by a contact that it ends on
-            self._step = step
+        self._estimate.accept()
+        if not at_event and 0.5 * self._step <= step < (1.0 - SAME) * self._asked:
+            self._step = step  # shortened by Exudyn
         part = step / self._step
         self._step *= self._controller.continued(self.error / (part * part * part))
 
     def next_step(self, time: float) -> float:
-        """Return the step from a time on, s; it ends exactly on corners, samples and the end.
+        """Return the step from a time on, s; it ends exactly on corners and the end.
 
         Two steps of one size lead to the next corner, where one would not get there. A corner
         that only rounding tells from the end is the end: as a stop of its own it would be neared by
-        halves, down to the smallest step. Samples are many, and all steps between two are of one
-        size: a change of the step takes as long as three.
+        halves, down to the smallest step.
         """
         self._step = step = min(self._step, self._largest)
         left, corner = self._end - time, self._next_corner(time)
@@ -103,9 +83,6 @@ class StepControl:
             left = corner - time
         if left > self._smallest and step > 0.5 * left:
             step = left if step >= left else 0.5 * left
-        left = self._next_sample(time) - time
-        if self._smallest < left < math.inf:
-            step = min(step, left / math.ceil((1.0 - SAME) * left / step))
         self._asked = step
         return step
 
@@ -118,23 +95,22 @@ class FixedSteps:
 
     Attributes:
         error: none that is known.
-        of_force: never.
     """
 
     def __init__(self, task: Task) -> None:
         """Take the steps of a task."""
-        self.error, self.of_force = 0.0, False
+        self.error = 0.0
         self._step, self._start = task.largest, task.start
         self._size = self._next = task.first
 
-    def start_again(self) -> None:
+    def restart(self) -> None:
         """Keep the grid."""
 
     def shorter(self, step: float) -> float:
         """Return 0.0: every step is good enough."""
         return 0.0
 
-    def accept(self, step: float) -> None:
+    def accept(self, step: float, *, at_event: bool = False) -> None:
         """Take a step (s) as done."""
         halved = step < 0.99 * self._next
         self._size = step if halved else min(self._step, 2.0 * self._size)
@@ -148,97 +124,41 @@ class FixedSteps:
         return self._next
 
 
-@dataclass(frozen=True)
-class Unresolved:
-    """The worst step of a run that its steps do not resolve.
+class Event:
+    """Ends a step right behind the instant at which a function changes its sign.
+
+    A step in which it does is repeated up to where the secant has its zero, and a little further.
+    One that then falls short is kept, and the next one begins that much nearer.
 
     Attributes:
-        time: where the step ends, s.
-        step: its size, s.
-        node: whose inertia force jumps, counted as in the problem.
-        jump: of that force, over the largest one of the run.
+        passed: whether the step last tried ends behind an event.
     """
 
-    time: float
-    step: float
-    node: int
-    jump: float
+    def __init__(self, task: Task, function: Callable[[Any, float], float] | None) -> None:
+        """Look for the zeros of a function of the system and the time, s."""
+        self._mbs, self._function = task.system.mbs, function
+        self._narrow = max(task.tuning.event_width * task.largest, 2.0 * task.smallest)
+        self._before = self._now = 0.0  # at the beginning and at the end of the step last tried
+        self.passed = False
 
+    def begin(self, time: float) -> None:
+        """Look at the current state, from which the run starts at a time, s."""
+        if self._function is not None:
+            self._before = self._function(self._mbs, time)
 
-class Resolution:
-    """Follows the inertia forces of all bodies: do the steps resolve the impacts?
+    def shorter(self, step: float, end: float) -> float:
+        """Return with which step to repeat one (s) that ends at `end`, s, or 0.0 to keep it."""
+        if self._function is None:
+            return 0.0
+        self._now = now = self._function(self._mbs, end)
+        self.passed = now * self._before < 0.0
+        if not self.passed:
+            return 0.0
+        part = self._before / (self._before - now)
+        if (1.0 - part) * step <= self._narrow:
+            return 0.0
+        return min(part * step + 0.5 * self._narrow, 0.9 * step)
 
-    A step of any size gets through an impact, and generalized-alpha is stable at all of them: the
-    run ends, its curves look smooth, and its peaks have the height that the step gives them. What
-    tells is how a peak is reached. Resolved, a force rises over several steps; where the largest
-    force of the run comes or goes within one step, its height is the step's.
-
-    So the figure is the largest change of an inertia force m |a| within one step, of any body,
-    against the largest inertia force of the run. Measured against a tolerance of 1e-5 on dry,
-    lubricated and mixed presses and slider-cranks of many clearances, speeds and dampings, steps of
-    1e-3 to 1e-5 s: above 0.8 the joints' peak forces were off by 9 to 90 %, seldom less; between
-    0.65 and 0.8 by 2 to 17 %. Below, steps say nothing against a peak, and nothing for it either:
-    an error that an earlier impact left may have grown by then. How far a figure is off its stated
-    error says (see `exu_press.verification`).
-
-    Loads and prescribed motions may jump themselves, and steps end on that within what the
-    tolerance leaves: a jump that changes no speed by a tenth of it is none of the step's; with
-    clearance joints, whose largest forces may be those of slight impacts, by a hundredth.
-    In an equilibrium, and in a press that stands, rounded forces come and go, and move nothing.
-    Joints bear weights as well: where all inertia forces are smaller, as what is left of the start
-    in a press that stands, a jump is judged against the largest weight.
-    """
-
-    def __init__(self, task: Task) -> None:
-        """Follow a task."""
-        self._scales = task.scales
-        self._radius = task.spectral_radius  # by which a ring decays from step to step
-        self._least = (0.1 if task.problem.joints is None else 0.01) * task.tolerance
-        self._before: list[float] = []
-        # A stiff film that starts from rest makes the accelerations ring; that is no impact.
-        self._started: list[float] = []
-        self._ring = 1.0
-        self._largest = 0.0
-        self._steps = 0
-        # size, end and size of the step (s), node, and half the change of speed in the step (m/s)
-        self._jumps: list[tuple[float, float, float, int, float]] = []
-
-    def begin(self, accelerations: list[float]) -> None:
-        """Be told of all coordinates' accelerations where the motion begins, or begins anew."""
-        self._before, self._started, self._ring = accelerations, [], 1.0
-
-    def stepped(self, time: float, step: float, accelerations: list[float]) -> None:
-        """Be told of an accepted step (s), and where it ends (s)."""
-        before, self._before = self._before, accelerations
-        scales = self._scales
-        jumps = scales.squares([accelerations[i] - before[i] for i in range(len(before))])
-        sizes = scales.squares(accelerations)
-        masses = scales.masses
-        if not self._started:
-            self._started = [2.0 * math.sqrt(square) for square in jumps]
-        else:
-            self._ring *= self._radius
-        self._steps += 1
-        for i in range(len(masses)):
-            mass = masses[i]
-            if mass == math.inf:
-                continue
-            ringing = self._started[i] * self._ring
-            self._largest = max(self._largest, mass * (math.sqrt(sizes[i]) - ringing))
-            jump = mass * (math.sqrt(jumps[i]) - ringing)
-            if jump > LARGEST_JUMP * self._largest:
-                self._jumps.append((jump, time, step, i, 0.5 * step * math.sqrt(jumps[i])))
-
-    def worst(self) -> Unresolved | None:
-        """Return the step with the largest change of an inertia force, if it is too large."""
-        speed = self._scales.speed
-        rest = self._scales.rest
-        least = max(self._least * speed, rest) if speed > rest else math.inf
-        felt = [found for found in self._jumps if found[-1] > least]
-        if self._steps < 2 or not felt:
-            return None
-        jump, time, step, node, _ = max(felt)
-        weight = self._scales.gravity * max(m for m in self._scales.masses if m < math.inf)
-        if jump <= LARGEST_JUMP * max(self._largest, weight):
-            return None
-        return Unresolved(time, step, node, jump / self._largest)
+    def accept(self) -> None:
+        """Remember the accepted step's end as the next one's beginning."""
+        self._before = self._now or self._before

@@ -7,7 +7,7 @@ import exudyn as exu
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.integrate.problem import Problem
+from exu_press.integrate.system import System
 from exu_press.model.model import Model
 from exu_press.numerics.arrays import Array
 
@@ -49,7 +49,7 @@ class State(TypedDict):
 def state_of(model: Model) -> State:
     """Return the state in which a model is after it was solved."""
     data: Any = model.mbs.systemData
-    user_force = Problem.of(model.mbs).joints
+    user_force = System.of(model.mbs).joints
     state: State = {
         "time": float(data.GetTime()),
         "step": float(model.mbs.sys["dynamicSolver"].it.currentStepSize),
@@ -74,7 +74,7 @@ def go_on_from(model: Model, state: State) -> Model:
     """
     data: Any = model.mbs.systemData
     initial = exu.ConfigurationType.Initial
-    user_force = Problem.of(model.mbs).joints
+    user_force = System.of(model.mbs).joints
     sizes = [len(part) for part in data.GetSystemState(configuration=initial)]
     given = [len(part) for part in state["coordinates"]]
     histories = 0 if state["joints"] is None else len(state["joints"]["joints"])

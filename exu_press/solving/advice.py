@@ -4,9 +4,9 @@ import math
 from collections.abc import Iterator
 
 from exu_press.integrate import Advice, Outcome
-from exu_press.integrate.problem import Problem
-from exu_press.integrate.settings import Task
-from exu_press.integrate.stepping import Unresolved
+from exu_press.integrate.resolution import Unresolved
+from exu_press.integrate.system import System
+from exu_press.integrate.task import Task
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.scene import LubricatedJoint, mechanism_of
 from exu_press.scene.applied import applied_loads
@@ -30,15 +30,15 @@ then missed by a tenth at most."""
 class SceneAdvice(Advice):
     """The scene's words: crank angles, and the keys to change."""
 
-    def __init__(self, model: Assembled, problem: Problem, by_tolerance: bool) -> None:
-        super().__init__(problem, by_tolerance)
+    def __init__(self, model: Assembled, system: System, by_tolerance: bool) -> None:
+        super().__init__(system, by_tolerance)
         self._model, self._scene = model, model.scene
 
     def about_outcome(self, outcome: Outcome) -> Iterator[str]:
         """Say nothing: the result tells how its run ended."""
         return iter(())
 
-    def about_start(self, fitted: tuple[float, float], task: Task) -> Iterator[str]:
+    def about_start(self, task: Task, changes: tuple[float, float]) -> Iterator[str]:
         """Say nothing: a scene's start fits, but where it goes on from a run at another speed."""
         return iter(())
 
@@ -161,7 +161,7 @@ def leapt_over_load(model: Assembled) -> str:
     shortest = edges[name]
     if solver.step <= shortest / STEPS_IN_AN_EDGE * (1.0 + 1e-9):
         return ""
-    advice = SceneAdvice(model, Problem.of(model.mbs, None), False)
+    advice = SceneAdvice(model, System.of(model.mbs, None), False)
     return (
         f"under-resolved {advice.place(begin)}: steps of {solver.step:.2g} s in load.{name} with "
         f"an edge of {shortest:.2g} s; peaks are the step's; try solver.step = "

@@ -52,7 +52,7 @@ def solve(model: Assembled, *, tuning: SolverTuning = DEFAULTS, quiet: bool = Tr
         event=model.event,
         # modes and drive: excluded from the norm
         bodies={node: (name, masses.get(name, math.inf)) for name, node in model.nodes.items()},
-        advice=lambda problem, by_tolerance: SceneAdvice(model, problem, by_tolerance),
+        advice=lambda system, by_tolerance: SceneAdvice(model, system, by_tolerance),
         tuning=tuning,
         max_steps=solver.max_steps,
         quiet=quiet,

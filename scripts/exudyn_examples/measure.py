@@ -9,8 +9,8 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from exu_press import solve_dynamic
-from exu_press.integrate.problem import Problem
-from exu_press.integrate.scales import weights
+from exu_press.integrate.scales import kinetic_weights
+from exu_press.integrate.system import System
 
 __all__ = ["Run", "at_equal_error", "error", "run"]
 
@@ -79,11 +79,11 @@ def run(example, *, tolerance=None, steps=None, end=None, record=True):
 
 def _weights(mbs):
     """Weight and body of each coordinate, from the mass matrix."""
-    problem = Problem.of(mbs)
-    if not problem.nodes:
+    system = System.of(mbs)
+    if not system.nodes:
         return np.zeros(0), np.zeros(0, int)
-    inertias, masses = weights(problem.nodes, mbs.sys["dynamicSolver"].GetSystemMassMatrix())
-    sizes = [node.size for node in problem.nodes]
+    inertias, masses = kinetic_weights(system.nodes, mbs.sys["dynamicSolver"].GetSystemMassMatrix())
+    sizes = [node.size for node in system.nodes]
     body = np.repeat(np.arange(len(sizes)), sizes)
     mass = np.array(masses)[body]
     mass[mass == 0.0] = np.nan  # no displacements: its own largest energy is the scale

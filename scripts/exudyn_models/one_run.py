@@ -32,12 +32,12 @@ import exudyn.solver
 import exudyn.utilities
 import numpy as np
 import scipy.sparse.linalg
-
-from exu_press import InputError, solve_dynamic
 from exu_press.integrate.motion import velocities_of
 from exu_press.integrate.problem import Problem
-from exu_press.integrate.scales import weights
 from exu_press.integrate.set_numbers import SetNumbers
+
+from exu_press import InputError, solve_dynamic
+from exu_press.integrate.scales import weights
 from exudyn_models.renamed import put_back
 
 EXPORTED = (

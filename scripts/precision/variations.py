@@ -7,8 +7,8 @@ from functools import partial
 import exudyn as exu
 
 from exu_press.integrate import ErrorScales, Outcome, SolverStatus, SolverTuning
-from exu_press.integrate.problem import Problem
-from exu_press.integrate.settings import Task, prepared
+from exu_press.integrate.system import System
+from exu_press.integrate.task import Task, prepared_settings
 from exu_press.joints import user_force_of
 from exu_press.model import build
 from exu_press.result import record
@@ -100,10 +100,10 @@ def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
     silent, exu.config.printToConsole = exu.config.printToConsole, False
     start, cpu_start = time.perf_counter(), time.process_time()
     try:
-        task = Task(Problem.of(model.mbs), settings, None, ErrorScales(), SolverTuning())
+        task = Task(System.of(model.mbs), settings, None, ErrorScales(), SolverTuning())
         task.smallest = SMALLEST
         model.mbs.SetPostStepUserFunction(lambda mbs, time: not model.watch(time))
-        with prepared(settings, task):
+        with prepared_settings(settings, task):
             newton.useModifiedNewton, newton.modifiedNewtonJacUpdatePerStep = NEWTON_MODES[mode]
             model.mbs.SolveDynamic(settings, showHints=False)
         status, reason = SolverStatus.COMPLETED, ""

@@ -2,13 +2,12 @@
 
 import math
 
-import exudyn as exu
-import exudyn.utilities as items
 import pytest
+from stand_in_system import mass_on_spring, settings
 
-from exu_press import SolverStatus, solve_dynamic
-from exu_press.integrate.controller import SHORTENED, LimitedGrowth
-from exu_press.integrate.settings import SolverTuning
+from exu_press.integrate import SolverStatus, solve_dynamic
+from exu_press.integrate.controller import LimitedGrowth
+from exu_press.integrate.task import SolverTuning
 
 FREQUENCY = 10.0  # rad/s
 
@@ -33,22 +32,8 @@ class ProportionalIntegral:
 
 def oscillator(**keys):
     """Velocity at the end of a mass on a spring that starts displaced by 1 m, and the outcome."""
-    mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[1.0]))
-    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
-    ground = mbs.AddNode(items.NodePointGround())
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
-        for number in (ground, node)
-    ]
-    mbs.AddObject(
-        items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, stiffness=FREQUENCY**2)
-    )
-    mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = 1.0
-    settings.solution.file.write = False
-    outcome = solve_dynamic(mbs, settings, tolerance=1e-3, **keys)
+    mbs = mass_on_spring(FREQUENCY)
+    outcome = solve_dynamic(mbs, settings(1.0), tolerance=1e-3, **keys)
     return float(mbs.systemData.GetODE2Coordinates_t()[0]), outcome
 
 
@@ -72,5 +57,5 @@ def test_steps_stay_until_they_may_grow_by_the_whole_factor():
     assert control.continued(1.01 * edge) == 1.0
     assert control.continued(0.99 * edge) == tuning.factor_max
     assert control.repeated(8.0 * tuning.safety) == pytest.approx(0.5)
-    assert control.repeated(math.nan) == SHORTENED
-    assert control.repeated(math.inf) == SHORTENED
+    assert control.repeated(math.nan) == tuning.factor_min
+    assert control.repeated(math.inf) == tuning.factor_min

@@ -3,7 +3,6 @@
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.integrate.monitor import most_limiting
 
 SCENE = Scene.from_dict(
     {
@@ -31,11 +30,3 @@ def test_it_says_how_long_and_why(monkeypatch, capsys) -> None:
 def test_a_short_run_says_nothing(quiet: bool, capsys) -> None:
     simulate(SCENE.replace({"revolutions": 0.02}), quiet=quiet)
     assert "s left: steps of" not in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("counts", "tries", "joint"),
-    [([], 100, None), ([20, 10], 100, None), ([2, 30, 25], 100, 1), ([90, 5], 100, 0)],
-)
-def test_joints_that_share_the_steps_are_a_reason(counts, tries, joint):
-    assert most_limiting(counts, tries) == joint

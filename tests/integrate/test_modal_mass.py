@@ -7,9 +7,9 @@ import exudyn.utilities as items
 import numpy as np
 import pytest
 
-from exu_press import SolverStatus, SolverTuning, solve_dynamic
+from exu_press.integrate import SolverStatus, SolverTuning, solve_dynamic
 from exu_press.integrate.modal_mass import follow_modes
-from exu_press.integrate.problem import modal_item
+from exu_press.integrate.system import modal_item
 
 OMEGA = np.array([2.0 * math.pi, 10.0 * math.pi])
 STRAIGHT = np.eye(2)

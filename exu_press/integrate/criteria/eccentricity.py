@@ -1,60 +1,72 @@
-"""Eccentricities and penetrations of clearance joints."""
+"""Local error of eccentricities and penetrations of clearance joints."""
 
 import math
 
+from exu_press.integrate.newton_filter import NewtonFilter
+from exu_press.integrate.task import Task
 from exu_press.joints.joint import ClearanceJoint
 
-__all__ = ["JointError"]
-
-LEAST_PENETRATION = 1e-3
-"""Over the clearance, up to which a penetration counts as this."""
+__all__ = ["EccentricityError"]
 
 
-class JointError:
-    """The eccentricity's error of one clearance joint: its way less that of its velocities.
+class EccentricityError:
+    """Change of a joint's eccentricity less the integral of its rate, over its limit.
 
-    See `exu_press.joints.path`. Where surfaces touch, its part across them is an error of the
-    penetration, and held against that too.
+    See `exu_press.joints.path`. Where surfaces touch, its component along the eccentricity is an
+    error of the penetration, and held against that too. A film alone keeps what each step leaves,
+    always on the same side, so that errors add up: the limit goes with the step there.
+
+    Attributes:
+        joint: whose eccentricity it is.
     """
 
     def __init__(
         self,
+        task: Task,
         joint: ClearanceJoint,
-        limit: float,
-        drift: float,
-        rounding: float,
+        newton_filter: NewtonFilter,
+        allowed: float,
         penetration: float,
     ) -> None:
         """Take a joint and its scales.
 
         Args:
-            joint: whose eccentricity is looked at.
-            limit: the error of a step that counts as 1, m.
-            drift: the same over the step, m/s, where a film alone lies between the surfaces: it
-                keeps what each step leaves, always on the same side, so that errors add up.
-            rounding: of positions, as it alternates, m; no error below it counts as 1.
-            penetration: its allowed error, over itself, as a part of the same of an
-                eccentricity, over the clearance.
+            task: to be solved.
+            joint: whose eccentricity it is.
+            newton_filter: knows the rounding of constraints.
+            allowed: error of an eccentricity in one step, over the clearance.
+            penetration: allowed error of a penetration, over itself, as a part of `allowed`.
         """
-        self._joint = joint
-        self._penetration = penetration
-        self._limit = limit
-        self._rounding = rounding
-        self._drift = drift if joint.contact_onset == math.inf else math.inf
+        tuning = task.tuning
+        self.joint, self._scales, self._filter = joint, task.scales, newton_filter
+        self._penetration, self._least = penetration, tuning.least_penetration
+        self._limit = allowed * joint.clearance  # m
+        per_time = task.tolerance / (tuning.kept_steps * task.usual)
+        alone = joint.contact_onset == math.inf
+        self._drift = per_time * joint.clearance if alone else math.inf  # m/s
 
-    def error(self, step: float, left: float = 0.0) -> float:
-        """Return the error of a step (s) that ends where the joint was last asked for its force.
+    def restart(self) -> None:
+        """Begin with the current state; the joint remembers its path itself."""
 
-        Args:
-            step: s.
-            left: position error that its constraints leave, m.
-        """
-        joint, rounding = self._joint, max(self._rounding, left)
-        place = joint.eccentricity
-        missed, along = joint.path.missed(place, joint.relative_velocity, step)
-        error = missed / max(min(self._limit, self._drift * step), rounding)
-        depth = math.hypot(*place) - joint.contact_onset
+    def error(self, step: float) -> float:
+        """Return the error of a step (s) that ends where the joint was last asked for its force."""
+        error = self._over(step, self._scales.roundoff)
+        if error > 1.0:
+            roundoff = self._filter.roundoff_of_constraints()
+            error = self._over(step, max(self._scales.roundoff, roundoff))
+        return error
+
+    def accept(self) -> None:
+        """Do nothing: the joint remembers its path itself."""
+
+    def _over(self, step: float, roundoff: float) -> float:
+        """Return the error of a step (s) where no error below a roundoff, m, counts as 1."""
+        joint = self.joint
+        eccentricity = joint.eccentricity
+        missed, along = joint.path.missed(eccentricity, joint.relative_velocity, step)
+        error = missed / max(min(self._limit, self._drift * step), roundoff)
+        depth = math.hypot(*eccentricity) - joint.contact_onset
         if depth > 0.0:
-            relative = max(LEAST_PENETRATION, self._penetration * depth / joint.clearance)
-            error = max(error, abs(along) / max(relative * self._limit, rounding))
+            relative = max(self._least, self._penetration * depth / joint.clearance)
+            error = max(error, abs(along) / max(relative * self._limit, roundoff))
         return error

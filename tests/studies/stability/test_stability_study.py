@@ -43,9 +43,9 @@ def test_a_run_that_says_it_was_not_resolved_has_stopped():
 
 def test_the_same_run_without_a_word_would_be_wrong(monkeypatch):
     """The checks, not the status, find it: the verdict does not rest on the run's own word."""
-    from exu_press.integrate.stepping import Resolution
+    from exu_press.integrate.resolution import ImpactResolution
 
-    monkeypatch.setattr(Resolution, "worst", lambda resolution: None)
+    monkeypatch.setattr(ImpactResolution, "worst", lambda resolution: None)
     row = judged(**DRY, **{"solver.step": 1e-3})
     assert row["status"] == "completed"
     assert row["verdict"] == "wrong"

@@ -1,0 +1,80 @@
+"""Local error of the bodies' velocities, from the accelerations at three instants."""
+
+from exu_press.integrate.newton_filter import NewtonFilter
+from exu_press.integrate.task import Task
+
+__all__ = ["VelocityError"]
+
+
+class VelocityError:
+    """Local error of velocities over its limit: h^3 |second derivative of the acceleration| / 6.
+
+    The largest one of all bodies, in the kinetic norm. The derivative is the change of the
+    accelerations' rate from step to step. Where that is too much, what counts is the part that
+    Newton's matrix lets through (`NewtonFilter`).
+    """
+
+    def __init__(self, task: Task, newton_filter: NewtonFilter, allowed: float) -> None:
+        """Follow the bodies of a task.
+
+        Args:
+            task: to be solved.
+            newton_filter: of stiff components.
+            allowed: error of a velocity in one step, over the scale of speeds.
+        """
+        self._scales, self._filter, self._allowed = task.scales, newton_filter, allowed
+        self._constant = task.tuning.velocity_constant
+        self._accelerations = task.system.current.accelerations
+        self._before: list[float] = []  # accelerations at the beginning of the step
+        self._now: list[float] = []
+        self._rate_before: list[float] = []  # of them, in the step before; none in the first one
+        self._rate: list[float] = []
+
+    def restart(self) -> None:
+        """Begin with the current state, as at the start."""
+        self._before, self._rate_before = self._accelerations.tolist(), []
+
+    def error(self, step: float) -> float:
+        """Return the error of a step (s) that ends in the current state."""
+        self._now = now = self._accelerations.tolist()
+        before, rate_before = self._before, self._rate_before
+        self._rate = rate = [(now[i] - before[i]) / step for i in range(len(now))]
+        if rate_before:
+            change = [rate[i] - rate_before[i] for i in range(len(rate))]
+        else:
+            relative = step * self._relative_rate()
+            change = [relative * value for value in rate]
+        error = self._of_change(change, step, 0.0)
+        if error > 1.0:
+            self._filter.refresh()
+            change = self._filter.filtered(change)
+            error = self._of_change(change, step, 0.0)
+            if error > 1.0:
+                error = self._of_change(change, step, self._filter.roundoff_of_constraints())
+        return error
+
+    def accept(self) -> None:
+        """Take the end of the step last tried as the next one's beginning."""
+        self._before, self._rate_before = self._now, self._rate
+
+    def _relative_rate(self) -> float:
+        """Return the rate of the accelerations, in the first step, over them: at most one a step.
+
+        What it changes by within the step is not known yet: as much as the accelerations do.
+        """
+        norm = self._scales.norm
+        rate, largest = norm(self._rate), max(norm(self._now), norm(self._before))
+        return rate / largest if rate > 0.0 else 0.0
+
+    def _of_change(self, change: list[float], step: float, roundoff: float) -> float:
+        """Return the error that goes with a change of the accelerations' rate, SI.
+
+        Args:
+            change: of all coordinates.
+            step: s.
+            roundoff: error of positions that rounded constraints make, m.
+        """
+        scales, constant = self._scales, self._constant
+        limit = constant * max(scales.roundoff, roundoff) / step
+        allowed = self._allowed * scales.speed
+        return constant * step * step * scales.norm(change) / max(allowed, limit)

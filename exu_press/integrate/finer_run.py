@@ -1,0 +1,244 @@
+"""The error of a run: its difference from the same run with finer steps, in a copy of the process.
+
+Nothing within a run tells how far the motion amplifies what its steps miss, as impacts do.
+"""
+
+import dataclasses
+import math
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+
+from exu_press.errors import InputError
+from exu_press.integrate.outcome import Outcome, RunError
+from exu_press.integrate.scales import RunningScales
+from exu_press.integrate.system import System
+from exu_press.numerics.arrays import Array
+from exu_press.terminal.progress import Progress
+from fe_models.processes import Child, ChildError
+
+__all__ = ["Run", "Watch", "with_error"]
+
+FINER = 0.25
+"""Tolerance of the finer run over the run's; errors of velocities go with it."""
+
+COVERAGE = 10.0 / 3.0
+"""Error over the difference. Where errors go with the tolerance, they are 4/3 of it; with this the
+stated ones cover the true ones in 60 of 63 of Exudyn's scripts."""
+
+AMPLIFIED = 10.0
+"""Tolerances above which an error is more than that of steps alone."""
+
+INSTANTS = 100
+"""At so many the motions of two runs are compared."""
+
+Watch = Callable[[float], str]
+"""Time, s -> why the motion has come to its end there, or nothing."""
+
+Run = Callable[[float, Watch, int, bool], tuple[Outcome, RunningScales]]
+"""Solves a system from its start: tolerance, watch, budget, quiet, as in `solve_dynamic` -> how it
+ended, and the scales of its errors."""
+
+Answer = tuple[str, Array, list[Array]]
+"""Of a finer run: why it stopped early, or nothing, its velocities and the rows of its sensors."""
+
+
+class SampledVelocities:
+    """Velocities at equally distant instants, by Hermite's cubics between the ends of steps.
+
+    Attributes:
+        times: of the instants, s.
+        rows: velocities at those that were reached.
+    """
+
+    def __init__(self, system: System, settings: exu.SimulationSettings) -> None:
+        """Look at a system that is about to be solved."""
+        start, end = settings.timeIntegration.startTime, settings.timeIntegration.endTime
+        self.times = np.linspace(start, end, INSTANTS + 1)[1:]
+        self.rows: list[Array] = []
+        self._state, self._close = system.current, 1e-9 * (end - start)
+        self._before: tuple[float, Array, Array] | None = None
+
+    def beside(self, watch: Watch) -> Watch:
+        """Return a watch that keeps the velocities, too."""
+
+        def watch_and_sample(time: float) -> str:
+            self._sample(time)
+            return watch(time)
+
+        return watch_and_sample
+
+    def _sample(self, time: float) -> None:
+        """Keep what lies within the step that ends in the current state at a time, s."""
+        v1, a1 = np.array(self._state.velocities), np.array(self._state.accelerations)
+        while self._before is not None and len(self.rows) < INSTANTS:
+            begin, v0, a0 = self._before
+            at = self.times[len(self.rows)]
+            if at > time + self._close:
+                break
+            h = time - begin
+            s = min((at - begin) / h, 1.0)
+            smooth, rest = s * s * (3.0 - 2.0 * s), 1.0 - s
+            slopes = h * s * rest * (rest * a0 - s * a1)
+            self.rows.append((1.0 - smooth) * v0 + smooth * v1 + slopes)
+        self._before = time, v1, a1
+
+
+def with_error(
+    run: Run,
+    system: System,
+    settings: exu.SimulationSettings,
+    tolerance: float | None,
+    watch: Watch,
+    max_steps: int,
+    quiet: bool,
+) -> Outcome:
+    """Return how a run ended, with its error where it got to its end.
+
+    Args:
+        run: solves the system.
+        system: to be solved.
+        settings: Exudyn's, of the run; the others as in `solve_dynamic`.
+
+    Raises:
+        InputError: no finer run in a copy of this process would tell.
+    """
+    if tolerance is None:
+        raise InputError(
+            "errors = True: allowed with a tolerance; compare fixed steps with steps of half the "
+            "size"
+        )
+    _refuse_uncopied(system.mbs)
+    motion, finer = SampledVelocities(system, settings), SampledVelocities(system, settings)
+
+    def run_finer() -> Answer:
+        integration = settings.timeIntegration
+        shorter = math.sqrt(FINER)
+        integration.numberOfSteps = math.ceil(integration.numberOfSteps / shorter)
+        integration.initialStepSize *= shorter
+        integration.minimumStepSize *= shorter
+        _write_nothing(system.mbs, settings)
+        most = math.ceil(max_steps / FINER)
+        try:
+            outcome = run(FINER * tolerance, finer.beside(watch), most, True)[0]
+            why = "" if outcome.status.ended else f"{outcome.status.value}: {outcome.reason}"
+        except Exception as error:  # of the user's functions; the run itself tells its own
+            why = " ".join(str(error).partition("\n\nAt:")[0].split())  # without the calls
+        return why, np.array(finer.rows), _rows(system.mbs)
+
+    with Child(run_finer) as copy:
+        copy.request()
+        outcome, scales = run(tolerance, motion.beside(watch), max_steps, quiet)
+        if not outcome.status.ended:
+            return outcome
+        with Progress("finer run", 1.0, "run", quiet=quiet) as progress:
+            answer = _answer(copy)
+            progress.update(1.0)
+    error = _error(system.mbs, scales, motion, answer, AMPLIFIED * tolerance)
+    return dataclasses.replace(outcome, error=error)
+
+
+def _refuse_uncopied(mbs: exu.MainSystem) -> None:
+    """Refuse to copy this process where the copy would not do."""
+    if sys.platform != "linux":
+        raise InputError(
+            "errors = True: allowed on Linux, where a copy of the process does the finer run; "
+            "build the system twice, and compare with a run of a quarter of the tolerance"
+        )
+    container: Any = mbs.GetSystemContainer()
+    if container.renderer.IsActive():
+        raise InputError(
+            "errors = True: allowed without a window, which the copy of the process has not: stop "
+            "the renderer"
+        )
+
+
+def _answer(copy: Child) -> Answer:
+    """Return the finer run's answer; Ctrl-C ends it, and the run itself is not lost."""
+    try:
+        answer: Answer = copy.answer()
+        return answer
+    except KeyboardInterrupt:
+        why = "interrupted"
+    except ChildError as error:
+        why = f"its process ended: {error}"
+    return why, np.zeros((0, 0)), []
+
+
+def _write_nothing(mbs: exu.MainSystem, settings: exu.SimulationSettings) -> None:
+    """Leave all files to the run itself."""
+    output = settings.solution
+    output.file.write = output.restart.write = False
+    output.recordImagesInterval = -1.0
+    settings.timeIntegration.verboseModeFile = 0
+    for number in range(_count(mbs)):
+        mbs.SetSensorParameter(number, "writeToFile", False)
+
+
+def _count(mbs: exu.MainSystem) -> int:
+    """Return the number of a system's sensors."""
+    data: Any = mbs.systemData
+    return int(data.NumberOfSensors())
+
+
+def _rows(mbs: exu.MainSystem) -> list[Array]:
+    """Return the rows that each sensor has kept, time first; none where it keeps none."""
+    return [
+        np.array(mbs.GetSensorStoredData(number))
+        if mbs.GetSensor(number)["storeInternal"]
+        else np.zeros((0, 1))
+        for number in range(_count(mbs))
+    ]
+
+
+def _error(
+    mbs: exu.MainSystem,
+    scales: RunningScales,
+    motion: SampledVelocities,
+    answer: Answer,
+    amplified: float,
+) -> RunError:
+    """Return the error of a run by its differences from a finer one.
+
+    Args:
+        mbs: the system.
+        scales: of errors, at the run's end.
+        motion: of the run.
+        answer: of the finer run.
+        amplified: error from which on it is above that of steps alone.
+    """
+    reason, finer, sensors = answer
+    missed = [COVERAGE * (ours - theirs) for ours, theirs in zip(motion.rows, finer, strict=False)]
+    errors = np.array([scales.norm(row.tolist()) for row in missed]) / (scales.speed or 1.0)
+    above = [*motion.times[: len(errors)][~(errors <= amplified)]]
+    if reason:
+        above.append(motion.times[min(len(errors), len(motion.times) - 1)])
+    pairs = [] if reason else zip(_rows(mbs), sensors, strict=True)
+    of_sensors = [_of_sensor(*pair) for pair in pairs]
+    return RunError(
+        motion=math.inf if reason else float(errors.max(initial=0.0)),
+        since=float(above[0]) if above else math.inf,
+        sensors=[worst for worst, _ in of_sensors],
+        peaks=[peak for _, peak in of_sensors],
+        reason=reason,
+    )
+
+
+def _of_sensor(rows: Array, finer: Array) -> tuple[Array, Array]:
+    """Return the errors of a sensor's values, up to the last row of both runs, and of its peaks.
+
+    Args:
+        rows: time, s, and values, (rows, 1 + values); none where they were not kept.
+        finer: likewise, of the finer run.
+    """
+    if not (len(rows) and len(finer)):
+        return np.zeros(0), np.zeros(0)
+    times = rows[rows[:, 0] <= finer[-1, 0], 0]
+    ours, read = rows[: len(times), 1:], np.zeros((len(times), rows.shape[1] - 1))
+    for k in range(read.shape[1]):
+        read[:, k] = np.interp(times, finer[:, 0], finer[:, k + 1])
+    peaks = np.abs(rows[:, 1:]).max(axis=0) - np.abs(finer[:, 1:]).max(axis=0)
+    return COVERAGE * np.abs(ours - read).max(axis=0, initial=0.0), COVERAGE * np.abs(peaks)

@@ -1,0 +1,85 @@
+"""Newton's matrix of systems with flexible bodies, reused from step to step."""
+
+from contextlib import nullcontext
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+
+from exu_press.integrate.task import SAME, Task, inertia_factor
+from exu_press.numerics.arrays import Array
+
+__all__ = ["FlexibleJacobian"]
+
+
+class FlexibleJacobian:
+    """Newton's matrix of a system with flexible bodies, which are differentiated but once.
+
+    M (1 - alpha_m)/(1 - alpha_f) + beta h^2 K + gamma h D, bordered by the constraints. Exudyn
+    differentiates bodies in floating frames numerically, which takes as long as forty residuals.
+    But stiffness and damping belong to modes, whose coordinates turn with the frame: they stay as
+    they are. What the frame's motion adds to them is less than a hundredth of the inertia over a
+    step. The masses, the clearance joints' slopes and the constraints' directions are those of the
+    state at hand.
+
+    To put the matrix together and factorise it takes as long as two iterations. So one serves steps
+    of one size until one of them needs a second iteration, which it still serves; a third one, or
+    the next step, gets a fresh one. Without clearance joints steps are long, and the constraints'
+    directions change too much from one to the next.
+    """
+
+    def __init__(self, task: Task) -> None:
+        """Let the solver of a task take this Jacobian instead of its own."""
+        self._convergence: Any = task.solver.conv
+        self._joints = task.system.joints
+        self._serves = False  # whether it has balanced each step in one iteration
+        self._kept = False  # whether the step under way is tried with that of an earlier one
+        self._step = 0.0  # that the last one was made for
+        self._bodies: Array | None = None
+        self._factors = 0.0, 0.0  # of stiffness and damping, and what they make of them
+        self._combined: Array = np.zeros((0, 0))
+        self._jacobian: Array = np.zeros((0, 0))
+        task.solver.SetUserFunctionComputeNewtonJacobian(task.system.mbs, self._compute)
+
+    def begin(self, step: float) -> None:
+        """Choose whether the step (s) about to be tried starts with the Jacobian there is."""
+        self._kept = self._serves and abs(step - self._step) <= SAME * step
+        self._convergence.jacobianUpdateRequested = not self._kept
+        self._serves = self._joints is not None
+
+    def request_if_stale(self, iterations: int) -> None:
+        """Request a fresh one where a step has needed so many iterations so far."""
+        if iterations > 1:
+            self._serves = False
+        if self._kept and iterations == 2:
+            self._convergence.jacobianUpdateRequested = True
+
+    def _compute(self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings) -> bool:
+        """Give the solver its Jacobian in the current state; return that this went well."""
+        size = solver.GetODE2size()
+        if self._bodies is None:
+            self._bodies = self._differentiated(solver, mbs)
+            self._jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
+        step, jacobian = solver.it.currentStepSize, self._jacobian
+        self._step = step
+        by_q, by_q_t = solver.newmarkBeta * step * step, solver.newmarkGamma * step
+        bodies = jacobian[:size, :size]
+        np.multiply(solver.GetSystemMassMatrix(), inertia_factor(solver), out=bodies)
+        if (by_q, by_q_t) != self._factors:
+            self._factors = by_q, by_q_t
+            self._combined = np.dot(self._factors, self._bodies).reshape(size, size)
+        bodies += self._combined
+        if self._joints is not None:
+            self._joints.add_partials(jacobian, by_q, by_q_t)
+        solver.SetSystemJacobian(jacobian)
+        solver.ComputeJacobianAE(mbs, 1.0, by_q_t / by_q)  # adds the constraints
+        return True
+
+    def _differentiated(self, solver: Any, mbs: exu.MainSystem) -> Array:
+        """Return stiffness and damping of all but the clearance joints, a row each."""
+        size, rows = solver.GetODE2size(), []
+        with nullcontext() if self._joints is None else self._joints.left_out():
+            for factors in ((-1.0, 0.0), (0.0, -1.0)):
+                solver.ComputeJacobianODE2RHS(mbs, *factors)
+                rows.append(np.array(solver.GetSystemJacobian())[:size, :size].ravel())
+        return np.array(rows)

@@ -1,0 +1,133 @@
+"""The first guess of a step, and where Newton's method ends."""
+
+import math
+
+from exu_press.integrate.jacobian import FlexibleJacobian
+from exu_press.integrate.task import Task
+from exu_press.numerics.floats import Floats
+
+__all__ = ["Predictor"]
+
+
+class Predictor:
+    """Extrapolates accelerations to the end of a step, and asks for no more than rounding allows.
+
+    Exudyn starts every step from accelerations of zero, which costs an iteration a step in
+    lubricated motion and several where contact lasts. Here they go on as they did in the last step,
+    and lasting contacts start from the force that held them. So do constraints.
+
+    A thin film answers the last digit of a speed with newtons: no iteration balances forces better.
+
+    Euler parameters must have unit length, and the constraints' directions that Exudyn gives
+    Newton's method are right on the unit sphere only: where the expected state leaves it, an
+    iteration that puts the length right moves the body by as much, and what that leaves in the
+    constraints alternates from step to step, 1/(1 - spectral radius)^2 times as large in the
+    accelerations. So the expected accelerations are those that end on the sphere.
+    """
+
+    def __init__(self, task: Task) -> None:
+        """Guide the solver of a task."""
+        system, tuning = task.system, task.tuning
+        self._solver, self._joints, self._scales = task.solver, system.joints, task.scales
+        self._rounding = tuning.rounding
+        self._patience, self._reach = tuning.roundoff_after_iterations, tuning.max_extrapolation
+        self._jacobian = FlexibleJacobian(task) if system.modal_stiffness else None
+        self._relative = tuning.newton_tolerance * task.tolerance
+        current = system.current
+        self._multipliers = current.multipliers
+        self._positions, self._velocities = Floats(current.positions), Floats(current.velocities)
+        self._accelerations = Floats(current.accelerations)
+        self._multipliers_before = system.start.multipliers
+        # where they begin among the coordinates, and their reference values
+        self._quaternions: list[tuple[int, list[float]]] = []
+        for node in system.nodes:
+            if node.quaternion:
+                first = node.start + node.size - 4
+                self._quaternions.append((first, system.reference[first : first + 4].tolist()))
+        self._ratio = self._beta = self._gamma = 0.0
+        self._now: list[float] = []  # accelerations at the last step's end
+        self._rate: list[float] = []  # of them, over that step
+        self._last = 0.0  # size of the last step, s
+        self._absolute = 0.0  # Newton's absolute tolerance of the settings, N
+        self._accepted = 0.0  # now, N
+
+    def begin(self) -> None:
+        """Start from the current state, when the solver is ready."""
+        solver = self._solver
+        self._ratio = (1.0 - solver.alphaF) / (1.0 - solver.alphaM)
+        self._beta, self._gamma = solver.newmarkBeta, solver.newmarkGamma
+        self._absolute = self._accepted = solver.newton.absoluteTolerance
+        self._now = self._accelerations.get()
+        self._rate = [0.0 for _ in self._now]
+
+    def accept(self, step: float) -> None:
+        """Take the current state as the end of an accepted step (s)."""
+        before, now = self._now, self._accelerations.get()
+        self._rate = [(now[i] - before[i]) / step for i in range(len(now))]
+        self._last, self._now = step, now
+
+    def before_residual(self, step: float, iteration: int) -> None:
+        """Set the start of the iteration of a step (s), and its limits."""
+        if not iteration:
+            self._predict(step)
+            self._set_tolerance(self._tolerance())
+            if self._jacobian is not None:
+                self._jacobian.begin(step)
+            return
+        if self._jacobian is not None:
+            self._jacobian.request_if_stale(iteration)
+        if iteration == self._patience and self._joints is not None:
+            roundoff = self._rounding * self._joints.damping * self._scales.speed
+            self._set_tolerance(max(self._tolerance(), roundoff))
+
+    def _predict(self, step: float) -> None:
+        """Add the expected accelerations to a state that was advanced without any.
+
+        As Newton's method adds an increment of them. With floats, as to call NumPy for a few takes
+        longer than a step of Exudyn's.
+        """
+        now, rate, ahead = self._now, self._rate, min(step, self._reach * self._last)
+        expected = [rate[i] * ahead + now[i] for i in range(len(now))]
+        by_q, by_v = step * step * self._ratio * self._beta, step * self._ratio * self._gamma
+        positions, velocities = self._positions.get(), self._velocities.get()
+        if self._quaternions:
+            self._normalise_quaternions(expected, positions, by_q)
+        for i in range(len(expected)):
+            position, velocity, change = positions[i], velocities[i], expected[i]
+            positions[i] = position + by_q * change
+            velocities[i] = velocity + by_v * change
+        self._positions.set(positions)
+        self._velocities.set(velocities)
+        self._accelerations.set(expected)
+        if len(self._multipliers):
+            self._multipliers[:] = self._multipliers_before
+
+    def _normalise_quaternions(
+        self, expected: list[float], positions: list[float], by_q: float
+    ) -> None:
+        """Change expected accelerations to those with which Euler parameters have unit length.
+
+        Args:
+            expected: accelerations, in SI.
+            positions: before they are added.
+            by_q: times accelerations, what is added to positions, s^2.
+        """
+        for first, reference in self._quaternions:
+            parameters: list[float] = []
+            square = 0.0
+            for k in range(4):
+                value = positions[first + k] + (reference[k] + by_q * expected[first + k])
+                parameters.append(value)
+                square += value * value
+            longer = (1.0 / math.sqrt(square) - 1.0) / by_q
+            for k in range(4):
+                expected[first + k] += longer * parameters[k]
+
+    def _tolerance(self) -> float:
+        """Return the limit of the residual in Newton's method, N."""
+        return self._relative * self._scales.force or self._absolute
+
+    def _set_tolerance(self, residual: float) -> None:
+        """Let Newton's method end at a residual, N."""
+        if residual != self._accepted:
+            self._accepted = self._solver.newton.absoluteTolerance = residual

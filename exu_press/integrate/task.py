@@ -1,0 +1,331 @@
+"""The task of a run: its numbers, and the settings of Exudyn that it needs, with reasons.
+
+`solve_dynamic(..., tuning=SolverTuning(safety=0.8))` varies a number; `scripts/ablation.py` prints
+what each of them buys in error and run time. Exudyn's settings are put back after the run.
+"""
+
+import math
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import exudyn as exu
+
+from exu_press.errors import InputError
+from exu_press.integrate.scales import ErrorScales, RunningScales
+from exu_press.integrate.system import System
+
+__all__ = [
+    "SAME",
+    "SolverTuning",
+    "Task",
+    "inertia_factor",
+    "prepared_settings",
+    "refuse_unusable",
+]
+
+SAME = 1e-6
+"""Steps that differ by less, relative, are one size: the clock's last digits."""
+
+TOLERANCES = 1e-8, 0.1
+"""Between these a tolerance means something."""
+
+SHORTEST_RUN = 1e-7
+"""Time of which the 1e-10 s by which Exudyn may end early are a thousandth, s."""
+
+IMPLICIT = "GeneralizedAlpha", "TrapezoidalIndex2"
+"""Exudyn's solvers that take the same settings; the second one is the first with other numbers."""
+
+
+MOST_HALVED = 2.0**10
+"""Number of halvings of a fixed step where Newton's method fails."""
+
+LARGEST_RADIUS = 0.95
+"""Spectral radius of generalized-alpha above which what alternates from step to step lasts for so
+many steps that it would set their size."""
+
+USUAL_RADIUS = 0.9
+"""Spectral radius that is taken instead, and in the place of Newmark's method."""
+
+RELATIVE_RESIDUAL = 1e-10
+"""Residual over the first one, at which Newton's method ends if it cannot get further."""
+
+
+@dataclass(frozen=True)
+class SolverTuning:
+    """The numbers of step control, error estimate, predictor and step change.
+
+    All are ratios, unless a unit is named.
+
+    Attributes:
+        safety: error at which a step is aimed, of what it may be. The reserve saves repeated steps.
+        factor_max: by what a step is lengthened at most. Steps that grow by half swing about what
+            their errors ask for, and are a third more with a film.
+        factor_min: by what a repeated step is shortened at most.
+        first_step: over the largest one, without films.
+        first_step_of_film: the same with a film, which takes up its load within a microsecond or
+            so: a longer step leaves an overshoot of 3 % in the first loads.
+        velocity_constant: of generalized-alpha's local error h^3 times the second derivative of the
+            acceleration: 0.083 to 0.077 for spectral radii at infinity of 1 to 0.8, doubled.
+        rounding: of positions and speeds, over the largest one, in each step: times 1 / (1 -
+            spectral radius)^2, over the step's square, it is what alternates in accelerations.
+            Measured at radii of 0.8 and 0.9 and steps of 2 and 10 us on a governor of rods and
+            springs.
+        beside_joints: allowed error of a body's velocity in a step of a system with clearance
+            joints, over what an eccentricity may.
+        penetration: allowed error of a penetration, over itself, as a part of what an
+            eccentricity in free flight may be off by over the clearance. The impact that ends a
+            damped contact hands the error on a thousandfold.
+        least_penetration: over the clearance, up to which a penetration counts as this.
+        vibrating: of the tolerance, what a body's velocity may be off by in a step where impacts
+            leave flexible bodies vibrating at their own frequencies, which the estimate takes for
+            an error.
+        vibrating_penetration: instead of `penetration` there.
+        modal_mass: change of the modes' mass, over that which keeps their frequencies
+            (`exu_press.integrate.modal_mass`).
+        kept_steps: within so many of the usual longest steps, 45 degrees of the crank, errors that
+            a film keeps may add up to the tolerance.
+        taken_back: part of its last change that a film's force takes back if it oscillates with
+            the method; the steps of a passage to the film's other side go one way.
+        refit: a step shorter than this, over the one that constrained velocities fit, makes them
+            fit anew.
+        look_ahead: time between the instants at which rates of constraints are differenced, over
+            the step.
+        regularisation: compliance given to constraints, over that of the masses. Where two of them
+            nearly say the same, a hundredth of it made 5e-11 m of the last digits of positions,
+            which contacts took for a motion.
+        newton_tolerance: part of the usual forces, over the tolerance, to which Newton's method
+            balances them.
+        roundoff_after_iterations: iterations of Newton's method after which it accepts what
+            rounding leaves; most steps take one or two.
+        max_extrapolation: over the last step, how far ahead its rate of change is believed by the
+            predictor.
+        event_width: over the largest step, to which an event is located.
+        largest_jump: change of an inertia force within one step, over the run's largest one, above
+            which impacts are not resolved.
+        fixed_steps: the tolerance whose Newton's method fixed steps have.
+    """
+
+    safety: float = 0.4
+    factor_max: float = 1.2
+    factor_min: float = 0.05
+    first_step: float = 1.0 / 64.0
+    first_step_of_film: float = 1e-4
+
+    velocity_constant: float = 2.0 / 12.0
+    rounding: float = 4e-15
+    beside_joints: float = 1.0 / 6.0
+    penetration: float = 0.0625
+    least_penetration: float = 1e-3
+    vibrating: float = 0.18
+    vibrating_penetration: float = 0.6
+    modal_mass: float = 1.0
+    kept_steps: float = 30.0
+    taken_back: float = 0.25
+
+    refit: float = 0.35
+    look_ahead: float = 0.01
+    regularisation: float = 1e-8
+
+    newton_tolerance: float = 0.2
+    roundoff_after_iterations: int = 4
+    max_extrapolation: float = 2.0
+
+    event_width: float = 1e-6
+    largest_jump: float = 0.65
+    fixed_steps: float = 5e-5
+
+
+class Task:
+    """A run as it is asked for.
+
+    Attributes:
+        system: to be solved.
+        solver: an exu.MainSolverImplicitSecondOrder, which is about to solve it.
+        scales: of the motion.
+        tuning: numbers.
+        tolerance: of the run; with fixed steps, of Newton's method.
+        fixed: whether steps are of one size.
+        start: of the run, s.
+        end: of the run, s.
+        largest: step, s.
+        usual: size of the longest steps of such a motion, s.
+        smallest: step, s.
+        no_shorter: up to which a step cannot be shorter, s: it is the difference of two times,
+            whose last digits are rounded.
+        first: step, s.
+        spectral_radius: at infinity, of generalized-alpha.
+        switching_iterations: that contacts and friction of Exudyn's are given in a step.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        settings: exu.SimulationSettings,
+        tolerance: float | None,
+        scales: ErrorScales,
+        tuning: SolverTuning,
+        absolute: float = 0.0,
+    ) -> None:
+        """Take a system and what is asked of it."""
+        integration = settings.timeIntegration
+        self.system, self.tuning = system, tuning
+        self.solver: Any = exu.MainSolverImplicitSecondOrder()  # whose type stub forgets `self`
+        self.fixed = tolerance is None
+        self.tolerance = tuning.fixed_steps if tolerance is None else tolerance
+        self.start, self.end = integration.startTime, integration.endTime
+        self.spectral_radius = _spectral_radius(settings, self.fixed)
+        self.largest = largest = (self.end - self.start) / integration.numberOfSteps
+        self.usual = scales.step or largest
+        self.smallest = integration.minimumStepSize
+        room = 10.0 * self.smallest  # to repeat a first step in
+        if self.fixed:
+            self.smallest = largest / MOST_HALVED
+            self.first = max(2.0 * self.smallest, room) if system.lubricated else largest
+        else:
+            fraction = tuning.first_step_of_film if system.lubricated else tuning.first_step
+            usual = max(fraction * largest, room)
+            self.first = max(integration.initialStepSize or usual, self.smallest)
+        self.first = min(self.first, largest)
+        latest = max(abs(self.start), abs(self.end))
+        self.no_shorter = self.smallest * (1.0 + SAME) + 2.0 * math.ulp(latest)
+        contacts = bool(system.contacts)
+        self.switching_iterations = integration.discontinuous.maxIterations if contacts else 1
+        rounding = tuning.rounding / (1.0 - min(self.spectral_radius, LARGEST_RADIUS)) ** 2
+        least_speed = absolute / self.tolerance
+        self.scales = RunningScales(scales, system, largest, self.first, rounding, least_speed)
+
+
+def inertia_factor(solver: Any) -> float:
+    """Return by what masses count in Newton's matrix, (1 - alpha_m)/(1 - alpha_f)."""
+    factor: float = (1.0 - solver.alphaM) / (1.0 - solver.alphaF)
+    return factor
+
+
+def refuse_unusable(
+    settings: exu.SimulationSettings,
+    tolerance: float | None,
+    sample: float | None = None,
+    *,
+    hold: bool = False,
+) -> None:
+    """Refuse what cannot be integrated; warn where another method is taken than asked for.
+
+    Raises:
+        InputError: the tolerance or the period lies outside its range, the run has no end, or the
+            integrator is not one of Exudyn's implicit ones.
+    """
+    integration = settings.timeIntegration
+    low, high = TOLERANCES
+    a_number = isinstance(tolerance, float | int)
+    if tolerance is not None and not (a_number and low <= tolerance <= high):
+        raise InputError(f"tolerance = {tolerance!r}: allowed is a number from {low:g} to {high:g}")
+    start, end = integration.startTime, integration.endTime
+    if not start < end < math.inf:
+        raise InputError(
+            f"settings.timeIntegration.endTime = {end!r}: allowed is a time after startTime = "
+            f"{start!r} s"
+        )
+    if end - start < SHORTEST_RUN:
+        raise InputError(
+            f"settings.timeIntegration.endTime = {end!r}, startTime = {start!r}: allowed is a run "
+            f"of {SHORTEST_RUN:g} s or more, as Exudyn may end it 1e-10 s early; count time in "
+            "another unit"
+        )
+    if sample is not None and not 0.0 <= sample < math.inf:
+        raise InputError(f"sample = {sample!r}: allowed is a period in seconds, or 0.0")
+    if hold and sample == 0.0:
+        raise InputError("hold = True: allowed with a period; sample = 0.0 has none")
+    solver = str(integration.solverType).rsplit(".", 1)[-1]
+    if solver not in IMPLICIT:
+        raise InputError(
+            f"settings.timeIntegration.solverType = {solver}: allowed is {IMPLICIT[0]}, whose "
+            "local error is known"
+        )
+    alpha = integration.generalizedAlpha
+    if not 0.0 < alpha.spectralRadius <= 1.0:
+        raise InputError(
+            "settings.timeIntegration.generalizedAlpha.spectralRadius = "
+            f"{alpha.spectralRadius!r}: allowed is a number above 0.0, up to 1.0; with 0.0 no step "
+            "can be changed without ringing"
+        )
+    radius = _spectral_radius(settings, tolerance is None)
+    if _switched(settings):
+        warnings.warn(
+            "the settings ask for Newmark's method or constraints of index 2: solved with "
+            f"{IMPLICIT[0]}, constraints of index 3 and spectralRadius = {radius:g}, whose local "
+            "error is known",
+            stacklevel=3,
+        )
+    elif radius != alpha.spectralRadius:
+        warnings.warn(
+            "settings.timeIntegration.generalizedAlpha.spectralRadius = "
+            f"{alpha.spectralRadius:g}: solved with {radius:g}; above {LARGEST_RADIUS:g} "
+            "accelerations that alternate behind an impact, or a change of the step, hardly fade",
+            stacklevel=3,
+        )
+
+
+def _switched(settings: exu.SimulationSettings) -> bool:
+    """Return whether the settings ask for another implicit method than ours."""
+    integration = settings.timeIntegration
+    alpha, solver = integration.generalizedAlpha, str(integration.solverType)
+    return bool(alpha.useNewmark or alpha.useIndex2Constraints or not solver.endswith(IMPLICIT[0]))
+
+
+def _spectral_radius(settings: exu.SimulationSettings, fixed: bool) -> float:
+    """Return it; Newmark's method has none, and 1.0 does not damp constraints of index 3."""
+    given: float = settings.timeIntegration.generalizedAlpha.spectralRadius
+    replaced = _switched(settings) or (given > LARGEST_RADIUS and not fixed)
+    return min(given, USUAL_RADIUS) if replaced else given
+
+
+@contextmanager
+def prepared_settings(settings: exu.SimulationSettings, task: Task) -> Iterator[None]:
+    """Set what step control needs in Exudyn's settings, and put everything back.
+
+    With clearance joints one Jacobian a step: with Exudyn's default (one as long as it seems to
+    converge) dry contact drifts by 4 % at 1e-4 s; a Jacobian an iteration costs more than the
+    iterations it saves.
+
+    A contact of ours opens and closes within Newton's iterations, so nothing is left to iterate on.
+    The step control's word counts: above 1 the step is repeated. Data variables of Exudyn's own
+    contacts and friction keep the iterations that the settings give them, and a step in which they
+    do not settle is repeated.
+
+    Exudyn's own dense solver factorises its matrix in place, so that Eigen's dense one takes over.
+    """
+    integration = settings.timeIntegration
+    newton, discontinuous = integration.newton, integration.discontinuous
+    alpha = integration.generalizedAlpha
+    linear = settings.linearSolver
+    needed: list[tuple[Any, str, Any]] = [
+        (newton, "useModifiedNewton", True),
+        (newton, "modifiedNewtonJacUpdatePerStep", True),
+        (newton, "modifiedNewtonContractivity", 0.5),
+        (newton, "relativeTolerance", RELATIVE_RESIDUAL),
+        (newton, "maxIterations", 25),
+        (discontinuous, "ignoreMaxIterations", False),
+        (discontinuous, "maxIterations", task.switching_iterations),
+        (discontinuous, "useRecommendedStepSize", True),
+        (integration, "adaptiveStep", True),
+        (integration, "adaptiveStepDecrease", 0.5),
+        (integration, "minimumStepSize", task.smallest),
+        (integration, "adaptiveStepRecoverySteps", 2**30),  # growth is decided in `stepping`
+        (integration, "verboseMode", 0),
+        (alpha, "spectralRadius", task.spectral_radius),
+        (alpha, "useNewmark", False),
+        (alpha, "useIndex2Constraints", False),
+    ]
+    if linear.solverType == exu.LinearSolverType.EXUdense:
+        needed.append((linear, "solverType", exu.LinearSolverType.EigenDense))
+    before = [(owner, name, getattr(owner, name)) for owner, name, _ in needed]
+    try:
+        for owner, name, value in needed:
+            setattr(owner, name, value)
+        yield
+    finally:
+        for owner, name, value in before:
+            setattr(owner, name, value)

@@ -1,0 +1,243 @@
+"""How a run ended, in words: when, where, why, and what to try.
+
+The words of `Advice` are those for any Exudyn system. A scene's own (`exu_press.solving`) name its
+keys.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from exu_press.integrate.monitor import Monitor
+from exu_press.integrate.outcome import Outcome, SolverStatus
+from exu_press.integrate.resolution import Unresolved
+from exu_press.integrate.system import System
+from exu_press.integrate.task import Task
+from exu_press.joints.joint import ClearanceJoint
+
+__all__ = ["ARRIVED", "Advice", "termination"]
+
+SPENT = 1e-3
+"""Film thickness over clearance at which a run that gets no further has lost its film."""
+
+EXUDYN_ENDS = 1e-10
+"""Before its end, at most how early Exudyn ends a run, s."""
+
+ARRIVED = "arrived"
+"""A watch's word for a run that has reached its aim: it is completed."""
+
+
+class Advice:
+    """Words for the places and the settings of a system."""
+
+    def __init__(self, system: System, by_tolerance: bool) -> None:
+        """Speak of a system, stepped by tolerance or with fixed steps."""
+        self.system, self.by_tolerance = system, by_tolerance
+
+    @property
+    def setting(self) -> str:
+        """The key that makes steps larger or smaller."""
+        return "tolerance" if self.by_tolerance else "step"
+
+    def place(self, time: float) -> str:
+        """Return where the run was at a time, s."""
+        return f"at t = {time:.6g} s"
+
+    def joint(self, joint: ClearanceJoint) -> str:
+        """Return the name of a clearance joint."""
+        assert self.system.joints is not None
+        return self.system.joints.number(joint)
+
+    def film(self) -> str:
+        """Return the cure for a film that broke down."""
+        return "a mixed film (contact=, asperity_onset=), or a larger viscosity or length"
+
+    def smallest(self) -> str:
+        """Return what helps where steps became too small."""
+        return "a larger tolerance or a smaller settings.timeIntegration.minimumStepSize"
+
+    def budget(self) -> str:
+        """Return what helps where too many steps were needed."""
+        return f"an earlier end time, a larger {self.setting} or max_steps"
+
+    def long(self, step: float, joint: ClearanceJoint | None) -> str:
+        """Return why a run of such a mean step, s, is long, and what makes it shorter.
+
+        Args:
+            step: s.
+            joint: that limits most steps, if one does.
+        """
+        words = f"steps of {step:.2g} s"
+        if joint is not None:
+            words += f", as {self.joint(joint)} needs them{self.stiff(joint)}"
+        return f"{words}; a larger {self.setting} makes it shorter"
+
+    def stiff(self, joint: ClearanceJoint) -> str:
+        """Return which keys make a joint need small steps, or nothing."""
+        return ""
+
+    def convergence(self) -> str:
+        """Return what helps where Newton's method did not converge."""
+        if self.by_tolerance:
+            return f"a smaller {self.setting}"
+        return f"another {self.setting}, or a tolerance instead"
+
+    def redundancy(self, redundant: int) -> str:
+        """Return what helps where so many constraints say the same as others."""
+        return (
+            f"{redundant} constraint{'s say' if redundant > 1 else ' says'} the same as others: "
+            "leave out the redundant ones, or settings.linearSolver.solverType = EigenDense with "
+            "ignoreSingularJacobian = True"
+        )
+
+    def cause(self) -> str:
+        """Return what is known of the system that explains why it does not get on, or nothing."""
+        moved = self.system.rates_not_provided or _has_pre_step_function(self.system)
+        return " (or no offset that jumps)" if moved else ""
+
+    def resolution(self, worst: Unresolved) -> str:
+        """Return what resolves a run that leapt over its impacts."""
+        return f"a {self.setting} ten times smaller"
+
+    def about_outcome(self, outcome: Outcome) -> Iterator[str]:
+        """Say of an outcome what a script may go on without looking at."""
+        if outcome.status not in (SolverStatus.COMPLETED, SolverStatus.INTERRUPTED):
+            yield f"{outcome.status.value}: {outcome.reason}"
+        error = outcome.error
+        if error is not None and error.since < math.inf:
+            begins = f"from t = {error.since:.6g} s on"
+            yield (
+                f"no error is known {begins}: the finer run stopped early, {error.reason}"
+                if error.reason
+                else f"errors are above ten tolerances {begins}, up to {error.motion:.2g} of the "
+                "largest speed: the motion amplifies what steps miss; try a smaller tolerance, or "
+                "believe the run up to there"
+            )
+
+    def about_start(self, task: Task, changes: tuple[float, float]) -> Iterator[str]:
+        """Say by how much a start was moved onto its constraints, if by more than errors may be.
+
+        Args:
+            task: that was solved.
+            changes: of positions, m, and of speeds, m/s.
+        """
+        (moved, changed), scales, tolerance = changes, task.scales, task.tolerance
+        if moved > tolerance * scales.length or changed > tolerance * scales.speed:
+            yield (
+                "the start did not fit joints and prescribed motions: positions were changed by "
+                f"up to {moved:.2g} m, velocities by up to {changed:.2g} m/s, by as little as can "
+                "be; give initial values that fit"
+            )
+
+    def about_system(self, *, held: bool) -> Iterator[str]:
+        """Say what of a system errors are not estimated of.
+
+        Args:
+            held: whether the pre-step function is meant to jump from period to period.
+        """
+        system = self.system
+        unfollowed = [*system.contacts]
+        if len(system.current.first_order):
+            unfollowed.append("first-order coordinates")
+        if _has_pre_step_function(system) and not held:
+            unfollowed.append("what the pre-step function sets, where that jumps")
+        if self.by_tolerance and unfollowed:
+            yield (
+                f"no error of a step is estimated for {', '.join(unfollowed)}: compare with a run "
+                "of a smaller largest step, by settings.timeIntegration.numberOfSteps"
+            )
+
+
+def _has_pre_step_function(system: System) -> bool:
+    """Return whether a system has a pre-step function of the user's own."""
+    function: Any = system.mbs.GetPreStepUserFunction()
+    return bool(function != 0)
+
+
+def termination(
+    task: Task, monitor: Monitor, advice: Advice, *, time: float, failure: str
+) -> tuple[SolverStatus, str]:
+    """Return status and reason of a run.
+
+    Args:
+        task: that was solved.
+        monitor: of the run.
+        advice: words for what to try.
+        time: reached, s.
+        failure: message of Exudyn, if it failed.
+    """
+    system, smallest = task.system, task.smallest
+    gone = (time - task.start) / (task.end - task.start)
+    exudyn_ended = not failure and 0.0 < task.end - time <= EXUDYN_ENDS and monitor.go_on
+    if gone >= 1.0 - 1e-9 or exudyn_ended or monitor.stalled == ARRIVED:
+        worst = monitor.resolution.worst() if monitor.resolution is not None else None
+        if worst is None:
+            return SolverStatus.COMPLETED, ""
+        return SolverStatus.UNDER_RESOLVED, (
+            f"under-resolved {advice.place(worst.time)}: {worst.jump:.0%} of the largest inertia "
+            f"force ({system.nodes[worst.node].name}) within a step of {worst.step:.2g} s; peaks "
+            f"are the step's; try {advice.resolution(worst)}"
+        )
+    if monitor.stalled:
+        return SolverStatus.STALLED, monitor.stalled
+    where = advice.place(time)
+    if monitor.interrupted:
+        return SolverStatus.INTERRUPTED, f"interrupted {where}"
+    if not monitor.go_on:
+        return SolverStatus.INTERRUPTED, f"stopped by a user function {where}"
+    if monitor.over_budget:
+        return SolverStatus.TOO_MANY_STEPS, (
+            f"{monitor.max_steps} steps were used up {where}, {gone:.1%} of the run; try "
+            f"{advice.budget()}{advice.cause()}"
+        )
+    for joint, ratio in _spent_films(system):
+        return SolverStatus.FILM_BROKE_DOWN, (
+            f"film broke down {where}, eccentricity ratio {ratio:.4f} ({advice.joint(joint)}); "
+            f"try {advice.film()}"
+        )
+    busiest, redundancy = _busiest_joint(system, advice), _redundancy(task, monitor, advice)
+    if not monitor.control.error <= 1.0:
+        cure = redundancy or f"try {advice.smallest()}{advice.cause()}"
+        return SolverStatus.STEP_TOO_SMALL, (
+            f"the tolerance needs a step below {smallest:.2g} s {where}{busiest}; {cure}"
+        )
+    if redundancy:
+        return SolverStatus.NOT_CONVERGED, f"Newton's method did not converge {where}: {redundancy}"
+    message = f" [{failure.strip().splitlines()[0]}]" if failure.strip() else ""
+    return SolverStatus.NOT_CONVERGED, (
+        f"Newton's method did not converge {where}{busiest}, down to a step of {smallest:.2g} s; "
+        f"try {advice.convergence()}{advice.cause()}{message}"
+    )
+
+
+def _redundancy(task: Task, monitor: Monitor, advice: Advice) -> str:
+    """Return what to do about redundant constraints, or nothing."""
+    if task.system.mbs.sys["simulationSettings"].linearSolver.ignoreSingularJacobian:
+        return ""
+    redundant = monitor.constraints.redundant()
+    return advice.redundancy(redundant) if redundant else ""
+
+
+def _spent_films(system: System) -> Iterator[tuple[ClearanceJoint, float]]:
+    """Yield the films that end the run, with their eccentricity ratios at its end."""
+    if system.joints is None:
+        return
+    for joint in system.joints.joints:
+        if joint.contact_onset < math.inf:
+            continue  # what lies beyond the film is in its model
+        if joint.outside is not None:
+            yield joint, joint.outside
+        else:
+            gap = system.joints.state(joint).gap
+            if gap < SPENT * joint.clearance:
+                yield joint, 1.0 - gap / joint.clearance
+
+
+def _busiest_joint(system: System, advice: Advice) -> str:
+    """Return in words which clearance joint carries the largest force at the end, if one does."""
+    if system.joints is None:
+        return ""
+    states = [(math.hypot(*system.joints.state(j).force), j) for j in system.joints.joints]
+    force, joint = max(states, key=lambda s: s[0] if math.isfinite(s[0]) else -1.0)
+    carries = f"carrying {force:.3g} N" if math.isfinite(force) else "whose laws give no numbers"
+    return f", {advice.joint(joint)} {carries}"

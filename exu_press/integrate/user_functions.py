@@ -1,0 +1,129 @@
+"""The user's own functions of a system, called as Exudyn does, and put back after the run."""
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from exu_press.integrate.system import System
+
+__all__ = ["UserFunctions"]
+
+
+class UserFunctions:
+    """Functions of the user's own that Exudyn calls before, in and after every step.
+
+    A pre-step function is called before every try of a step, with the step's end, as in fixed
+    steps. With a period it is called once for each of its intervals, with the interval's end, on
+    which steps end; what it sets is held.
+
+    Attributes:
+        before_step: pre-step function, or 0.
+    """
+
+    def __init__(self, system: System, start: float, period: float) -> None:
+        """Look for the functions of a system.
+
+        Args:
+            system: to be solved.
+            start: of the run, s.
+            period: of the pre-step function, s; 0.0 calls it before every try of a step.
+        """
+        mbs = system.mbs
+        self._mbs, self._start, self._period, self._interval = mbs, start, period, -1
+        self.before_step = _function(mbs.GetPreStepUserFunction())
+        self._before_residual = _function(mbs.GetPreNewtonResidualUserFunction())
+        self._after_newton = _function(mbs.GetPostNewtonUserFunction())
+        self._after_step = _function(mbs.GetPostStepUserFunction())
+        now, before = system.current, system.start
+        # what the pre-step function may set, where a step starts from and from where it is repeated
+        self._states = [
+            (now.positions, before.positions),
+            (now.velocities, before.velocities),
+            (now.first_order, before.first_order),
+            (now.data, before.data),
+        ]
+        self._velocities = now.velocities
+
+    @contextmanager
+    def replaced_by(
+        self,
+        before_step: Callable[..., bool],
+        before_residual: Callable[..., None],
+        after_newton: Callable[..., list[float]],
+        after_step: Callable[..., bool],
+    ) -> Iterator[None]:
+        """Let Exudyn call other functions meanwhile."""
+        mbs: Any = self._mbs
+        setters = (
+            mbs.SetPreStepUserFunction,
+            mbs.SetPreNewtonResidualUserFunction,
+            mbs.SetPostNewtonUserFunction,
+            mbs.SetPostStepUserFunction,
+        )
+        theirs = self.before_step, self._before_residual, self._after_newton, self._after_step
+        for setter, function in zip(
+            setters, (before_step, before_residual, after_newton, after_step), strict=True
+        ):
+            setter(function)
+        try:
+            yield
+        finally:
+            for setter, function in zip(setters, theirs, strict=True):
+                setter(function)
+
+    def with_samples(self, next_corner: Callable[[float], float]) -> Callable[[float], float]:
+        """Return a function: time (s) -> the next corner or end of a period, s, or infinity."""
+        if not self._period:
+            return next_corner
+        return lambda time: min(next_corner(time), self._end_of(self._interval_at(time)))
+
+    def _interval_at(self, time: float) -> int:
+        """Return the number of the interval that a time (s) begins or lies in."""
+        return math.floor((time - self._start) / self._period * (1.0 + 1e-12) + 1e-6)
+
+    def _end_of(self, interval: int) -> float:
+        """Return the end of an interval, s."""
+        return self._start + (interval + 1) * self._period
+
+    def call_before_step(self, begin: float, end: float) -> bool:
+        """Call the pre-step function for a step from `begin` to `end`, s; return whether to go on.
+
+        With a period, for the end of its interval, and only once.
+        """
+        if not self._period:
+            return bool(self.before_step(self._mbs, end))
+        interval = self._interval_at(begin)
+        if interval == self._interval:
+            return True
+        self._interval = interval
+        go_on = bool(self.before_step(self._mbs, self._end_of(interval)))
+        for state, kept in self._states:
+            kept[:] = state
+        return go_on
+
+    def call_before_residual(self, end: float, iteration: int, discontinuous: int) -> None:
+        """Call the function before Newton's residual."""
+        if self._before_residual:
+            self._before_residual(self._mbs, end, iteration, discontinuous)
+
+    def combined(self, verdict: list[float], end: float) -> list[float]:
+        """Return our verdict of a step that ends at a time, s, and the post-Newton function's."""
+        if not self._after_newton:
+            return verdict
+        error, size = self._after_newton(self._mbs, end)
+        sizes = [value for value in (verdict[1], size) if value > 0.0]
+        return [max(verdict[0], error), min(sizes, default=-1.0)]
+
+    def call_after_step(self, end: float) -> tuple[bool, bool]:
+        """Call the post-step function; return whether to go on, and whether it set velocities."""
+        if not self._after_step:
+            return True, False
+        before = self._velocities.tobytes()  # to compare bytes takes a tenth of the time
+        go_on = bool(self._after_step(self._mbs, end))
+        return go_on, self._velocities.tobytes() != before
+
+
+def _function(item: Any) -> Any:
+    """Return the contents of Exudyn's getters of user functions, or 0 where nothing is set."""
+    return item["function"] if isinstance(item, dict) else 0

@@ -1,0 +1,235 @@
+"""Correction of generalized-alpha's memory from step to step, where the step changes."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from exu_press.integrate.constraints import Constraints, normalised
+from exu_press.integrate.task import SAME, Task, inertia_factor
+from exu_press.numerics.arrays import Array
+from exu_press.numerics.floats import Floats
+
+__all__ = ["VariableStepCorrection"]
+
+RESISTANCE = 0.999
+"""Part of the masses' resistance to a change that forces have too, but for rounding."""
+
+ITERATIONS = 3
+"""Of the projection; each leaves some hundredths."""
+
+DIVERGED = 10.0
+"""Change over the first one, where iterations lead away from the constraints."""
+
+
+class VariableStepCorrection:
+    """Carries generalized-alpha over a change of step without ringing.
+
+    With steps of one size h generalized-alpha settles on offsets that belong to h: its algorithmic
+    acceleration a is the true one at another instant, a - a_true = h (alpha_m - alpha_f)
+    da_true/dt, and where positions are constrained the velocities miss the constraints by an amount
+    of order h^2. A much shorter step takes both for errors and answers with accelerations that
+    alternate for a dozen steps, larger than the motion's own changes. Scaled to the new step, by
+    its ratio to the old one and by that ratio's square, both fit at once; the latter costs as much
+    as a step. Likewise what Newton's method left of the positions' constraints, 1e-10 m, is nothing
+    beside a long step but a jolt beside a short one: it is taken away. What is left by a step so
+    short that it is rounding, as one that ends on an event, is not scaled up to one a thousand
+    times as long.
+
+    Without films and contacts motion is smooth, steps change seldom, and each change is worth this.
+    With clearance joints steps change all the time: velocities are fitted once steps have shrunk to
+    a third. A longer step, which has little to make of either, is left alone there: scaling up
+    would blow up whatever an impact or a film's start left ringing.
+
+    Exudyn's algorithmic acceleration can be read but not written, and when a step is repeated it
+    keeps the value of the failed try. But positions, velocities and accelerations at the step's
+    beginning can be shifted so that the step comes out as if it had been changed.
+
+    At rest a film carries nothing, and within a microsecond or less it takes up its load: the
+    accelerations with which Exudyn starts are then wrong at once, and ring. What the first step
+    changes the velocities by is right, as a film answers to velocities; so the step is repeated
+    from that.
+
+    Source: M. Arnold and O. Bruels, Convergence of the generalized-alpha scheme for constrained
+    mechanical systems, Multibody System Dynamics 18 (2007), Eqs. 2 and 3, and its remarks on the
+    hidden constraints.
+    """
+
+    def __init__(self, task: Task, constraints: Constraints) -> None:
+        """Watch the steps of a system that has these constraints."""
+        system = task.system
+        self._smooth = system.joints is None  # and steps change seldom
+        self._film_waits = system.lubricated
+        self._refit, self._look_ahead = task.tuning.refit, task.tuning.look_ahead
+        self._task, self._solver, self._constraints = task, task.solver, constraints
+        self._data, self._current, self._at_start = system.data, system.current, system.start
+        self._now, self._before = (
+            (Floats(state.positions), Floats(state.velocities), Floats(state.accelerations))
+            for state in (self._current, self._at_start)
+        )
+        self._start: float | None = None  # of the step under way, s
+        self._last: float | None = None  # size of the last accepted step, s
+        self._fits = self._leaves = 0.0  # the step that constrained velocities fit, now and next
+        # alpha_m, alpha_f, beta and gamma, which the solver has from its first step on
+        self._method: tuple[float, float, float, float] | None = None
+        self._state: list[list[float]] = []  # at the step's beginning, before any shift
+        # of it: what constraints forbid of positions and velocities
+        self._offsets: list[list[float]] | None = None
+        self._ahead = 0.0  # how far ahead rates were looked for there, s
+        self._mean: list[float] | None = None  # acceleration of the first step
+        # accelerations at the start, and what of their rate constraints prescribe
+        self._initial: tuple[list[float], list[float]] | None = None
+
+    def repeats_from_mean(self, step: float) -> bool:
+        """Return whether a step (s) is to be repeated from its own mean acceleration.
+
+        The first one is, once, where a film takes up its load. To be asked after it was tried.
+        """
+        if not self._film_waits:
+            return False
+        self._film_waits = False
+        self._mean = ((self._current.velocities - self._at_start.velocities) / step).tolist()
+        return True
+
+    def start_from(self, accelerations: Array, rate: Array) -> None:
+        """Let the first step start with the offsets on which further ones settle.
+
+        Args:
+            accelerations: at the start.
+            rate: prescribed rate of change of constraints.
+        """
+        self._initial = accelerations.tolist(), rate.tolist()
+
+    def before_try(self, start: float, step: float) -> None:
+        """Shift the state from which Exudyn is about to try a step (s) from a start (s)."""
+        repeated = start == self._start
+        if not repeated:
+            self._last = None if self._start is None else start - self._start
+            self._fits = max(self._leaves, self._last or 0.0)
+            self._start, self._state, self._offsets = start, [], None
+        self._leaves = self._fits
+        ratio = 1.0 if self._last is None else step / self._last
+        if not self._smooth or (ratio > 1.0 and self._is_roundoff(ratio)):
+            ratio = min(1.0, ratio)
+        first = self._last is None and self._initial is not None
+        if repeated or first or abs(ratio - 1.0) > SAME:
+            self._shift(step, ratio)
+
+    def _is_roundoff(self, ratio: float) -> bool:
+        """Return whether the last step's offsets, scaled up by this ratio, would be rounding."""
+        if self._task.fixed:
+            return False
+        assert self._last is not None
+        scales = self._task.scales
+        error = ratio * ratio * scales.roundoff / self._last
+        return error > self._task.tolerance * scales.speed
+
+    def _shift(self, step: float, ratio: float) -> None:
+        """Shift positions, velocities and accelerations for a step `ratio` times the last one.
+
+        Newton's method may start anew, from what Exudyn keeps of the step's beginning; so that is
+        shifted as well, by what is missing there.
+        """
+        solver = self._solver
+        if not self._state:
+            self._state = [floats.get() for floats in self._before]
+        q, v, a = self._state
+        if abs(ratio - 1.0) > SAME:
+            part = step / self._fits
+            differenced = self._constraints.rates_not_provided
+            if part < self._refit or self._smooth:
+                self._leaves = step
+                if self._constraints.count:
+                    if self._offsets is None or (differenced and step < self._ahead):
+                        self._ahead = self._look_ahead * min(step, self._fits)
+                        self._offsets = self._violations().tolist()
+                    of_q, of_v = self._offsets
+                    more = 1.0 - part * part
+                    q = [q[i] - of_q[i] for i in range(len(q))]
+                    v = [v[i] - more * of_v[i] for i in range(len(v))]
+        at_start: list[float] = solver.GetStartOfStepStateAAlgorithmic().tolist()
+        before = self._state[2]
+        algorithmic = [a[i] + ratio * (at_start[i] - before[i]) for i in range(len(a))]
+        if self._method is None:
+            self._method = solver.alphaM, solver.alphaF, solver.newmarkBeta, solver.newmarkGamma
+        alpha_m, alpha_f, beta, gamma = self._method
+        if self._last is None and self._mean is not None:
+            a = algorithmic = self._mean
+        elif self._last is None and self._initial is not None:
+            a, rate = self._initial
+            settled = alpha_m - alpha_f
+            by_a, by_v = settled * step, (1.0 / 6.0 - beta - 0.5 * settled) * step * step
+            algorithmic = [a[i] + by_a * rate[i] for i in range(len(a))]
+            v = [v[i] + by_v * rate[i] for i in range(len(v))]
+        # q1 = q + h v + h^2 (1/2 - beta) a + h^2 beta a1 and v1 = v + h (1 - gamma) a + h gamma a1
+        # with (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) a_true1 + alpha_f a_true
+        by = step * step * (gamma - 0.5 - beta), step * (1.0 - gamma), -alpha_m / alpha_f
+        shifted = [q, v, a]
+        now: list[float] = solver.GetAAlgorithmic().tolist()
+        for state, there in ((self._now, now), (self._before, at_start)):
+            for k in range(3):
+                values, part = shifted[k], by[k]
+                state[k].set(
+                    [
+                        values[i] + part * (algorithmic[i] - there[i])
+                        for i in range(len(algorithmic))
+                    ]
+                )
+
+    def _matrices(self) -> tuple[Array, Array, Array]:
+        """Return the last Jacobian, the inertia in it, and the constraints' directions."""
+        solver, size = self._solver, len(self._current.positions)
+        jacobian = np.asarray(solver.GetSystemJacobian())
+        directions = jacobian[-self._constraints.count :, :size]
+        inertia = inertia_factor(solver) * solver.GetSystemMassMatrix()
+        return jacobian[:size, :size], inertia, directions
+
+    def _violations(self) -> Array:
+        """Return what of positions and velocities constraints forbid, (2, n), in Newton's norm.
+
+        Of all changes that mend it the one that the last Jacobian resists least, as in an iteration
+        of Newton's method: that counts what masses weigh, and what films and contacts would answer
+        with. In the norm of masses alone a journal was moved in its film by 1e-5 m/s, which it
+        answered with 2.4 kN. But a contact that lets go may give way to a change instead, so that
+        a large one costs nothing: where masses alone resist more, they count.
+        """
+        forces, inertia, directions = self._matrices()
+        directions, lengths = normalised(directions)
+        state = np.array(self._state)
+        project = self._constraints.projection(0.5 * (forces + forces.T), directions)
+        changes = self._least(project, lengths, state)
+        for change in changes:
+            if change @ forces @ change < RESISTANCE * (change @ inertia @ change):
+                project = self._constraints.projection(inertia, directions)
+                return self._least(project, lengths, state)
+        return changes
+
+    def _least(self, project: Callable[[Array], Array], lengths: Array, state: Array) -> Array:
+        """Return the least changes of positions and velocities that constraints ask for, (2, n).
+
+        The directions in which constraints act are those of the last Jacobian, perhaps a degree of
+        the crank away; how far they are violated is of this very state, so a few turns lead to it.
+
+        Args:
+            project: changes that undo violations, of constraints with directions of length 1.
+            lengths: of the directions, (count,).
+            state: positions, velocities and accelerations at the step's beginning, (3, n).
+        """
+        position, velocity = self._current.positions, self._current.velocities
+        now = self._data.GetTime()
+        self._data.SetTime(self._start)
+        changes, violations = np.zeros((len(position), 2)), np.zeros((len(lengths), 2))
+        largest = []  # change of positions and velocities, turn by turn
+        for _ in range(ITERATIONS):
+            position[:], velocity[:] = state[:2] - changes.T
+            violations[:, 0] = self._constraints.violations()
+            violations[:, 1] = self._constraints.violation_rates(self._ahead)
+            violations /= lengths[:, None]
+            same = violations[:, :1] == violations[:, 1:]
+            # prescribed speeds are no places, and are met as they are
+            np.copyto(violations, 0.0, where=same)
+            changes += project(violations)
+            largest.append(np.abs(changes).max(axis=0))
+        # where directions have turned too far to lead there, or forces are beyond all numbers
+        changes[:, ~(largest[-1] <= DIVERGED * largest[0])] = 0.0
+        self._data.SetTime(now)
+        return changes.T

@@ -1,0 +1,103 @@
+"""Newton's matrix of flexible systems changes only what a run costs."""
+
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+from patched import PATCHED
+
+from exu_press import Scene, simulate
+from exu_press.integrate import jacobian as module
+from exu_press.integrate import predictor
+from exu_press.integrate.jacobian import FlexibleJacobian
+from exu_press.result import record
+from exu_press.scene import flexible_press
+
+NGSOLVE = pytest.mark.skipif(find_spec("ngsolve") is None, reason="flexible parts need NGSolve")
+
+
+@pytest.fixture
+def flexible():
+    return Scene(
+        bodies=flexible_press(modes=4),
+        joints={"crank_pin": "lubricated", "balls": "dry"},
+        revolutions=0.1,
+        solver={"tolerance": 0.01},
+    )
+
+
+@NGSOLVE
+@PATCHED
+def test_what_is_kept_differs_little_from_what_exudyn_differentiates(flexible, monkeypatch):
+    """By what matters to Newton's method: the part of an error that its matrix would leave."""
+    own, left = FlexibleJacobian._compute, []
+
+    def compare(jacobian, solver, mbs, settings):
+        size = solver.GetODE2size()
+        mine = own(jacobian, solver, mbs, settings)
+        matrix = np.array(solver.GetSystemJacobian())
+        step = solver.it.currentStepSize
+        by_q, by_q_t = solver.newmarkBeta * step**2, solver.newmarkGamma * step
+        stiffness, damping = jacobian._bodies.reshape(2, size, size)
+        with jacobian._joints.left_out():
+            solver.ComputeJacobianODE2RHS(mbs, -by_q, -by_q_t)
+        missing = np.zeros_like(matrix)
+        missing[:size, :size] = by_q * stiffness + by_q_t * damping
+        missing[:size, :size] -= np.array(solver.GetSystemJacobian())[:size, :size]
+        solver.SetSystemJacobian(matrix)
+        errors = np.linalg.eigvals(np.linalg.solve(matrix, missing))
+        left.append(np.abs(errors).max())
+        return mine
+
+    monkeypatch.setattr(FlexibleJacobian, "_compute", compare)
+    assert simulate(flexible).completed
+    assert len(left) > 50
+    assert max(left) < 0.02
+    assert np.median(left) < 1e-4
+
+
+@NGSOLVE
+@PATCHED
+def test_it_changes_the_cost_and_not_the_result(flexible, monkeypatch):
+    kept = simulate(flexible)
+    monkeypatch.setattr(predictor, "FlexibleJacobian", lambda task: None)
+    stock = simulate(flexible)
+    assert kept.completed and stock.completed
+    peaks = [np.abs(run["slider_acceleration"]).max() for run in (kept, stock)]
+    assert peaks[0] == pytest.approx(peaks[1], rel=0.02)
+    iterations = [run.info["newton_iterations"] / run.info["steps"] for run in (kept, stock)]
+    assert iterations[0] < 1.4 * iterations[1]
+
+
+@NGSOLVE
+def test_no_alternation_grows_from_what_newtons_method_leaves_in_the_constraints():
+    """One iteration a step ends with the counterweight at +-11 m/s^2 about -10, and worse."""
+    result = simulate(Scene(bodies=flexible_press(), joints={}, revolutions=0.55))
+    assert result.completed, result.summary()["reason"]
+    force = result["counterweight_pin_force"][:, 1]
+    assert np.abs(np.diff(force, 2)).max() < 0.05 * np.abs(force).max()
+
+
+@NGSOLVE
+@PATCHED
+def test_one_serves_several_steps_and_changes_no_answer(monkeypatch):
+    made, own = [], FlexibleJacobian._compute
+
+    def counted(*arguments):
+        made[-1] += 1
+        return own(*arguments)
+
+    monkeypatch.setattr(FlexibleJacobian, "_compute", counted)
+    runs = []
+    for same in (-1.0, module.SAME):
+        monkeypatch.setattr(module, "SAME", same)
+        scene = Scene(bodies=flexible_press(modes=4), revolutions=0.03, solver={"tolerance": 3e-4})
+        model = scene.build()
+        made.append(0)
+        runs.append(record(model, model.solve()))
+    fresh, kept = runs
+    assert made[0] >= fresh.info["steps"]
+    assert made[1] < 0.6 * kept.info["steps"]
+    assert kept.info["newton_iterations"] < 1.25 * fresh.info["newton_iterations"]
+    forces = [np.abs(run.joints["crank_pin"].force).max() for run in runs]
+    assert forces[1] == pytest.approx(forces[0], rel=2e-3)

@@ -1,0 +1,47 @@
+"""Newton's matrix as a filter of errors."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from patched import PATCHED
+
+from exu_press.integrate.newton_filter import EPSILON, NewtonFilter
+
+pytestmark = PATCHED
+
+
+def filter_of(constraints):
+    """A filter by the matrix of two masses of 1 kg with constraints (count, 2)."""
+    count = len(constraints)
+    jacobian = np.block([[np.eye(2), constraints.T], [constraints, np.zeros((count, count))]])
+    solver = SimpleNamespace(
+        GetSystemMassMatrix=lambda: np.eye(2),
+        GetSystemJacobian=lambda: jacobian,
+        GetAEsize=lambda: count,
+        it=SimpleNamespace(newtonJacobiCount=1),
+        alphaM=0.0,
+        alphaF=0.0,
+    )
+    scales = SimpleNamespace(length=3.0, norm=max)
+    system = SimpleNamespace(current=SimpleNamespace(accelerations=np.zeros(2)))
+    return NewtonFilter(SimpleNamespace(solver=solver, scales=scales, system=system))
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_redundant_constraint_filters_like_one(count):
+    """Of two equal masses the first one is held, and the second one keeps its error."""
+    newton_filter = filter_of(np.array([[1.0, 0.0]] * count))
+    newton_filter.refresh()
+    assert newton_filter.filtered([3.0, 5.0]) == pytest.approx([0.0, 5.0])
+
+
+@pytest.mark.parametrize(("angle", "moved"), [(0.5 * np.pi, 1.0), (1e-3, 2e3)])
+def test_nearly_redundant_constraints_move_bodies_far_by_their_last_digits(angle, moved):
+    newton_filter = filter_of(np.array([[1.0, 0.0], [np.cos(angle), np.sin(angle)]]))
+    expected = EPSILON * 3.0 * moved
+    assert newton_filter.roundoff_of_constraints() == pytest.approx(expected, rel=1e-3)
+
+
+def test_redundant_constraints_have_no_roundoff():
+    assert filter_of(np.array([[1.0, 0.0]] * 2)).roundoff_of_constraints() == 0.0

@@ -1,0 +1,118 @@
+"""A system without an Exudyn system behind it, in a given state; and small ones of Exudyn."""
+
+from types import SimpleNamespace
+
+import exudyn as exu
+import exudyn.utilities as items
+import numpy as np
+
+from exu_press import add_dry_revolute, add_lubricated_revolute
+from exu_press.integrate.system import State, System
+from exu_press.laws.contact import hertz, step_damping
+from exu_press.laws.film import finite
+from exu_press.laws.friction import no_friction
+
+VELOCITY = exu.OutputVariableType.Coordinates_t
+
+
+def system_at(nodes, velocities, accelerations=None, joints=None, length=1.0):
+    """Return a system of nodes that are at zero, and at rest unless velocities are given."""
+    zeros, none = np.zeros(len(velocities)), np.zeros(0)
+    rates = np.array(velocities, dtype=float)
+    second_rates = zeros if accelerations is None else np.array(accelerations, dtype=float)
+    data = SimpleNamespace(
+        GetODE2Coordinates=lambda *_: zeros,
+        GetODE2Coordinates_t=lambda *_: rates,
+        GetODE2Coordinates_tt=lambda *_: second_rates,
+        GetAECoordinates=lambda *_: none,
+        GetODE1Coordinates=lambda *_: none,
+        GetDataCoordinates=lambda *_: none,
+    )
+    state = State(data, exu.ConfigurationType.Current)
+    return System(
+        mbs=None,
+        data=data,
+        current=state,
+        start=state,
+        reference=zeros,
+        nodes=tuple(nodes),
+        joints=joints,
+        modes=False,
+        modal_stiffness=False,
+        contacts=(),
+        rates_not_provided=False,
+        length=length,
+    )
+
+
+def settings(end=1.0, steps=100, **changes):
+    """Exudyn's settings of a run that writes no solution file."""
+    chosen = exu.SimulationSettings()
+    integration = chosen.timeIntegration
+    integration.endTime, integration.numberOfSteps = end, steps
+    chosen.solution.file.write = False
+    for name, value in changes.items():
+        *path, last = name.split("__")
+        owner = integration
+        for attribute in path:
+            owner = getattr(owner, attribute)
+        setattr(owner, last, value)
+    return chosen
+
+
+def mass_on_spring(frequency=20.0, position=1.0, force=None):
+    """A kilogram on a spring (rad/s), displaced by 1 m; its system and the sensor's number."""
+    mbs = exu.SystemContainer().AddSystem()
+    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[position]))
+    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
+    ends = [
+        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
+        for number in (mbs.AddNode(items.NodePointGround()), node)
+    ]
+    spring = items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, stiffness=frequency**2)
+    if force is not None:
+        spring.springForceUserFunction = force
+    mbs.AddObject(spring)
+    sensor = items.SensorNode(nodeNumber=node, outputVariableType=VELOCITY, storeInternal=True)
+    mbs.AddSensor(sensor)
+    mbs.Assemble()
+    return mbs
+
+
+def pendulum(bearing, torque=None, speed=0.0):
+    """Ten kilograms that hang in a bearing with clearance, or in an ideal joint (None).
+
+    Args:
+        bearing: "dry", "lubricated" or None.
+        torque: function of Exudyn's of the moment on the rod, N m.
+        speed: of the rod at the start, rad/s.
+    """
+    mbs = exu.SystemContainer().AddSystem()
+    ground = mbs.AddObject(items.ObjectGround())
+    node = mbs.AddNode(
+        items.NodeRigidBody2D(
+            referenceCoordinates=[0.0, -0.5, 0.0], initialVelocities=[0.5 * speed, 0.0, speed]
+        )
+    )
+    body = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=10.0, inertia=10.0 / 12.0))
+    mass = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body))
+    mbs.AddLoad(items.LoadMassProportional(markerNumber=mass, loadVector=[0.0, -9.81, 0.0]))
+    ends = (body, (0.0, 0.5)), (ground, (0.0, 0.0))
+    size = {"radius": 0.02, "clearance": 5e-5}
+    if bearing == "lubricated":
+        add_lubricated_revolute(mbs, *ends, **size, length=0.03, viscosity=0.1, law=finite(0.75))
+    elif bearing == "dry":
+        contact = step_damping(hertz(2.5e10), 2.5e6, 1e-5)
+        add_dry_revolute(mbs, *ends, **size, contact=contact, friction=no_friction())
+    else:
+        markers = [
+            mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=number, localPosition=[*point, 0.0]))
+            for number, point in reversed(ends)
+        ]
+        mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=markers))
+    if torque is not None:
+        turned = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=2))
+        load = {"load": 0.0, "loadUserFunction": torque}
+        mbs.AddLoad(items.LoadCoordinate(markerNumber=turned, **load))
+    mbs.Assemble()
+    return mbs

@@ -22,9 +22,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fe_models.errors import InputError
+from fe_models.geometry import OpenedStepFile, StepFile
 from fe_models.part import Part
 from fe_models.reduced import ReducedInterface, ReducedPart
 from fe_models.reduction import Reduction, Report, reduce_part
+from fe_models.temporary import TemporaryFolder
 
 __all__ = ["cache_file", "default_folder", "load", "reduced_part", "save"]
 
@@ -72,10 +75,40 @@ def reduced_part(
     stored = load(file)
     if stored is not None:
         return stored
+    if isinstance(part.geometry, StepFile):
+        with TemporaryFolder() as spare:
+            arguments = part, reduction, file, spare / file.name
+            here = f"{__name__}:{reduce_here.__name__}"
+            stored = load(part.geometry.in_child(here, *arguments, report=report))
+        if stored is None:
+            raise InputError(f"{file}: was changed by another program while it was written")
+        return stored
     reduced = reduce_part(part, reduction, report)
     with contextlib.suppress(OSError):  # a cache is a help, not a need
         save(reduced, file)
     return reduced
+
+
+def reduce_here(
+    part: Part, reduction: Reduction, file: Path, spare: Path, report: Report | None = None
+) -> Path:
+    """Read, mesh and reduce a STEP file's part in this process, a child; return the file it is in.
+
+    Args:
+        part: to be reduced.
+        reduction: how.
+        file: in the cache, where the reduced part goes.
+        spare: the same in a temporary folder, for a cache that cannot be written.
+        report: called with (what is being done, share done).
+    """
+    assert isinstance(part.geometry, StepFile)
+    reduced = reduce_part(part.replace(geometry=OpenedStepFile(part.geometry)), reduction, report)
+    try:
+        save(reduced, file)
+    except OSError:  # a cache is a help, not a need
+        save(reduced, spare)
+        return spare
+    return file
 
 
 def default_folder() -> Path:

@@ -6,7 +6,7 @@ one, because meshing one shape object twice gives two different meshes.
 """
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
@@ -20,6 +20,7 @@ __all__ = [
     "CrankShape",
     "Geometry",
     "LinkageShape",
+    "OpenedStepFile",
     "OwnShape",
     "Patch",
     "Sides",
@@ -75,6 +76,9 @@ class StepFile:
     inside a box ((x, y, z) lowest, (x, y, z) highest; in m) takes its name. `axes` names cylinders
     along z and spheres by where their axis is. `patches` gives one name to faces that are held
     together, by their own names, by boxes, or as the two sides of the solid.
+
+    A child process reads it; with `reduced_part` it meshes and reduces it, too. `time_limit` (s)
+    and `memory_limit` (bytes) are those of the child.
     """
 
     path: Path
@@ -82,12 +86,14 @@ class StepFile:
     faces: Mapping[str, Box] = field(default_factory=dict)
     axes: Mapping[str, Axis] = field(default_factory=dict)
     patches: Mapping[str, tuple[Patch, ...] | Sides] = field(default_factory=dict)
+    time_limit: float = 600.0
+    memory_limit: float = 8e9
 
     def key(self) -> dict[str, Any]:
         """Return a digest of the file, the boxes, the axes and the patches."""
         return {
             "shape": "step",
-            "digest": hashlib.sha256(self._bytes()).hexdigest(),
+            "digest": hashlib.sha256(self.content()).hexdigest(),
             "scale": self.scale,
             "faces": {name: [list(corner) for corner in box] for name, box in self.faces.items()},
             "axes": {name: asdict(axis) for name, axis in self.axes.items()},
@@ -99,17 +105,26 @@ class StepFile:
 
     def build(self) -> Any:
         """Return the solid, its faces named by the file, boxes, axes and patches."""
-        self._bytes()
-        from fe_models.patches import name_patches
-        from fe_models.round_faces import name_round_faces
-        from fe_models.shapes import from_step
+        self.content()
+        from fe_models.shapes import thaw
 
-        shape = from_step(self.path, self.scale, self.faces)
-        name_round_faces(shape, self.axes, f"STEP file {self.path}")
-        name_patches(shape, self.patches, self.axes, f"STEP file {self.path}")
-        return shape
+        return thaw(*self.in_child(f"{__name__}:read_here", self))
 
-    def _bytes(self) -> bytes:
+    def in_child(
+        self, function: str, *arguments: Any, report: Callable[..., None] | None = None
+    ) -> Any:
+        """Return what a function that opens this file returns; arguments as of `read_in_child`."""
+        from fe_models.step_reader import read_in_child
+
+        limits = {"time_limit": self.time_limit, "memory_limit": self.memory_limit}
+        return read_in_child(function, *arguments, path=Path(self.path), report=report, **limits)
+
+    def content(self) -> bytes:
+        """Return the bytes of the file.
+
+        Raises:
+            InputError: it cannot be read, or is no STEP file.
+        """
         path = Path(self.path)
         try:
             if path.exists() and not path.is_file():
@@ -124,6 +139,37 @@ class StepFile:
                 f"STEP file {self.path}: is not one (a STEP file begins with ISO-10303-21)"
             )
         return content
+
+
+@dataclass(frozen=True)
+class OpenedStepFile:
+    """A STEP file that this process reads itself: a child, which may crash."""
+
+    step: StepFile
+
+    def key(self) -> dict[str, Any]:
+        """Return the file's."""
+        return self.step.key()
+
+    def build(self) -> Any:
+        """Return the solid, its faces named by the file, boxes, axes and patches."""
+        self.step.content()
+        from fe_models.patches import name_patches
+        from fe_models.round_faces import name_round_faces
+        from fe_models.shapes import from_step
+
+        step, where = self.step, f"STEP file {self.step.path}"
+        shape = from_step(step.path, step.scale, step.faces)
+        name_round_faces(shape, step.axes, where)
+        name_patches(shape, step.patches, step.axes, where)
+        return shape
+
+
+def read_here(step: StepFile) -> tuple[str, tuple[str | None, ...]]:
+    """Read a STEP file in this process, a child; return the solid as `freeze` does."""
+    from fe_models.shapes import freeze
+
+    return freeze(OpenedStepFile(step).build())
 
 
 class OwnShape:

@@ -19,7 +19,7 @@ import tempfile
 import threading
 import traceback
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from importlib import import_module
@@ -29,10 +29,23 @@ from typing import Any, BinaryIO
 
 from fe_models.errors import DiskFullError, InputError, disk_full
 
-__all__ = ["Child", "ChildError", "TimeLimitError", "may_copy"]
+__all__ = ["ONE_THREAD", "Child", "ChildError", "TimeLimitError", "may_copy"]
 
 PR_SET_PDEATHSIG = 1
 """Of prctl(2): the signal that a process gets when its parent ends."""
+
+ONE_THREAD = dict.fromkeys(
+    (
+        "OMP_NUM_THREADS",
+        "OPENBLAS_NUM_THREADS",
+        "MKL_NUM_THREADS",
+        "BLIS_NUM_THREADS",
+        "VECLIB_MAXIMUM_THREADS",
+        "NGS_NUM_THREADS",
+    ),
+    "1",
+)
+"""Environment of a process whose libraries have one thread each."""
 
 LAST_LETTERS = 2000
 """Of what a child that failed has printed, in the message."""
@@ -80,7 +93,7 @@ class Child(AbstractContextManager["Child", None]):
         *,
         niceness: int = 0,
         memory: int | None = None,
-        environment: Mapping[str, str] | None = None,
+        one_thread: bool = False,
         silent: bool = True,
         progress: Callable[..., None] | None = None,
     ) -> None:
@@ -91,7 +104,7 @@ class Child(AbstractContextManager["Child", None]):
                 `may_copy` allows it.
             niceness: by how much it gives way to others.
             memory: bytes of address space that it may have.
-            environment: variables that differ from those here, of a new process.
+            one_thread: libraries of a new process have one thread each.
             silent: what it prints is shown only if it fails; else on standard error.
             progress: called with what the function reports; the function has a further argument,
                 `report`, to do so.
@@ -109,7 +122,7 @@ class Child(AbstractContextManager["Child", None]):
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=errors,
-                env={**os.environ, **(environment or {})},
+                env={**os.environ, **(ONE_THREAD if one_thread else {})},
                 start_new_session=True,  # Ctrl-C in a terminal is for the parent alone
             )
             self._write(vars(setup))

@@ -1,16 +1,19 @@
 """Solids by netgen's OCC kernel, with named interface faces. The only module that builds shapes."""
 
+import math
+import shutil
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from netgen.occ import Cylinder, MoveTo, Pnt, Vec, Z  # type: ignore[import-untyped]
+from netgen.occ import OCCGeometry as OccGeometry
 
 from fe_models.dimensions import Box, CrankDimensions, LinkageDimensions
 from fe_models.errors import InputError
 from fe_models.patches import lies_within
-from fe_models.step_check import check_step, read_step
+from fe_models.temporary import TemporaryFolder
 
 __all__ = ["crank_shaft", "freeze", "from_step", "linkage", "thaw"]
 
@@ -61,12 +64,14 @@ def linkage(d: LinkageDimensions) -> Any:
 
 def from_step(path: Path, scale: float, faces: Mapping[str, Box]) -> Any:
     """Return the solid of a STEP file, scaled to m; faces wholly inside a box take its name."""
-    check_step(path)
     try:
-        shape = read_step(path)
+        shape = _read_step(path)
         solids = len(shape.solids)
+        corners = [getattr(end, axis) for end in shape.bounding_box for axis in "xyz"]
     except Exception as error:
         raise InputError(f"STEP file {path}: netgen cannot read it ({error})") from error
+    if not all(map(math.isfinite, corners)):
+        raise InputError(f"STEP file {path}: a coordinate is no number")
     if solids != 1:
         raise InputError(f"STEP file {path}: holds {solids} solids; a part is one solid")
     if scale != 1.0:
@@ -84,6 +89,14 @@ def from_step(path: Path, scale: float, faces: Mapping[str, Box]) -> Any:
     return shape
 
 
+def _read_step(path: Path) -> Any:
+    """Return the shape of a STEP file; netgen takes only names that end in small letters."""
+    with TemporaryFolder() as folder:
+        if path.suffix != path.suffix.lower():
+            path = Path(shutil.copy(path, folder / f"shape{path.suffix.lower()}"))
+        return OccGeometry(str(path)).shape
+
+
 def freeze(shape: Any) -> tuple[str, tuple[str | None, ...]]:
     """Return a shape's boundary representation as text, and its faces' names in order."""
     with tempfile.TemporaryDirectory() as folder:
@@ -97,7 +110,7 @@ def thaw(text: str, names: tuple[str | None, ...]) -> Any:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "shape.brep"
         path.write_text(text)
-        shape = read_step(path)
+        shape = OccGeometry(str(path)).shape
     for face, name in zip(shape.faces, names, strict=True):
         if name is not None:
             face.name = name

@@ -31,8 +31,8 @@ from pathlib import Path
 
 import numpy as np
 
-from exu_press.parallel.workers import ONE_THREAD
 from exudyn_models.table import ENDED, Model, table
+from fe_models.processes import ONE_THREAD
 
 FOLDERS = "main/pythonDev/Examples", "main/pythonDev/TestModels"
 HERE = Path(__file__).parent

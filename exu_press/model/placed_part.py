@@ -296,7 +296,17 @@ def _part(
         for what, each in patches.items()
         if carriers[what] == what
     }
-    solid = StepFile(table.path, MILLIMETRES, axes=axes, patches=held)
+    limits: dict[str, Any] = {
+        "time_limit": table.time_limit,
+        "memory_limit": table.memory_limit_gb and 1e9 * table.memory_limit_gb,
+    }
+    solid = StepFile(
+        table.path,
+        MILLIMETRES,
+        axes=axes,
+        patches=held,
+        **{name: limit for name, limit in limits.items() if limit is not None},
+    )
     material = _material(table, CRANK_STEEL)
     return Part(solid.path.stem, solid, material, tuple(interfaces), table.mesh_size), carriers
 

@@ -8,23 +8,10 @@ from contextlib import AbstractContextManager
 from exu_press.parallel.task import TIME_LIMIT, WORKER_DIED, Row, Task, row_of_task
 from fe_models.processes import Child, ChildError, TimeLimitError
 
-__all__ = ["ONE_THREAD", "Workers", "perform", "worker", "worker_died"]
+__all__ = ["Workers", "perform", "worker", "worker_died"]
 
 ATTEMPTS = 2
 """Attempts at a task whose worker dies."""
-
-ONE_THREAD = dict.fromkeys(
-    (
-        "OMP_NUM_THREADS",
-        "OPENBLAS_NUM_THREADS",
-        "MKL_NUM_THREADS",
-        "BLIS_NUM_THREADS",
-        "VECLIB_MAXIMUM_THREADS",
-        "NGS_NUM_THREADS",
-    ),
-    "1",
-)
-"""Environment of a worker: one thread each, as there are as many processes as cores."""
 
 
 class Workers(AbstractContextManager["Workers", None]):
@@ -93,7 +80,7 @@ def worker(task: Task) -> Child:
         ChildError: it ended at once.
     """
     name = f"{row_of_task.__module__}:{row_of_task.__name__}"
-    child = Child(name, environment=ONE_THREAD, silent=False)
+    child = Child(name, one_thread=True, silent=False)
     try:
         child.request(task, True)
         child.answer()  # imports do not count for a time limit

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError, prefixed, required_package
+from exu_press.errors import InputError, UnusedKeyError, prefixed, required_package
 from exu_press.schema.checks import (
     Table,
     changed_table,
@@ -39,6 +39,9 @@ GUIDE_FACE = "guide"
 """Among the faces of a body in a guide: those that the guide holds."""
 
 STEP_FILES = (".step", ".stp")
+
+OF_STEP_FILES = ("time_limit", "memory_limit_gb")
+"""Keys of a body whose solid is a STEP file's."""
 
 USUAL_MODES = 20
 
@@ -133,6 +136,12 @@ class Flexible(Table):
     angle_deg: float | None = key(
         None, "direction of the solid's x axis in the drawing; 0, or fitted likewise", "deg"
     )
+    time_limit: float | None = key(
+        None, "for reading, meshing and reducing a STEP file; 600 unless given", "s", above=0
+    )
+    memory_limit_gb: float | None = key(
+        None, "memory for that, in 1e9 bytes; 8 unless given", at_least=1, at_most=1e6
+    )
     sn_stress: float | None = key(
         None,
         "stress amplitude endured for sn_cycles; the summary then has the fatigue life",
@@ -148,6 +157,10 @@ class Flexible(Table):
         if self.flexibility_error is None and self.modes is None:
             object.__setattr__(self, "modes", USUAL_MODES)
         object.__setattr__(self, "faces", faces_given(self.faces))
+        for name in OF_STEP_FILES if not self.from_file else ():
+            if (value := getattr(self, name)) is not None:
+                reason = f"{self.flexible!r} is no STEP file"
+                raise UnusedKeyError(name, f"{name} = {value!r}", reason)
 
     @property
     def from_file(self) -> bool:

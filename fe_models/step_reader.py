@@ -1,0 +1,62 @@
+"""STEP files are read in a child process: a damaged one may end that process, or keep it busy.
+
+With `reduced_part`, reading, meshing and reducing are done there in one go. What comes back is a
+file of plain arrays; this process never lets the kernel of solids open such a file.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from fe_models.errors import InputError
+from fe_models.processes import Child, ChildError, TimeLimitError
+from fe_models.step_text import faulty_entity
+
+__all__ = ["read_in_child"]
+
+NO_MEMORY = ("MemoryError", "bad_alloc", "failed to map segment", "allocation failed")
+"""What libraries say where a limit of memory is reached."""
+
+
+def read_in_child(
+    function: str,
+    *arguments: Any,
+    path: Path,
+    time_limit: float,
+    memory_limit: float,
+    report: Callable[..., None] | None = None,
+) -> Any:
+    """Return what a function that reads a STEP file returns in a child.
+
+    Args:
+        function: "module:name".
+        arguments: of it.
+        path: of the STEP file, for messages.
+        time_limit: of the child, s.
+        memory_limit: of the child, bytes.
+        report: called with (what is being done, share done); the function's last argument does so.
+
+    Raises:
+        InputError: the function says so, or the file is damaged or needs more than its limits.
+    """
+    memory = round(memory_limit)
+    with Child(function, memory=memory, one_thread=True, progress=report) as child:
+        child.request(*arguments)
+        try:
+            return child.answer(time_limit)
+        except TimeLimitError:
+            why = (
+                f"takes more than {time_limit:g} s; allowed is a larger time_limit, a larger "
+                "mesh_size, or another file"
+            )
+        except ChildError as error:
+            how, *_ = str(error).partition(": ")
+            if any(word in str(error) for word in NO_MEMORY):
+                why = (
+                    f"needs more than {memory_limit / 1e9:g} GB; allowed is a larger "
+                    "memory_limit_gb, a larger mesh_size, or another file"
+                )
+            else:
+                how = how if how.startswith(("killed", "exit")) else str(error)
+                why = f"cannot be read and meshed, it may be damaged ({how})"
+    raise InputError(f"STEP file {path}: {why}{faulty_entity(path)}")

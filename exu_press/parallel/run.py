@@ -13,7 +13,7 @@ from exu_press.errors import DiskFullError, InputError
 from exu_press.files.lock import locked
 from exu_press.files.output_directory import output_directory
 from exu_press.parallel.rows import RowFile
-from exu_press.parallel.task import TIME_LIMIT, Function, Row, Task, name_of, task_of
+from exu_press.parallel.task import TIME_LIMIT, Function, Row, Task, name_of, task_of, versions
 from exu_press.parallel.workers import Workers
 from exu_press.terminal.progress import Progress
 
@@ -95,6 +95,7 @@ class Batch(ExitStack):
         if time_limit is not None and not time_limit > 0.0:
             raise InputError(f"time_limit = {time_limit:g}: allowed is a number > 0 (s)")
         self._name, self._modules = name_of(function), tuple(modules)
+        self._versions = versions(self._name, *self._modules)
         self.directory = Path(directory)
         self._workers, self._dask, self._limit = workers or os.cpu_count() or 1, dask, time_limit
         self._kept, self._label, self._quiet = kept, label, quiet
@@ -127,7 +128,7 @@ class Batch(ExitStack):
             ValueError, TypeError: the arguments are no JSON.
             KeyboardInterrupt: after Ctrl-C; finished rows are kept.
         """
-        tasks = [task_of(self._name, each, self._modules) for each in arguments]
+        tasks = [self._task(each) for each in arguments]
         given = {task.key: each for task, each in zip(tasks, arguments, strict=True)}
         rows = {task.key: self._finished(task, given[task.key]) for task in tasks}
         todo = [key for key, row in rows.items() if row is None]
@@ -168,7 +169,7 @@ class Batch(ExitStack):
             try:
                 while True:
                     arguments = next(chain) if row is None else chain.send(dict(row))
-                    task = task_of(self._name, arguments, self._modules)
+                    task = self._task(arguments)
                     row = self._finished(task, arguments)
                     if row is None:
                         break
@@ -202,6 +203,9 @@ class Batch(ExitStack):
                 f"{full}: {failed} of {total} runs failed, {done} are finished and kept, others "
                 "were not begun; with room on the disk the same command goes on"
             )
+
+    def _task(self, arguments: Mapping[str, Any]) -> Task:
+        return task_of(self._name, arguments, self._modules, self._versions)
 
     def _finished(self, task: Task, arguments: Mapping[str, Any]) -> Row | None:
         """Return the row of a run that need not be done again, or None."""

@@ -1,9 +1,11 @@
 """One run of a batch: function, arguments, versions, and a digest of its sources."""
 
+import ast
 import hashlib
 import json
 import math
-from collections.abc import Callable, Mapping
+import sys
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -68,14 +70,25 @@ class Task:
     modules: tuple[str, ...] = ()
 
 
-def task_of(function: str, arguments: Mapping[str, Any], modules: tuple[str, ...] = ()) -> Task:
+def task_of(
+    function: str,
+    arguments: Mapping[str, Any],
+    modules: tuple[str, ...] = (),
+    known: Mapping[str, str | None] | None = None,
+) -> Task:
     """Return the task of a function's name and its arguments.
+
+    Args:
+        function: "module:name".
+        arguments: of the function, as JSON has them.
+        modules: that a worker imports first.
+        known: `versions` of function and modules, looked up unless given.
 
     Raises:
         ValueError, TypeError: the arguments are no JSON.
     """
     text = _canonical(arguments)
-    known = versions(function, *modules)
+    known = versions(function, *modules) if known is None else known
     everything = _canonical({"function": function, "arguments": text, "versions": known})
     return Task(hashlib.sha256(everything.encode()).hexdigest(), function, text, known, modules)
 
@@ -83,9 +96,8 @@ def task_of(function: str, arguments: Mapping[str, Any], modules: tuple[str, ...
 def versions(function: str, *modules: str) -> dict[str, str | None]:
     """Return the versions of PACKAGES, None for missing ones, and a digest of sources.
 
-    Of the function's package, and of the packages of other modules that a row depends on.
-
-    Our own version alone would not do: sources change between two versions.
+    Of the function's package, and of the packages of other modules that a row depends on, as they
+    are on the disk now. Our own version alone would not do: sources change between two versions.
     """
     sources = source_digest(
         *(name.partition(":")[0].partition(".")[0] for name in (function, *modules))
@@ -136,12 +148,18 @@ def row_of_task(task: Task, only_imports: bool = False) -> Row:
             "folders that Python knows without the one where you work; PYTHONPATH names further "
             "ones"
         ) from None
-    here = versions(task.function, *task.modules)
+    here = _versions_when_imported(task.function, *task.modules)
     if here != task.versions:
         raise InputError(
             f"a worker has {here}; allowed are the versions here, {dict(task.versions)}"
         )
     return {} if only_imports else row_of(function, json.loads(task.arguments))
+
+
+@cache
+def _versions_when_imported(function: str, *modules: str) -> dict[str, str | None]:
+    """Return the versions of what a worker works with: it imports once, whatever changes later."""
+    return versions(function, *modules)
 
 
 def row_of(function: Function, arguments: dict[str, Any]) -> Row:
@@ -186,29 +204,93 @@ def _canonical(data: Any) -> str:
     return json.dumps(data, sort_keys=True, separators=(",", ":"), allow_nan=False)
 
 
-@cache
-def source_digest(*packages: str) -> str:
-    """Return a digest of this package's sources and of those of other packages or modules."""
-    digest = hashlib.sha256()
-    for name in dict.fromkeys((*OURS, *packages)):
-        for file, known_as in _files(name):
-            digest.update(f"{known_as} {file.stat().st_size};".encode())
-            digest.update(file.read_bytes())
+def source_digest(*names: str) -> str:
+    """Return a digest of this package's sources, and of other packages or modules with all of the
+    user's own files that they import or name.
+    """
+    digest = hashlib.sha256("".join(map(_digest_of_ours, OURS)).encode())
+    for known_as, file in sorted(_users_files(names).items()):
+        digest.update(_described(known_as, file))
     return digest.hexdigest()[:16]
 
 
-def _files(name: str) -> list[tuple[Path, str]]:
-    """Return a package's files, or a module's one, with names that are the same on any machine."""
+@cache
+def _digest_of_ours(name: str) -> str:
+    digest = hashlib.sha256()
+    for known_as, file in sorted(_files(name).items()):
+        digest.update(_described(known_as, file))
+    return digest.hexdigest()
+
+
+def _described(known_as: str, file: Path) -> bytes:
+    content = file.read_bytes()
+    return f"{known_as} {len(content)};".encode() + content
+
+
+def _users_files(names: Iterable[str]) -> dict[str, Path]:
+    """Return the files of packages and modules, and of those that they import, by known names.
+
+    What is installed counts where it is named, and not where it is imported. A text in a module
+    that is the name of a file beside it counts too: a law's table.
+    """
+    files: dict[str, Path] = {}
+    left, seen = [*names], set(OURS)
+    while left:
+        name = left.pop()
+        if name in seen:
+            continue
+        seen.add(name)
+        for known_as, file in _files(name).items():
+            files[known_as] = file
+            if file.suffix == ".py":
+                imported, texts = _imports_and_texts(file)
+                left += [module for module in imported if _is_users(module)]
+                files |= {f"{name}/{t}": file.parent / t for t in texts if _is_beside(file, t)}
+    return files
+
+
+def _imports_and_texts(file: Path) -> tuple[set[str], set[str]]:
+    """Return the top-level names of the modules that a source imports, and its texts."""
+    try:
+        nodes = [*ast.walk(ast.parse(file.read_bytes()))]
+    except (SyntaxError, ValueError):
+        return set(), set()
+    modules = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    modules |= {
+        node.module
+        for node in nodes
+        if isinstance(node, ast.ImportFrom) and node.module and not node.level
+    }
+    texts = {
+        node.value for node in nodes if isinstance(node, ast.Constant) and type(node.value) is str
+    }
+    return {name.partition(".")[0] for name in modules}, texts
+
+
+def _is_users(name: str) -> bool:
+    """Return whether a module is the user's own, neither Python's nor installed."""
+    if name in sys.stdlib_module_names:
+        return False
+    files = _files(name).values()
+    return not any({"site-packages", "dist-packages"} & set(file.parts) for file in files)
+
+
+def _is_beside(file: Path, text: str) -> bool:
+    """Return whether a text is the name of a file beside another one."""
+    return Path(text).suffix != "" and text.isprintable() and (file.parent / text).is_file()
+
+
+def _files(name: str) -> dict[str, Path]:
+    """Return a package's files, or a module's one, by names that are the same on any machine."""
     spec = find_spec(name)
     if spec is None:
-        return []
+        return {}
     folders = [Path(folder) for folder in spec.submodule_search_locations or ()]
     if not folders:
-        return [] if spec.origin is None else [(Path(spec.origin), name)]
-    found = [
-        (file, f"{name}/{file.relative_to(folder).as_posix()}")
+        return {name: Path(spec.origin)} if spec.has_location and spec.origin else {}
+    return {
+        f"{name}/{file.relative_to(folder).as_posix()}": file
         for folder in folders
         for file in folder.rglob("*")
         if file.suffix in SUFFIXES and file.relative_to(folder).parts[0] not in FOR_READERS
-    ]
-    return sorted(found, key=lambda each: each[1])
+    }

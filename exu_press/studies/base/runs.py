@@ -15,6 +15,7 @@ from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.scene.custom import custom_modules
 from exu_press.schema.stored import from_json
+from exu_press.studies.base.inputs import arguments_of, scene_from
 from exu_press.studies.base.study import Study
 
 __all__ = ["Row", "Runs", "row_of", "run_scene"]
@@ -93,7 +94,7 @@ class Runs(Batch):
             files: where each keeps its run.nc, in the study's directory, if it is to.
         """
         errors = {"errors": True} if self._study.errors else {}
-        arguments: list[dict[str, Any]] = [{"scene": s.to_dict(), **errors} for s in scenes]
+        arguments: list[dict[str, Any]] = [{**arguments_of(s), **errors} for s in scenes]
         for each, file in zip(arguments, files, strict=False):
             inside = subdirectory(self.directory, str(Path(file).parent))
             each["save"] = str(inside.resolve() / Path(file).name)
@@ -104,7 +105,7 @@ def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
     """Run {"scene": ...}, with "save": file and "errors": True if wanted; return its row."""
     from exu_press.verification.simulate import simulate
 
-    scene = Scene.from_dict(arguments["scene"])
+    scene = scene_from(arguments)
     result = simulate(scene, errors=bool(arguments.get("errors")), beside=False)
     if "save" in arguments:
         result.save(arguments["save"])

@@ -12,7 +12,7 @@ from exu_press.model.state import State
 from exu_press.parallel import Chain
 from exu_press.scene import Scene
 from exu_press.studies.attractor import attractor
-from exu_press.studies.base import Row, Runs
+from exu_press.studies.base import Row, Runs, arguments_of, scene_from
 from exu_press.studies.bifurcation.report import Branch, Report
 from exu_press.studies.bifurcation.study import FROM_THE_START, Bifurcation
 
@@ -78,7 +78,7 @@ def _arguments(
     scene: Scene = study.scene_at(study.at(value, second))
     own = study.bifurcation
     found: dict[str, Any] = {
-        "scene": scene.to_dict(),
+        **arguments_of(scene),
         "skip": own.skip,
         "revolutions": own.revolutions,
         "longest": own.longest,
@@ -123,7 +123,7 @@ def run_point(arguments: dict[str, Any]) -> dict[str, Any]:
         status, reason, points (n, k), period (None where there is none), told, in_words, error,
         exponent: [value, low or None, high] per revolution, motion, state.
     """
-    scene, start = Scene.from_dict(arguments["scene"]), arguments["start"]
+    scene, start = scene_from(arguments), arguments["start"]
     if start is not None:
         start = carried(start, arguments["speed"], scene.speed_rpm)
     found = attractor(

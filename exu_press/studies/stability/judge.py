@@ -4,6 +4,7 @@ from typing import Any
 
 from exu_press.integrate import SolverStatus
 from exu_press.scene import Scene
+from exu_press.studies.base import scene_from
 from exu_press.studies.stability.checks import agreement, checks_of
 from exu_press.verification.run import with_errors
 from exu_press.verification.simulate import simulate
@@ -30,7 +31,7 @@ def judge(case: dict[str, Any]) -> dict[str, Any]:
     Args:
         case: name and scene.
     """
-    scene = Scene.from_dict(case["scene"])
+    scene = scene_from(case)
     result = simulate(scene)
     info = result.info
     row: dict[str, Any] = {

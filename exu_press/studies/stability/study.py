@@ -6,6 +6,7 @@ from typing import Any
 
 from exu_press.parallel import run_batch
 from exu_press.scene.custom import custom_modules
+from exu_press.studies.base import arguments_of
 from exu_press.studies.stability.cases import Case
 from exu_press.studies.stability.judge import WRONG, judge
 from exu_press.studies.stability.report import Report, Row
@@ -36,7 +37,7 @@ def stability(
     Raises:
         InputError: the directory cannot be used.
     """
-    arguments = [{"name": case.name, "scene": case.scene.to_dict()} for case in table]
+    arguments = [{"name": case.name, **arguments_of(case.scene)} for case in table]
     rows = run_batch(
         judge,
         arguments,

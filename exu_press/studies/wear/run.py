@@ -13,7 +13,7 @@ from exu_press.parallel import Chain
 from exu_press.parallel.task import COMPLETED
 from exu_press.quantities.uncertain import significant
 from exu_press.scene import Scene
-from exu_press.studies.base import Row, Runs, row_of
+from exu_press.studies.base import Row, Runs, arguments_of, row_of, scene_from
 from exu_press.studies.wear.shape import Depths, begun, worn_scene
 from exu_press.studies.wear.study import WearStudy
 
@@ -162,7 +162,7 @@ def run_worn(arguments: dict[str, Any]) -> dict[str, Any]:
     from exu_press.quantities.wear import depths_of_a_revolution
     from exu_press.verification.simulate import simulate
 
-    result = simulate(Scene.from_dict(arguments["scene"]))
+    result = simulate(scene_from(arguments))
     row = row_of(result)
     return row | (depths_of_a_revolution(result) if row["status"] == COMPLETED else {})
 
@@ -174,7 +174,7 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
     depths = {name: begun(scene, name) for name in study.joints}
 
     def arguments(worn: Mapping[str, Depths]) -> dict[str, Any]:
-        return {"scene": worn_scene(scene, worn).to_dict()}
+        return arguments_of(worn_scene(scene, worn))
 
     def failed(row: Row) -> str:
         return f"run {row['status']}: {row['reason']}" if row["status"] != COMPLETED else ""

@@ -280,7 +280,7 @@ def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
                     "interface law or more"
                 )
         if joint.contact is not None:
-            contact_law(joint, revolute=not spherical)
+            contact_law(joint, revolute=not spherical, crank_speed=1.0)
         if joint.friction is not None:
             friction_law(joint.friction)
         if isinstance(joint, LubricatedJoint):

@@ -418,11 +418,15 @@ class Scene(Table):
         if self.drive is not None and self.drive.scheduled:
             return 0.0
         usual = mechanism_of(self).defaults.get("settle", 1.0)
-        warms = any(oil_of(joint) is not None for joint in self.joints.values())
-        if warms and self.revolutions >= WARM + 1.0:
+        if self.warms and self.revolutions >= WARM + 1.0:
             usual = max(usual, WARM)
         least = 2.0 if self.drive is None else 3.0  # a motor may lag behind its revolutions
         return float(usual) if self.revolutions >= least else 0.0
+
+    @property
+    def warms(self) -> bool:
+        """Whether the oil of a film warms."""
+        return any(oil_of(joint) is not None for joint in self.joints.values())
 
     @property
     def duration(self) -> float:

@@ -20,13 +20,7 @@ from exu_press.result.windows import at, settled, until, window
 from exu_press.scene import Scene, mechanism_of
 from exu_press.verification.divergence import Divergence, divergence
 from exu_press.verification.drift import earlier, warmed_on
-from exu_press.verification.estimate import (
-    SAFETY,
-    SAFETY_OF_STEPS,
-    converging,
-    of_both,
-    scattered,
-)
+from exu_press.verification.estimate import converging, of_both, scattered
 from exu_press.verification.reading import overshot, smoothed, turned, unbalanced
 from exu_press.verification.refinement import RefinementRuns, plan
 
@@ -172,8 +166,6 @@ def errors_of(
         (1.0, warmed_on),
     )
     reads = [(part, read(changed(result))) for part, changed in ways]
-    solver = result.scene.solver
-    safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
     before = by_end[horizon]
     swings = {name: one for name, one in told.items() if _swings(one.quantity)}
     late = _late(runs, horizon, swings) if diverged.distances else []
@@ -187,7 +179,7 @@ def errors_of(
             quantity, [found[name] for found in by_end[end].values() if name in found], sizes, arm
         )
         told_values = by_end[end], [before, *late] if name in swings else [before], after
-        error = _error(name, quantity.extreme, *told_values, least + left_open, safety, diverged)
+        error = _error(name, quantity.extreme, *told_values, least + left_open, diverged)
         if value >= 0.0 and not quantity.signed:
             error["low"] = max(error["low"], 0.0)
             known = error["error"] <= max(value, OF_FLOOR * least)
@@ -215,7 +207,6 @@ def _error(
     before: Sequence[Numbers],
     after: Numbers,
     least: float,
-    safety: float,
     diverged: Divergence,
 ) -> Error:
     """Return the error of a quantity.
@@ -231,7 +222,6 @@ def _error(
             of which the largest error counts.
         after: of the motion from then on.
         least: least error.
-        safety: factor on errors that go with the tolerance or the step.
         diverged: how the run has parted from its refinements.
     """
     values = {ratio: found[name] for ratio, found in now.items() if name in found}
@@ -240,7 +230,7 @@ def _error(
     begun, *earlier = [{r: found[r].get(name, np.nan) for r in values} for found in before]
     later = {r: found.get(name, np.nan) for r, found in after.items() if r in values}
     swung = [list(found.values()) for found in earlier]
-    known = converging(list(begun.values()), list(values), least, safety, diverged.nearest, swung)
+    known = converging(list(begun.values()), list(values), least, diverged.nearest, swung)
     shares = [diverged.distances.get(r, 1.0) for r in values if r != 1.0]
     if later and _is_of_both(extreme, values, begun, later):
         beyond = scattered(list(later.values()), least, shares)

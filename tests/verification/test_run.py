@@ -11,7 +11,7 @@ from exu_press.quantities import Quantity, QuantityAt, quantities_of
 from exu_press.quantities.kind import DIFFERENCE, MOTION, RESULTANT, SHARE
 from exu_press.quantities.value import numbers_of
 from exu_press.scene import flexible_press
-from exu_press.verification.estimate import SAFETY
+from exu_press.verification.estimate import ORDER
 from exu_press.verification.refinement import RefinementRuns, plan
 from exu_press.verification.run import errors_of, with_errors
 
@@ -118,7 +118,8 @@ def test_energies_that_agree_at_the_end_by_chance_are_not_known_so_well(result):
         assert told["horizon"] is None
         found.append(told["errors"]["energy.stored"]["error"])
     assert found[0] < 1e-3
-    assert SAFETY * 0.2 / 0.5 <= 1.1 * found[1] <= 1.2 * SAFETY * 0.2 / 0.5
+    expected = 0.2 / (1.0 - 0.5**ORDER)
+    assert expected <= 1.1 * found[1] <= 1.2 * expected
 
 
 def test_what_energies_differ_by_while_a_run_settles_is_no_error():
@@ -203,7 +204,7 @@ def test_magnitudes_are_not_below_zero_and_energies_may_be(result):
 @pytest.mark.parametrize(
     ("solver", "ratios"),
     [
-        ({"tolerance": 1e-3}, [0.5, 8.0]),
+        ({"tolerance": 1e-3}, [0.5, 4.0]),
         ({"tolerance": 0.04}, [0.5, 2.0]),
         ({"tolerance": 0.1}, [0.25, 0.5]),
         ({"step": 1e-5}, [2.0, 3.0, 4.0]),

@@ -154,7 +154,7 @@ def of_steps(apart: Sequence[float]) -> float:
     """
     values = np.asarray(apart)
     known = _student(len(values)) * values.std(ddof=1) / math.sqrt(len(values))
-    return (abs(float(values.mean())) + float(known)) / (1.0 - FINER**ORDER)
+    return (abs(float(values.mean())) + float(known)) / float(1.0 - FINER**ORDER)
 
 
 def finer(scene: Scene) -> Scene:

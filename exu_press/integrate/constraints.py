@@ -120,8 +120,7 @@ class Constraints:
     def violation_rates(self, ahead: float) -> Array:
         """Return by how much velocities of the current state violate each constraint.
 
-        Args:
-            ahead: time within which positions are differenced where Exudyn provides no rates, s.
+        Positions within a time (s) ahead are differenced where Exudyn provides no rates.
         """
         if not self.rates_not_provided:
             return self.violations(velocities=True)
@@ -140,9 +139,7 @@ class Constraints:
     def projection(self, norm: Array, directions: Array) -> Callable[[Array], Array]:
         """Return a function of violations, (count, k): the least changes that undo them, (n, k).
 
-        Args:
-            norm: (n, n), in which they are the least.
-            directions: of the constraints, (count, n), of length 1.
+        In a norm, (n, n); of constraints with directions of length 1, (count, n).
         """
         size = len(norm)
         try:
@@ -152,15 +149,10 @@ class Constraints:
         return lambda violations: changes(violations)[:size]
 
     def matrix(self, mass: Array, directions: Array) -> Array:
-        """Return [[M, C^T], [C, -regularisation]].
+        """Return [[M, C^T], [C, -regularisation]] of masses (n, n) and directions C (count, n).
 
         Euler parameters have no mass along themselves, where a constraint holds them: the masses
-        alone cannot be inverted, with the constraints they can. The regularisation allows for
-        redundant constraints.
-
-        Args:
-            mass: M, (n, n).
-            directions: C, (count, n).
+        alone cannot be inverted. The regularisation allows for redundant constraints.
         """
         size, count = len(mass), len(directions)
         matrix = np.zeros((size + count, size + count))

@@ -9,10 +9,9 @@ rate j_n = (a_n - a_(n-1)) / h, the scale of speeds V, eccentricities e and the 
     penetrations                       the same across surfaces   over a part of it Eccentricity...
     forces of films that turn          |F| (turned angle)^2 / 8   over tol |F|      FilmForceError
 
-Generalized-alpha is of second order: its local error goes with h^3, and a run needs about
-tolerance^(-1/2) steps. So that the error of the whole run follows the tolerance, the share of one
-step is tolerance^(3/2). With clearance joints it is a hundredth of the tolerance at least, as below
-1e-4 impacts become no more.
+The local error of this second-order method goes with h^3, and a run needs about tolerance^(-1/2)
+steps. So that the error of the whole run follows the tolerance, the share of one step is
+tolerance^(3/2), with clearance joints a hundredth of the tolerance at least.
 """
 
 import math
@@ -28,9 +27,6 @@ from exu_press.integrate.task import Task
 from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["Criteria", "Criterion", "StepError", "default_criteria"]
-
-LEAST_SHARE = 1e-2
-"""Error of a step with clearance joints, at least, over the tolerance."""
 
 
 class Criterion(Protocol):
@@ -62,7 +58,7 @@ def default_criteria(task: Task) -> list[Criterion]:
     newton_filter, share = NewtonFilter(task), math.pow(tolerance, 1.5)
     if system.joints is None:
         return [VelocityError(task, newton_filter, share), PrescribedVelocityError(task)]
-    share = max(share, LEAST_SHARE * tolerance)
+    share = max(share, tuning.least_share * tolerance)
     of_bodies, penetration = tuning.beside_joints * share, tuning.penetration
     if system.modes and tuning.modal_mass > 0.0:
         of_bodies, penetration = tuning.vibrating * tolerance, tuning.vibrating_penetration

@@ -14,8 +14,8 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.integrate.outcome import Outcome, RunError
-from exu_press.integrate.scales import RunningScales
 from exu_press.integrate.system import System
+from exu_press.integrate.task import Task
 from exu_press.numerics.arrays import Array
 from exu_press.terminal.progress import Progress
 from fe_models.processes import Child, ChildError
@@ -24,10 +24,6 @@ __all__ = ["Run", "Watch", "with_error"]
 
 FINER = 0.25
 """Tolerance of the finer run over the run's; errors of velocities go with it."""
-
-COVERAGE = 10.0 / 3.0
-"""Error over the difference. Where errors go with the tolerance, they are 4/3 of it; with this the
-stated ones cover the true ones in 60 of 63 of Exudyn's scripts."""
 
 AMPLIFIED = 10.0
 """Tolerances above which an error is more than that of steps alone."""
@@ -38,11 +34,10 @@ INSTANTS = 100
 Watch = Callable[[float], str]
 """Time, s -> why the motion has come to its end there, or nothing."""
 
-Run = Callable[[float, Watch, int, bool], tuple[Outcome, RunningScales]]
-"""Solves a system from its start: tolerance, watch, budget, quiet, as in `solve_dynamic` -> how it
-ended, and the scales of its errors."""
+Run = Callable[[float, Watch, int, bool], tuple[Outcome, Task]]
+"""Solves a system from its start: tolerance, watch, budget, quiet, as in `solve_dynamic`."""
 
-Answer = tuple[str, Array, list[Array]]
+Answer = tuple[str, list[Array], list[Array]]
 """Of a finer run: why it stopped early, or nothing, its velocities and the rows of its sensors."""
 
 
@@ -98,11 +93,6 @@ def with_error(
 ) -> Outcome:
     """Return how a run ended, with its error where it got to its end.
 
-    Args:
-        run: solves the system.
-        system: to be solved.
-        settings: Exudyn's, of the run; the others as in `solve_dynamic`.
-
     Raises:
         InputError: no finer run in a copy of this process would tell.
     """
@@ -115,30 +105,28 @@ def with_error(
     motion, finer = SampledVelocities(system, settings), SampledVelocities(system, settings)
 
     def run_finer() -> Answer:
-        integration = settings.timeIntegration
-        shorter = math.sqrt(FINER)
+        integration, shorter = settings.timeIntegration, math.sqrt(FINER)
         integration.numberOfSteps = math.ceil(integration.numberOfSteps / shorter)
         integration.initialStepSize *= shorter
         integration.minimumStepSize *= shorter
         _write_nothing(system.mbs, settings)
         most = math.ceil(max_steps / FINER)
         try:
-            outcome = run(FINER * tolerance, finer.beside(watch), most, True)[0]
+            outcome, _ = run(FINER * tolerance, finer.beside(watch), most, True)
             why = "" if outcome.status.ended else f"{outcome.status.value}: {outcome.reason}"
         except Exception as error:  # of the user's functions; the run itself tells its own
             why = " ".join(str(error).partition("\n\nAt:")[0].split())  # without the calls
-        return why, np.array(finer.rows), _rows(system.mbs)
+        return why, finer.rows, _rows(system.mbs)
 
     with Child(run_finer) as copy:
         copy.request()
-        outcome, scales = run(tolerance, motion.beside(watch), max_steps, quiet)
+        outcome, task = run(tolerance, motion.beside(watch), max_steps, quiet)
         if not outcome.status.ended:
             return outcome
         with Progress("finer run", 1.0, "run", quiet=quiet) as progress:
             answer = _answer(copy)
             progress.update(1.0)
-    error = _error(system.mbs, scales, motion, answer, AMPLIFIED * tolerance)
-    return dataclasses.replace(outcome, error=error)
+    return dataclasses.replace(outcome, error=_error(task, motion, answer))
 
 
 def _refuse_uncopied(mbs: exu.MainSystem) -> None:
@@ -165,7 +153,7 @@ def _answer(copy: Child) -> Answer:
         why = "interrupted"
     except ChildError as error:
         why = f"its process ended: {error}"
-    return why, np.zeros((0, 0)), []
+    return why, [], []
 
 
 def _write_nothing(mbs: exu.MainSystem, settings: exu.SimulationSettings) -> None:
@@ -174,71 +162,55 @@ def _write_nothing(mbs: exu.MainSystem, settings: exu.SimulationSettings) -> Non
     output.file.write = output.restart.write = False
     output.recordImagesInterval = -1.0
     settings.timeIntegration.verboseModeFile = 0
-    for number in range(_count(mbs)):
-        mbs.SetSensorParameter(number, "writeToFile", False)
-
-
-def _count(mbs: exu.MainSystem) -> int:
-    """Return the number of a system's sensors."""
     data: Any = mbs.systemData
-    return int(data.NumberOfSensors())
+    for number in range(data.NumberOfSensors()):
+        mbs.SetSensorParameter(number, "writeToFile", False)
 
 
 def _rows(mbs: exu.MainSystem) -> list[Array]:
     """Return the rows that each sensor has kept, time first; none where it keeps none."""
+    data: Any = mbs.systemData
     return [
         np.array(mbs.GetSensorStoredData(number))
         if mbs.GetSensor(number)["storeInternal"]
         else np.zeros((0, 1))
-        for number in range(_count(mbs))
+        for number in range(data.NumberOfSensors())
     ]
 
 
-def _error(
-    mbs: exu.MainSystem,
-    scales: RunningScales,
-    motion: SampledVelocities,
-    answer: Answer,
-    amplified: float,
-) -> RunError:
-    """Return the error of a run by its differences from a finer one.
-
-    Args:
-        mbs: the system.
-        scales: of errors, at the run's end.
-        motion: of the run.
-        answer: of the finer run.
-        amplified: error from which on it is above that of steps alone.
-    """
+def _error(task: Task, motion: SampledVelocities, answer: Answer) -> RunError:
+    """Return the error of a run by its motion's differences from that of a finer one."""
     reason, finer, sensors = answer
-    missed = [COVERAGE * (ours - theirs) for ours, theirs in zip(motion.rows, finer, strict=False)]
-    errors = np.array([scales.norm(row.tolist()) for row in missed]) / (scales.speed or 1.0)
-    above = [*motion.times[: len(errors)][~(errors <= amplified)]]
+    coverage, scales = task.tuning.coverage, task.scales
+    errors = coverage * np.array(
+        [
+            scales.norm((ours - theirs).tolist())
+            for ours, theirs in zip(motion.rows, finer, strict=False)
+        ]
+    )
+    errors /= scales.speed or 1.0
+    above = [*motion.times[: len(errors)][~(errors <= AMPLIFIED * task.tolerance)]]
     if reason:
         above.append(motion.times[min(len(errors), len(motion.times) - 1)])
-    pairs = [] if reason else zip(_rows(mbs), sensors, strict=True)
-    of_sensors = [_of_sensor(*pair) for pair in pairs]
+    pairs = [] if reason else zip(_rows(task.system.mbs), sensors, strict=True)
+    differences = [_differences(*pair) for pair in pairs]
     return RunError(
         motion=math.inf if reason else float(errors.max(initial=0.0)),
         since=float(above[0]) if above else math.inf,
-        sensors=[worst for worst, _ in of_sensors],
-        peaks=[peak for _, peak in of_sensors],
+        sensors=[coverage * largest for largest, _ in differences],
+        peaks=[coverage * of_peak for _, of_peak in differences],
         reason=reason,
     )
 
 
-def _of_sensor(rows: Array, finer: Array) -> tuple[Array, Array]:
-    """Return the errors of a sensor's values, up to the last row of both runs, and of its peaks.
+def _differences(rows: Array, finer: Array) -> tuple[Array, Array]:
+    """Return the largest differences of a sensor's values from a finer run's, and of its peaks.
 
-    Args:
-        rows: time, s, and values, (rows, 1 + values); none where they were not kept.
-        finer: likewise, of the finer run.
+    Rows are (rows, 1 + values), time first; they count up to the last one of both runs.
     """
     if not (len(rows) and len(finer)):
         return np.zeros(0), np.zeros(0)
     times = rows[rows[:, 0] <= finer[-1, 0], 0]
-    ours, read = rows[: len(times), 1:], np.zeros((len(times), rows.shape[1] - 1))
-    for k in range(read.shape[1]):
-        read[:, k] = np.interp(times, finer[:, 0], finer[:, k + 1])
-    peaks = np.abs(rows[:, 1:]).max(axis=0) - np.abs(finer[:, 1:]).max(axis=0)
-    return COVERAGE * np.abs(ours - read).max(axis=0, initial=0.0), COVERAGE * np.abs(peaks)
+    theirs = np.array([np.interp(times, finer[:, 0], column) for column in finer[:, 1:].T]).T
+    largest = np.abs(rows[: len(times), 1:] - theirs).max(axis=0, initial=0.0)
+    return largest, np.abs(np.abs(rows[:, 1:]).max(axis=0) - np.abs(finer[:, 1:]).max(axis=0))

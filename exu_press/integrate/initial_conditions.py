@@ -124,10 +124,8 @@ class ConsistentInitialization:
         A relative change by FITS is rounding, and one that rounded differences make; so is one that
         does not shrink.
 
-        Args:
-            vector: velocities or accelerations; itself where it fits.
-            missing: of them: what the constraints' rates are off by.
-            order: of the rates.
+        Of velocities or accelerations, with a function for what the constraints' rates of an order
+        are off by; itself where it fits.
         """
         last = before = math.inf
         fits, least = FITS[order], self._roundoff(order)
@@ -147,11 +145,8 @@ class ConsistentInitialization:
     def _fit_rates(self, *, moved: bool) -> Array:
         """Let velocities and accelerations fit; return what of their rate constraints prescribe.
 
-        Accelerations that fit are left alone: differences tell them to fewer digits. A rate that
-        rounding may have made is none.
-
-        Args:
-            moved: whether forces are others than the accelerations of the start belong to.
+        Accelerations that fit are left alone, unless positions were moved: differences tell them to
+        fewer digits. A rate that rounding may have made is none.
         """
         held, velocities, accelerations = self._held, self._v, self._a
         self._a = np.zeros_like(accelerations)

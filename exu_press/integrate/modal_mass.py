@@ -18,9 +18,6 @@ def follow_modes(mbs: exu.MainSystem) -> None:
     To be called before `mbs.Assemble()`, when all ObjectFFRFreducedOrder are there. It adds one
     item without mass over their modes, which `solve_dynamic` gives the mass that belongs to the
     step, with clearance joints and with fixed steps. Other solvers are not concerned.
-
-    Args:
-        mbs: the system.
     """
     nodes = [item["nodeNumbers"][1] for item in _bodies(mbs)]
     if nodes:
@@ -31,13 +28,11 @@ def follow_modes(mbs: exu.MainSystem) -> None:
 class ModalMass:
     """Return the change of the modes' mass in steps of a size.
 
-    So flexible bodies vibrate at their own frequencies, in ten steps a period as in a hundred.
-
     Generalized-alpha slows vibrations down: what has the frequency omega takes omega (1 - kappa (h
     omega)^2 / 2) in steps of h, with kappa = 1/6 + 3/4 (alpha_f - alpha_m)^2. What an impact leaves
-    vibrating is soon out of phase by that, and decides on how the next impact comes. But a mode's
-    stiffness K is known beforehand. If it acts on q - kappa h^2 q_tt instead of on q, errors of
-    phase go with h^4. That is the same as another mass of the modes,
+    vibrating is soon out of phase by that, and decides on how the next impact comes. If a mode's
+    stiffness K acts on q - kappa h^2 q_tt instead of on q, errors of phase go with h^4. That is the
+    same as another mass of the modes,
 
         M - kappa h^2 K,
 
@@ -52,13 +47,7 @@ class ModalMass:
     """
 
     def __init__(self, mbs: exu.MainSystem, solver: Any, part: float) -> None:
-        """Take a system.
-
-        Args:
-            mbs: the system.
-            solver: that advances it.
-            part: of what keeps the frequencies; 0.0 leaves the modes their own mass.
-        """
+        """Change a part of the mass that keeps the frequencies; 0.0 leaves modes their own."""
         self._mbs, self._solver, self._part = mbs, solver, part
         self._item = modal_item(mbs) if part > 0.0 else None
         self._step = 0.0

@@ -71,21 +71,7 @@ class Monitor:
         why_long: Callable[[float, ClearanceJoint | None], str],
         controller: Controller | None = None,
     ) -> None:
-        """Watch a run.
-
-        Args:
-            task: to be solved.
-            functions: of the user's own.
-            next_corner: time -> the next instant on which a step is to end, s, or infinity.
-            watch: is asked after every step why the run is to end there, or nothing.
-            progress: is shown ten times a second.
-            max_steps: budget.
-            criteria: of the error of a step.
-            event: function of the system and the time, s; steps end where its sign changes.
-            why_long: says why a run is long, of its mean step, s, and the clearance joint that
-                limits most steps, if one does.
-            controller: of the steps by tolerance; `LimitedGrowth` unless given.
-        """
+        """Watch the run of a task; the arguments are those of `solve_dynamic`."""
         self.tries = self.steps = 0
         self.interrupted = self.over_budget = False
         self.go_on, self.refusal = True, ""
@@ -132,26 +118,23 @@ class Monitor:
                 self._modal_mass.fit(0.0)
 
     def _begin(self) -> bool:
-        """Look at the state from which the run starts, whose accelerations Exudyn has computed.
-
-        Returns:
-            Whether to go on.
-        """
-        task = self._task
+        """Look at the start, whose accelerations Exudyn has computed; return whether to go on."""
+        task, solver = self._task, self._task.solver
         if not np.isfinite(self._accelerations).all():
             return False
-        if not task.fixed:
+        if not task.fixed:  # within a fixed step, motions may change by less than rounding
             self.refusal = self.constraints.refusal()
             if self.refusal:
                 return False
-        task.solver.ComputeMassMatrix(task.system.mbs)
-        start = ConsistentInitialization(task, self.constraints)
-        if not task.fixed:  # within a fixed step, motions may change by less than rounding
+        solver.ComputeMassMatrix(task.system.mbs)
+        if task.fixed:
+            task.scales.begin(solver.GetSystemMassMatrix())
+        else:
+            start = ConsistentInitialization(task, self.constraints)
             consistent = start.fit()
+            task.scales.begin(solver.GetSystemMassMatrix())
             if consistent is not None:
                 self._step_change.start_from(*consistent)
-        task.scales.begin(task.solver.GetSystemMassMatrix())
-        if not task.fixed:
             self.start_changes = start.changes()
             self._estimate.begin()
         self._predictor.begin()
@@ -218,7 +201,7 @@ class Monitor:
             self._event.accept()
             self._predictor.accept(step)
             if self.resolution is not None:
-                self.resolution.stepped(end, step, self._accelerations.tolist())
+                self.resolution.accept(end, step, self._accelerations.tolist())
         self.stalled = self._watch(end)
         go_on, impact = self._functions.call_after_step(end)
         self.go_on = self.go_on and go_on

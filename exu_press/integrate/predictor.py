@@ -2,9 +2,8 @@
 
 import math
 
-from exu_press.integrate.jacobian import FlexibleJacobian, FrictionJacobian
+from exu_press.integrate.jacobian import FlexibleJacobian
 from exu_press.integrate.task import Task
-from exu_press.joints.guide_friction import guide_frictions
 from exu_press.numerics.floats import Floats
 
 __all__ = ["Predictor"]
@@ -19,11 +18,10 @@ class Predictor:
 
     A thin film answers the last digit of a speed with newtons: no iteration balances forces better.
 
-    Euler parameters must have unit length, and the constraints' directions that Exudyn gives
-    Newton's method are right on the unit sphere only: where the expected state leaves it, an
-    iteration that puts the length right moves the body by as much, and what that leaves in the
+    The constraints' directions that Exudyn gives Newton's method are right for Euler parameters of
+    unit length only: where the expected ones have another length, what an iteration leaves in the
     constraints alternates from step to step, 1/(1 - spectral radius)^2 times as large in the
-    accelerations. So the expected accelerations are those that end on the sphere.
+    accelerations. So the expected accelerations are those that lead to unit length.
     """
 
     def __init__(self, task: Task) -> None:
@@ -33,8 +31,6 @@ class Predictor:
         self._rounding = tuning.rounding
         self._patience, self._reach = tuning.roundoff_after_iterations, tuning.max_extrapolation
         self._jacobian = FlexibleJacobian(task) if system.modal_stiffness else None
-        if guide_frictions(system.mbs) and not system.modal_stiffness:
-            FrictionJacobian(task)
         self._relative = tuning.newton_tolerance * task.tolerance
         current = system.current
         self._multipliers = current.multipliers
@@ -73,15 +69,14 @@ class Predictor:
         """Set the start of the iteration of a step (s), and its limits."""
         if not iteration:
             self._predict(step)
-            self._set_tolerance(self._tolerance())
+            self._balance_to(0.0)
             if self._jacobian is not None:
                 self._jacobian.begin(step)
             return
         if self._jacobian is not None:
             self._jacobian.request_if_stale(iteration)
         if iteration == self._patience and self._joints is not None:
-            roundoff = self._rounding * self._joints.damping * self._scales.speed
-            self._set_tolerance(max(self._tolerance(), roundoff))
+            self._balance_to(self._rounding * self._joints.damping * self._scales.speed)
 
     def _predict(self, step: float) -> None:
         """Add the expected accelerations to a state that was advanced without any.
@@ -110,10 +105,7 @@ class Predictor:
     ) -> None:
         """Change expected accelerations to those with which Euler parameters have unit length.
 
-        Args:
-            expected: accelerations, in SI.
-            positions: before they are added.
-            by_q: times accelerations, what is added to positions, s^2.
+        `by_q` (s^2) times accelerations is added to positions.
         """
         for first, reference in self._quaternions:
             parameters: list[float] = []
@@ -126,11 +118,8 @@ class Predictor:
             for k in range(4):
                 expected[first + k] += longer * parameters[k]
 
-    def _tolerance(self) -> float:
-        """Return the limit of the residual in Newton's method, N."""
-        return self._relative * self._scales.force or self._absolute
-
-    def _set_tolerance(self, residual: float) -> None:
-        """Let Newton's method end at a residual, N."""
+    def _balance_to(self, roundoff: float) -> None:
+        """Let Newton's method end at its tolerance of the residual, or at a roundoff, N."""
+        residual = max(self._relative * self._scales.force or self._absolute, roundoff)
         if residual != self._accepted:
             self._accepted = self._solver.newton.absoluteTolerance = residual

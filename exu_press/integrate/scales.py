@@ -44,6 +44,7 @@ class RunningScales:
         force: N.
         inertias: of the coordinates, kg where they are displacements.
         masses: of the nodes, kg, infinite where excluded from the norm.
+        ends: of the nodes' coordinates.
         length: of the coordinates whose last digits are rounded, m.
         gravity: m/s^2, as in `ErrorScales`.
         roundoff: error of positions that rounded positions of the step before make, m.
@@ -60,16 +61,10 @@ class RunningScales:
         rounding: float = 0.0,
         least_speed: float = 0.0,
     ) -> None:
-        """Take the scales that are given; the others follow from `begin` on.
+        """Take the given scales, the longest and the first step, s, and the least speed, m/s.
 
-        Args:
-            scales: of errors.
-            system: to be solved.
-            longest: step, s.
-            first: step, s.
-            rounding: accelerations due to rounded positions, times the step's square, over the
-                length.
-            least_speed: scale of speeds at least, m/s.
+        Rounding is that of accelerations due to positions, times the step's square, over the
+        length.
         """
         self._given, self._system, self._longest = scales, system, longest
         self._first, self._rounding, self._least_speed = first, rounding, least_speed
@@ -77,7 +72,7 @@ class RunningScales:
         self.roundoff = self.roundoff_speed = 0.0
         self.masses: list[float] = []
         self.inertias: list[float] = []
-        self._ends = [node.start + node.size for node in system.nodes]
+        self.ends = [node.start + node.size for node in system.nodes]
         self.speed = max(scales.speed or 0.0, least_speed)
         self.force = scales.force or 0.0
         self.updates = scales.speed is None or scales.force is None
@@ -111,10 +106,10 @@ class RunningScales:
 
     def norm(self, vector: list[float]) -> float:
         """Return the largest kinetic norm of a body; what is excluded from it may be no number."""
-        inertias, masses, ends = self.inertias, self.masses, self._ends
+        inertias, masses, ends = self.inertias, self.masses, self.ends
         largest = 0.0
         i = 0
-        for k in range(len(ends)):  # each step asks for several: `squares` takes twice as long
+        for k in range(len(ends)):
             total = 0.0
             while i < ends[k]:
                 total += inertias[i] * vector[i] * vector[i]
@@ -123,20 +118,6 @@ class RunningScales:
             if mass > 0.0 and total > largest * mass:
                 largest = total / mass
         return math.sqrt(largest)
-
-    def squares(self, vector: list[float]) -> list[float]:
-        """Return the squares of each body's kinetic norm of a vector over all coordinates."""
-        inertias, masses, ends = self.inertias, self.masses, self._ends
-        squares: list[float] = []
-        i = 0
-        for k in range(len(ends)):
-            total = 0.0
-            while i < ends[k]:
-                total += inertias[i] * vector[i] * vector[i]
-                i += 1
-            mass = masses[k]
-            squares.append(total / mass if mass > 0.0 else 0.0)
-        return squares
 
 
 def kinetic_weights(
@@ -147,11 +128,6 @@ def kinetic_weights(
     Euler parameters count with the mean of their four inertias, which no rotation changes; three
     angles likewise. Coordinates without displacements count as displacements at a radius of the
     system's length; those without inertia are excluded.
-
-    Args:
-        nodes: of the system, in the order of their coordinates.
-        mass_matrix: (n, n).
-        length: of the system, m.
     """
     inertias = np.array(np.diag(mass_matrix), dtype=float) if nodes else np.zeros(0)
     masses: dict[int, float] = {}

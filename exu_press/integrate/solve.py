@@ -14,7 +14,7 @@ from exu_press.integrate.controller import Controller
 from exu_press.integrate.error import Criteria, default_criteria
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.outcome import Outcome
-from exu_press.integrate.scales import ErrorScales, RunningScales
+from exu_press.integrate.scales import ErrorScales
 from exu_press.integrate.system import System
 from exu_press.integrate.task import SolverTuning, Task, prepared_settings, refuse_unusable
 from exu_press.integrate.termination import Advice, termination
@@ -31,16 +31,6 @@ FEW = 80
 """Equations up to which NumPy solves them in one thread by itself."""
 
 
-def _never_ends(time: float) -> str:
-    """Return why a run is to end at a time, s."""
-    return ""
-
-
-def _no_corner(time: float) -> float:
-    """Return when a load without corners has its next one, s."""
-    return math.inf
-
-
 def solve_dynamic(
     mbs: exu.MainSystem,
     settings: exu.SimulationSettings,
@@ -52,7 +42,7 @@ def solve_dynamic(
     criteria: Criteria = default_criteria,
     controller: Controller | None = None,
     next_corner: Callable[[float], float] | None = None,
-    watch: Callable[[float], str] = _never_ends,
+    watch: Callable[[float], str] = lambda time: "",
     sample: float | None = None,
     hold: bool = False,
     event: Callable[[exu.MainSystem, float], float] | None = None,
@@ -137,14 +127,14 @@ def solve_dynamic(
         watch: Callable[[float], str],
         max_steps: int,
         quiet: bool,
-    ) -> tuple[Outcome, RunningScales]:
+    ) -> tuple[Outcome, Task]:
         task = Task(system, settings, tolerance, scales, tuning, absolute)
         functions = UserFunctions(system, task.start, (sample or 0.0) * (not task.fixed))
         with Progress("run", task.end - task.start, quiet=quiet) as progress:
             monitor = Monitor(
                 task,
                 functions,
-                functions.with_samples(next_corner or _no_corner),
+                functions.with_samples(next_corner or (lambda time: math.inf)),
                 watch,
                 progress,
                 max_steps,
@@ -155,7 +145,7 @@ def solve_dynamic(
             )
             outcome = _run(task, settings, monitor, words, progress)
         messages.extend(words.about_start(task, monitor.start_changes))
-        return outcome, task.scales
+        return outcome, task
 
     if errors:
         from exu_press.integrate.finer_run import with_error  # a run without them loads less

@@ -10,6 +10,9 @@ from exu_press.integrate.task import SAME, Task
 
 __all__ = ["Event", "FixedSteps", "StepControl"]
 
+EVENT_WIDTH = 1e-6
+"""Over the largest step: within which an event is located."""
+
 
 class StepControl:
     """Sets the step so that its error stays below 1.
@@ -25,14 +28,7 @@ class StepControl:
         next_corner: Callable[[float], float],
         controller: Controller | None = None,
     ) -> None:
-        """Control the steps of a task.
-
-        Args:
-            task: to be solved.
-            estimate: of the error of a step.
-            next_corner: time -> the next instant on which a step is to end, s, or infinity.
-            controller: changes steps for their errors; `LimitedGrowth` unless given.
-        """
+        """Control the steps of a task, which end on corners, by a controller or `LimitedGrowth`."""
         self.error = 0.0
         self._controller = controller or LimitedGrowth(task.tuning)
         self._estimate, self._next_corner = estimate, next_corner
@@ -58,12 +54,7 @@ class StepControl:
         return self._step
 
     def accept(self, step: float, *, at_event: bool = False) -> None:
-        """Take the step last tried as done; choose the size of those to come.
-
-        Args:
-            step: s.
-            at_event: whether it was shortened to end on an event.
-        """
+        """Take the step last tried as done, shortened by an event or not; choose the next ones."""
         self._estimate.accept()
         if not at_event and 0.5 * self._step <= step < (1.0 - SAME) * self._asked:
             self._step = step  # shortened by Exudyn
@@ -137,7 +128,7 @@ class Event:
     def __init__(self, task: Task, function: Callable[[Any, float], float] | None) -> None:
         """Look for the zeros of a function of the system and the time, s."""
         self._mbs, self._function = task.system.mbs, function
-        self._narrow = max(task.tuning.event_width * task.largest, 2.0 * task.smallest)
+        self._narrow = max(EVENT_WIDTH * task.largest, 2.0 * task.smallest)
         self._before = self._now = 0.0  # at the beginning and at the end of the step last tried
         self.passed = False
 

@@ -28,21 +28,6 @@ FLEXIBLE = "FFRFreducedOrder"
 MODES = "exu_press_modes"
 """Variable of a system that has the number of the item over their modes."""
 
-MATERIAL_POINTS = {
-    "Point": 3,
-    "Point2D": 2,
-    "PointSlope1": 3,
-    "PointSlope2": 3,
-    "PointSlope12": 3,
-    "PointSlope23": 3,
-    "Point2DSlope1": 2,
-    "Point2DSlope12": 2,
-    "RigidBody2D": 2,
-    "RigidBodyEP": 3,
-    "RigidBodyRxyz": 3,
-}
-"""Node types -> how many of their first coordinates are displacements, m."""
-
 SPATIAL_BODIES = "RigidBodyEP", "RigidBodyRxyz"
 """Node types whose other coordinates turn a body in space."""
 
@@ -163,12 +148,7 @@ class System:
     def of(
         cls, mbs: exu.MainSystem, bodies: Mapping[int, tuple[str, float]] | None = None
     ) -> "System":
-        """Look at an assembled system.
-
-        Args:
-            mbs: the system.
-            bodies: node number -> name and mass (kg) of the body that it belongs to; nodes that are
-                not named are excluded from errors. None: none is.
+        """Look at an assembled system; bodies are those of `solve_dynamic`.
 
         Raises:
             InputError: the system is not assembled, or has nodes whose coordinates do not add up.
@@ -268,9 +248,9 @@ def _nodes(
                 "whose coordinates add up, as NodeRigidBodyEP or NodeRigidBodyRxyz"
             )
         name, mass = item["name"] or f"node {number}", None
-        displacements = MATERIAL_POINTS.get(kind, 0)
-        if kind == "1D" and number in translating:
-            displacements = 1
+        displacements = int(kind == "1D" and number in translating)
+        if kind.startswith(("Point", "RigidBody")):
+            displacements = 2 if "2D" in kind else 3
         if bodies is not None:
             frame = carriers.get(number, number)
             name, mass = bodies.get(frame, (name, math.inf))

@@ -61,12 +61,7 @@ class Advice:
         return f"an earlier end time, a larger {self.setting} or max_steps"
 
     def long(self, step: float, joint: ClearanceJoint | None) -> str:
-        """Return why a run of such a mean step, s, is long, and what makes it shorter.
-
-        Args:
-            step: s.
-            joint: that limits most steps, if one does.
-        """
+        """Return why a run is long, of its mean step, s, and the joint that limits most steps."""
         words = f"steps of {step:.2g} s"
         if joint is not None:
             words += f", as {self.joint(joint)} needs them{self.stiff(joint)}"
@@ -77,13 +72,9 @@ class Advice:
         return ""
 
     def convergence(self) -> str:
-        """Return what helps where Newton's method did not converge.
-
-        A larger tolerance asks it for less, and its longer steps leap over stiff transients; a
-        smaller one has stopped runs that a larger one completes.
-        """
+        """Return what helps where Newton's method did not converge."""
         if self.by_tolerance:
-            return f"a larger {self.setting}"
+            return f"a smaller {self.setting}"
         return f"another {self.setting}, or a tolerance instead"
 
     def redundancy(self, redundant: int) -> str:
@@ -119,14 +110,9 @@ class Advice:
             )
 
     def about_start(self, task: Task, changes: tuple[float, float]) -> Iterator[str]:
-        """Say by how much a start was moved onto its constraints, if by more than errors may be.
-
-        Args:
-            task: that was solved.
-            changes: of positions, m, and of speeds, m/s.
-        """
-        (moved, changed), scales, tolerance = changes, task.scales, task.tolerance
-        if moved > tolerance * scales.length or changed > tolerance * scales.speed:
+        """Say how far a start was moved, m and m/s, if by more than errors may be."""
+        (moved, changed), scales = changes, task.scales
+        if max(moved / scales.length, changed / (scales.speed or 1.0)) > task.tolerance:
             yield (
                 "the start did not fit joints and prescribed motions: positions were changed by "
                 f"up to {moved:.2g} m, velocities by up to {changed:.2g} m/s, by as little as can "
@@ -134,11 +120,7 @@ class Advice:
             )
 
     def about_system(self, *, held: bool) -> Iterator[str]:
-        """Say what of a system errors are not estimated of.
-
-        Args:
-            held: whether the pre-step function is meant to jump from period to period.
-        """
+        """Say what no error is estimated for; a pre-step function's output may be meant to jump."""
         system = self.system
         unfollowed = [*system.contacts]
         if len(system.current.first_order):
@@ -161,15 +143,7 @@ def _has_pre_step_function(system: System) -> bool:
 def termination(
     task: Task, monitor: Monitor, advice: Advice, *, time: float, failure: str
 ) -> tuple[SolverStatus, str]:
-    """Return status and reason of a run.
-
-    Args:
-        task: that was solved.
-        monitor: of the run.
-        advice: words for what to try.
-        time: reached, s.
-        failure: message of Exudyn, if it failed.
-    """
+    """Return status and reason of a run that reached a time, s, or failed with a message."""
     system, smallest = task.system, task.smallest
     gone = (time - task.start) / (task.end - task.start)
     exudyn_ended = not failure and 0.0 < task.end - time <= EXUDYN_ENDS and monitor.go_on

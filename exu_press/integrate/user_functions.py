@@ -9,6 +9,9 @@ from exu_press.integrate.system import System
 
 __all__ = ["UserFunctions"]
 
+NAMES = "PreStep", "PreNewtonResidual", "PostNewton", "PostStep"
+"""Functions that Exudyn calls before a step, before and after Newton's method, after a step."""
+
 
 class UserFunctions:
     """Functions of the user's own that Exudyn calls before, in and after every step.
@@ -22,19 +25,12 @@ class UserFunctions:
     """
 
     def __init__(self, system: System, start: float, period: float) -> None:
-        """Look for the functions of a system.
-
-        Args:
-            system: to be solved.
-            start: of the run, s.
-            period: of the pre-step function, s; 0.0 calls it before every try of a step.
-        """
-        mbs = system.mbs
-        self._mbs, self._start, self._period, self._interval = mbs, start, period, -1
-        self.before_step = _function(mbs.GetPreStepUserFunction())
-        self._before_residual = _function(mbs.GetPreNewtonResidualUserFunction())
-        self._after_newton = _function(mbs.GetPostNewtonUserFunction())
-        self._after_step = _function(mbs.GetPostStepUserFunction())
+        """Look for the functions of a system; with a period of 0.0 every try of a step is one."""
+        self._mbs, self._start, self._period, self._interval = system.mbs, start, period, -1
+        self._functions = [_function(self._mbs, name) for name in NAMES]
+        self.before_step, self._before_residual, self._after_newton, self._after_step = (
+            self._functions
+        )
         now, before = system.current, system.start
         # what the pre-step function may set, where a step starts from and from where it is repeated
         self._states = [
@@ -46,30 +42,15 @@ class UserFunctions:
         self._velocities = now.velocities
 
     @contextmanager
-    def replaced_by(
-        self,
-        before_step: Callable[..., bool],
-        before_residual: Callable[..., None],
-        after_newton: Callable[..., list[float]],
-        after_step: Callable[..., bool],
-    ) -> Iterator[None]:
-        """Let Exudyn call other functions meanwhile."""
-        mbs: Any = self._mbs
-        setters = (
-            mbs.SetPreStepUserFunction,
-            mbs.SetPreNewtonResidualUserFunction,
-            mbs.SetPostNewtonUserFunction,
-            mbs.SetPostStepUserFunction,
-        )
-        theirs = self.before_step, self._before_residual, self._after_newton, self._after_step
-        for setter, function in zip(
-            setters, (before_step, before_residual, after_newton, after_step), strict=True
-        ):
+    def replaced_by(self, *functions: Callable[..., Any]) -> Iterator[None]:
+        """Let Exudyn call other functions meanwhile, in the order of `NAMES`."""
+        setters = [getattr(self._mbs, f"Set{name}UserFunction") for name in NAMES]
+        for setter, function in zip(setters, functions, strict=True):
             setter(function)
         try:
             yield
         finally:
-            for setter, function in zip(setters, theirs, strict=True):
+            for setter, function in zip(setters, self._functions, strict=True):
                 setter(function)
 
     def with_samples(self, next_corner: Callable[[float], float]) -> Callable[[float], float]:
@@ -124,6 +105,7 @@ class UserFunctions:
         return go_on, self._velocities.tobytes() != before
 
 
-def _function(item: Any) -> Any:
-    """Return the contents of Exudyn's getters of user functions, or 0 where nothing is set."""
+def _function(mbs: Any, name: str) -> Any:
+    """Return a function of the user's own, or 0 where none is set."""
+    item = getattr(mbs, f"Get{name}UserFunction")()
     return item["function"] if isinstance(item, dict) else 0

@@ -25,29 +25,23 @@ class VariableStepCorrection:
     """Carries generalized-alpha over a change of step without ringing.
 
     With steps of one size h generalized-alpha settles on offsets that belong to h: its algorithmic
-    acceleration a is the true one at another instant, a - a_true = h (alpha_m - alpha_f)
-    da_true/dt, and where positions are constrained the velocities miss the constraints by an amount
-    of order h^2. A much shorter step takes both for errors and answers with accelerations that
-    alternate for a dozen steps, larger than the motion's own changes. Scaled to the new step, by
-    its ratio to the old one and by that ratio's square, both fit at once; the latter costs as much
-    as a step. Likewise what Newton's method left of the positions' constraints, 1e-10 m, is nothing
-    beside a long step but a jolt beside a short one: it is taken away. What is left by a step so
-    short that it is rounding, as one that ends on an event, is not scaled up to one a thousand
-    times as long.
+    acceleration is the true one at another instant, a_alg - a = h (alpha_m - alpha_f) da/dt, and
+    constrained velocities miss the constraints by an amount of order h^2. A much shorter step
+    answers both, and what Newton's method left of the positions' constraints, with accelerations
+    that alternate for a dozen steps. So the first is scaled by the ratio of the steps, the second
+    by its square, unless that would be rounding, and the third is taken away.
 
-    Without films and contacts motion is smooth, steps change seldom, and each change is worth this.
-    With clearance joints steps change all the time: velocities are fitted once steps have shrunk to
-    a third. A longer step, which has little to make of either, is left alone there: scaling up
-    would blow up whatever an impact or a film's start left ringing.
+    Without clearance joints motion is smooth, and steps change seldom. With them steps change all
+    the time, and to fit velocities costs as much as a step: it is done once steps have shrunk to a
+    third. A longer step is left alone there: scaling up would blow up what an impact left ringing.
 
     Exudyn's algorithmic acceleration can be read but not written, and when a step is repeated it
     keeps the value of the failed try. But positions, velocities and accelerations at the step's
     beginning can be shifted so that the step comes out as if it had been changed.
 
-    At rest a film carries nothing, and within a microsecond or less it takes up its load: the
-    accelerations with which Exudyn starts are then wrong at once, and ring. What the first step
-    changes the velocities by is right, as a film answers to velocities; so the step is repeated
-    from that.
+    At rest a film carries nothing, and within a microsecond it takes up its load: the accelerations
+    with which Exudyn starts are wrong then, and ring. What the first step changes the velocities by
+    is right; so the step is repeated from that.
 
     Source: M. Arnold and O. Bruels, Convergence of the generalized-alpha scheme for constrained
     mechanical systems, Multibody System Dynamics 18 (2007), Eqs. 2 and 3, and its remarks on the
@@ -91,12 +85,7 @@ class VariableStepCorrection:
         return True
 
     def start_from(self, accelerations: Array, rate: Array) -> None:
-        """Let the first step start with the offsets on which further ones settle.
-
-        Args:
-            accelerations: at the start.
-            rate: prescribed rate of change of constraints.
-        """
+        """Let the first step have the offsets on which further ones settle, by a start's rates."""
         self._initial = accelerations.tolist(), rate.tolist()
 
     def before_try(self, start: float, step: float) -> None:
@@ -175,26 +164,19 @@ class VariableStepCorrection:
                     ]
                 )
 
-    def _matrices(self) -> tuple[Array, Array, Array]:
-        """Return the last Jacobian, the inertia in it, and the constraints' directions."""
-        solver, size = self._solver, len(self._current.positions)
-        jacobian = np.asarray(solver.GetSystemJacobian())
-        directions = jacobian[-self._constraints.count :, :size]
-        inertia = inertia_factor(solver) * solver.GetSystemMassMatrix()
-        return jacobian[:size, :size], inertia, directions
-
     def _violations(self) -> Array:
         """Return what of positions and velocities constraints forbid, (2, n), in Newton's norm.
 
-        Of all changes that mend it the one that the last Jacobian resists least, as in an iteration
-        of Newton's method: that counts what masses weigh, and what films and contacts would answer
-        with. In the norm of masses alone a journal was moved in its film by 1e-5 m/s, which it
-        answered with 2.4 kN. But a contact that lets go may give way to a change instead, so that
-        a large one costs nothing: where masses alone resist more, they count.
+        The least change in the norm of the last Jacobian, as in an iteration of Newton's method: in
+        that of masses alone a journal was moved in its film by 1e-5 m/s, which it answered with
+        2.4 kN. But a contact that lets go may give way to a change, so that a large one costs
+        nothing: where masses alone resist more, they count.
         """
-        forces, inertia, directions = self._matrices()
-        directions, lengths = normalised(directions)
-        state = np.array(self._state)
+        solver, size = self._solver, len(self._current.positions)
+        jacobian, state = np.asarray(solver.GetSystemJacobian()), np.array(self._state)
+        directions, lengths = normalised(jacobian[-self._constraints.count :, :size])
+        forces = jacobian[:size, :size]
+        inertia = inertia_factor(solver) * solver.GetSystemMassMatrix()
         project = self._constraints.projection(0.5 * (forces + forces.T), directions)
         changes = self._least(project, lengths, state)
         for change in changes:
@@ -206,13 +188,11 @@ class VariableStepCorrection:
     def _least(self, project: Callable[[Array], Array], lengths: Array, state: Array) -> Array:
         """Return the least changes of positions and velocities that constraints ask for, (2, n).
 
-        The directions in which constraints act are those of the last Jacobian, perhaps a degree of
-        the crank away; how far they are violated is of this very state, so a few turns lead to it.
+        The directions are those of the last Jacobian, perhaps a degree of the crank away, and the
+        violations those of this very state, so that a few iterations lead to it.
 
-        Args:
-            project: changes that undo violations, of constraints with directions of length 1.
-            lengths: of the directions, (count,).
-            state: positions, velocities and accelerations at the step's beginning, (3, n).
+        Of the state at the step's beginning, (3, n), by a projection of violations of constraints
+        with directions of length 1, which had lengths (count,).
         """
         position, velocity = self._current.positions, self._current.velocities
         now = self._data.GetTime()

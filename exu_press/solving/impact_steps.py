@@ -43,9 +43,7 @@ def impact_steps(model: Assembled) -> Iterator[float]:
         touches = free[:-1] & ~free[1:]
         speed = float(closing[:-1][touches].max(initial=0.0))
         if speed > 0.0:
-            law = contact_law(
-                kind, revolute=not description.spherical, crank_speed=scene.angular_speed
-            )
+            law = contact_law(kind, revolute=not description.spherical)
             mass = min(masses[description.journal], masses[description.bearing])
             yield _rise_time(law, mass, speed) / STEPS_IN_A_RISE
 

@@ -28,7 +28,6 @@ def scales(nodes, inertias, velocities, given=None, **changes):
 
 def test_the_largest_body_counts_by_its_kinetic_energy():
     running = scales(bodies(2), [*PLANAR, 8.0, 8.0, 1.0], [0.0] * 6)
-    assert running.squares([3.0, 4.0, 0.0, 0.0, 0.0, 8.0]) == pytest.approx([25.0, 8.0])
     assert running.norm([3.0, 4.0, 0.0, 0.0, 0.0, 8.0]) == pytest.approx(5.0)
 
 

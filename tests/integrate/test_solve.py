@@ -140,39 +140,6 @@ def state_of(mbs):
 
 
 @pytest.mark.parametrize(
-    "keys",
-    [
-        {"solverType": exu.DynamicSolverType.TrapezoidalIndex2},
-        {"generalizedAlpha__useNewmark": True},
-    ],
-)
-def test_another_implicit_method_is_switched_to_generalized_alpha_with_a_warning(keys):
-    mbs, node = pendulum()
-    solve_dynamic(mbs, settings(0.2))
-    expected = mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates)
-    mbs, node = pendulum()
-    chosen = settings(**keys)
-    chosen.timeIntegration.endTime = 0.2
-    before = chosen.timeIntegration.generalizedAlpha.useNewmark
-    with pytest.warns(UserWarning, match="solved with GeneralizedAlpha"):
-        assert solve_dynamic(mbs, chosen).status is SolverStatus.COMPLETED
-    assert mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates).tolist() == expected.tolist()
-    assert chosen.timeIntegration.generalizedAlpha.useNewmark == before
-
-
-def test_a_spectral_radius_of_one_gives_way_to_one_that_damps():
-    mbs, node = pendulum()
-    solve_dynamic(mbs, settings(generalizedAlpha__spectralRadius=0.9, endTime=0.2))
-    expected = mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates)
-    mbs, node = pendulum()
-    chosen = settings(generalizedAlpha__spectralRadius=1.0, endTime=0.2)
-    with pytest.warns(UserWarning, match="spectralRadius = 1: solved with 0.9"):
-        solve_dynamic(mbs, chosen)
-    assert mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates).tolist() == expected.tolist()
-    assert chosen.timeIntegration.generalizedAlpha.spectralRadius == 1.0
-
-
-@pytest.mark.parametrize(
     ("system", "chosen", "tolerance", "message"),
     [
         (unassembled, settings(1.0), 1e-3, "not assembled"),
@@ -183,6 +150,18 @@ def test_a_spectral_radius_of_one_gives_way_to_one_that_damps():
             settings(solverType=exu.DynamicSolverType.RK44),
             1e-3,
             "solverType = RK44",
+        ),
+        (
+            mass_on_spring,
+            settings(generalizedAlpha__useNewmark=True),
+            1e-3,
+            "useNewmark = True",
+        ),
+        (
+            mass_on_spring,
+            settings(generalizedAlpha__spectralRadius=1.0),
+            1e-3,
+            r"spectralRadius = 1.0: allowed is a number above 0.0, up to 0.95",
         ),
         (
             mass_on_spring,

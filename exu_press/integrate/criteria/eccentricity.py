@@ -28,14 +28,9 @@ class EccentricityError:
         allowed: float,
         penetration: float,
     ) -> None:
-        """Take a joint and its scales.
+        """Take a joint; allowed is an error in one step over the clearance.
 
-        Args:
-            task: to be solved.
-            joint: whose eccentricity it is.
-            newton_filter: knows the rounding of constraints.
-            allowed: error of an eccentricity in one step, over the clearance.
-            penetration: allowed error of a penetration, over itself, as a part of `allowed`.
+        That of a penetration over itself is a part of it.
         """
         tuning = task.tuning
         self.joint, self._scales, self._filter = joint, task.scales, newton_filter

@@ -15,13 +15,7 @@ class VelocityError:
     """
 
     def __init__(self, task: Task, newton_filter: NewtonFilter, allowed: float) -> None:
-        """Follow the bodies of a task.
-
-        Args:
-            task: to be solved.
-            newton_filter: of stiff components.
-            allowed: error of a velocity in one step, over the scale of speeds.
-        """
+        """Follow the bodies of a task; allowed is an error in one step over the scale of speeds."""
         self._scales, self._filter, self._allowed = task.scales, newton_filter, allowed
         self._constant = task.tuning.velocity_constant
         self._accelerations = task.system.current.accelerations
@@ -67,12 +61,9 @@ class VelocityError:
         return rate / largest if rate > 0.0 else 0.0
 
     def _of_change(self, change: list[float], step: float, roundoff: float) -> float:
-        """Return the error that goes with a change of the accelerations' rate, SI.
+        """Return the error of a change of the accelerations' rate in a step (s).
 
-        Args:
-            change: of all coordinates.
-            step: s.
-            roundoff: error of positions that rounded constraints make, m.
+        Rounded constraints make an error of positions, m.
         """
         scales, constant = self._scales, self._constant
         limit = constant * max(scales.roundoff, roundoff) / step

@@ -2,17 +2,17 @@
 
 A file's name is the digest of everything that determines its content: geometry, material,
 interfaces, mesh size, reduction, versions of NGSolve, Netgen, NumPy, SciPy, and our own code. It
-is an .npz of plain arrays (nothing is unpickled) and carries a checksum; a damaged or foreign file
-is rebuilt. It is written under another name and renamed, so no half-written one is ever read.
+is an .npz of plain arrays (nothing is unpickled), and behind it the digest of all its bytes; a
+damaged or foreign file is rebuilt. It is written under another name and renamed, so no half-written
+one is ever read.
 """
 
-import contextlib
 import hashlib
+import io
 import json
 import os
 import tempfile
-import zipfile
-import zlib
+import warnings
 from collections.abc import Mapping
 from dataclasses import fields
 from importlib.metadata import version
@@ -48,8 +48,9 @@ TOLD = {"name", "method", "mass", "couplings", "interfaces", "meta"}
 PLAIN = [field.name for field in fields(ReducedPart) if field.name not in TOLD]
 """Arrays of a part, stored under their own names."""
 
+DIGEST_SIZE = hashlib.sha256().digest_size
+
 PER_INTERFACE = ("centre", "axis", "translation", "rotation")
-UNREADABLE = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error)
 
 
 def reduced_part(
@@ -84,8 +85,14 @@ def reduced_part(
             raise InputError(f"{file}: was changed by another program while it was written")
         return stored
     reduced = reduce_part(part, reduction, report)
-    with contextlib.suppress(OSError):  # a cache is a help, not a need
+    try:
         save(reduced, file)
+    except OSError as error:  # a cache is a help, not a need
+        warnings.warn(
+            f"{file}: cannot be written ({error.strerror}); {part.name} is reduced again whenever "
+            "it is needed",
+            stacklevel=2,
+        )
     return reduced
 
 
@@ -148,12 +155,14 @@ def save(part: ReducedPart, file: Path) -> None:
         "interfaces": [[i.face, i.area, i.arm] for i in part.interfaces],
     }
     arrays["text"] = np.frombuffer(json.dumps(text).encode(), dtype=np.uint8)
-    arrays["checksum"] = np.frombuffer(_checksum(arrays), dtype=np.uint8)
+    content = io.BytesIO()
+    np.savez(content, allow_pickle=False, **arrays)
     file.parent.mkdir(parents=True, exist_ok=True)
     handle, temporary = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=".part")
     try:
         with os.fdopen(handle, "wb") as stream:
-            np.savez(stream, allow_pickle=False, **arrays)
+            stream.write(content.getvalue())
+            stream.write(hashlib.sha256(content.getvalue()).digest())
         Path(temporary).replace(file)
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
@@ -163,15 +172,15 @@ def save(part: ReducedPart, file: Path) -> None:
 def load(file: Path) -> ReducedPart | None:
     """Return the part in a file of `save`, or None if it is missing, damaged or foreign."""
     try:
-        with np.load(file, allow_pickle=False) as stored:
+        data = file.read_bytes() if file.is_file() else b""
+        content, digest = data[:-DIGEST_SIZE], data[-DIGEST_SIZE:]
+        if hashlib.sha256(content).digest() != digest:
+            return None
+        with np.load(io.BytesIO(content), allow_pickle=False) as stored:
             arrays = {key: stored[key] for key in stored.files}
-        if bytes(arrays.pop("checksum")) != _checksum(arrays):
-            return None
         text = json.loads(bytes(arrays["text"]))
-        if text["file"] != file.stem:
-            return None
-        return _from_arrays(arrays, text)
-    except UNREADABLE:
+        return _from_arrays(arrays, text) if text["file"] == file.stem else None
+    except Exception:  # whatever readers of archives and arrays raise of foreign bytes
         return None
 
 
@@ -193,16 +202,6 @@ def _from_arrays(arrays: Mapping[str, NDArray[Any]], text: Mapping[str, Any]) ->
         meta=text["meta"],
         **{key: arrays[key] for key in PLAIN},
     )
-
-
-def _checksum(arrays: Mapping[str, NDArray[Any]]) -> bytes:
-    """Return a digest of names, types, shapes and contents."""
-    digest = hashlib.sha256()
-    for key in sorted(arrays):
-        array = np.ascontiguousarray(arrays[key])
-        digest.update(f"{key} {array.dtype.str} {array.shape};".encode())
-        digest.update(array.tobytes())
-    return digest.digest()
 
 
 def _source_digest() -> str:

@@ -54,6 +54,18 @@ ANSWER, REPORT, WRONG_INPUT, NO_ROOM, FAILURE = range(5)
 """What a message from a child is."""
 
 
+def _working_folder() -> str:
+    """Return the folder where this process works, or nothing where that is gone."""
+    try:
+        return str(Path.cwd())
+    except OSError:
+        return ""
+
+
+WORKING_FOLDER = _working_folder()
+"""Where this process was started: it seldom works elsewhere before this import."""
+
+
 class ChildError(RuntimeError):
     """A child ended before it answered, or its function failed; the text says how."""
 
@@ -284,8 +296,8 @@ def _search_path() -> list[str]:
     """
     path = [entry for entry in sys.path if entry]
     run_as_module = getattr(sys.modules.get("__main__"), "__spec__", None) is not None
-    if run_as_module and not sys.flags.safe_path and (folder := str(Path.cwd())) in path:
-        path.remove(folder)
+    if run_as_module and not sys.flags.safe_path and WORKING_FOLDER in path:
+        path.remove(WORKING_FOLDER)
     return path
 
 

@@ -9,6 +9,7 @@ line and a file outside the folder are faults, which are printed with the seed o
 
 import argparse
 import contextlib
+import copy
 import dataclasses
 import io
 import json
@@ -69,7 +70,7 @@ def damaged_scene(draw: random.Random) -> dict[str, Any]:
             table = draw.choice(inner)
         keys = [*table, "kind", "mechanism", "joints", "load", "bodies", "flexible", "__class__"]
         value = draw.choice(CODE) if draw.random() < 0.4 else draw.choice(VALUES)
-        table[draw.choice(keys)] = value
+        table[draw.choice(keys)] = copy.deepcopy(value)
     if draw.random() < 0.4:
         joints = data.setdefault("joints", {})
         if isinstance(joints, dict):

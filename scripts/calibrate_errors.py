@@ -46,7 +46,7 @@ from exu_press.verification.run import with_errors
 REFERENCES = (1e-7, 1e-6, 1e-5)
 """Tolerances, of which the finest is taken whose run is not expected to take longer than LONGEST.
 """
-LONGEST = 2.0  # s
+LONGEST = 1.0  # s
 
 FINER = 30.0
 """Times, at least, by which references are finer than the run, however long they take."""
@@ -60,7 +60,7 @@ FINE_STEP = 0.25
 GROWTH = 0.3
 """Power of one over the tolerance with which a run's time goes, measured: 0.2 to 0.3."""
 
-LIMIT = 40
+LIMIT = 25
 """s of processor time, after which a scene's process is ended."""
 
 A_MINUTE = 60.0  # s
@@ -235,7 +235,7 @@ def in_a_row(label: str, figures: Sequence[tuple[dict[str, Any], Sequence[Any]]]
     """Return a line of the table on figures as rows have them."""
     if not figures:
         return f"{label:41s} {0:6d}"
-    scenes: dict[int, list[float]] = {}
+    scenes: dict[Any, list[float]] = {}
     for row, one in figures:
         scenes.setdefault(row["number"], []).append(one[1])
     ratios = [one[2] for _, one in figures if one[2] is not None]
@@ -294,12 +294,13 @@ def main(arguments: list[str]) -> None:
     parser.add_argument("--minutes", type=float, default=25.0, help="no scene is begun later")
     parser.add_argument("--longest", type=float, default=0.35, help="revolutions")
     parser.add_argument("--chaotic", type=float, help="most revolutions of dry scenes")
+    parser.add_argument("--beside", nargs="*", default=[], help="files of rows to print, too")
     parser.add_argument("--out", default="out/calibration", help="where finished scenes are kept")
     options = parser.parse_args(arguments)
     kind = "" if options.chaotic is None else f"chaotic_{options.chaotic:g}_"
     file = Path(options.out) / f"{kind}seed_{options.seed}.jsonl"
     file.parent.mkdir(parents=True, exist_ok=True)
-    rows = [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
+    rows = read_rows(file)
     end = time.monotonic() + 60.0 * options.minutes
     while len(rows) < options.scenes and time.monotonic() < end:
         random = np.random.default_rng([options.seed, len(rows)])
@@ -315,7 +316,15 @@ def main(arguments: list[str]) -> None:
         label = f"{len(rows):3d} {rows[-1]['status']} {rows[-1]['seconds']:.0f} s"
         words = summed(f"{label} {', '.join(rows[-1]['groups'])}", rows[-1]["figures"])
         print(words, file=sys.stderr, flush=True)
+    for path in map(Path, options.beside):
+        others = read_rows(path)
+        rows += [{**row, "number": f"{path} {row['number']}"} for row in others]
     print("\n".join(report_lines(rows)))
+
+
+def read_rows(file: Path) -> list[dict[str, Any]]:
+    """Return the rows of finished scenes, none where there is no file."""
+    return [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
 
 
 if __name__ == "__main__":

@@ -13,7 +13,8 @@ from docutils.parsers.rst import Directive
 from exu_press import Scene
 from exu_press.quantities import CATALOGUE
 from exu_press.result.channel import AXES
-from exu_press.result.declared import DECLARED, PLACES, VECTOR, Declared
+from exu_press.result.declared import PLACES, VECTOR, Declared
+from exu_press.result.recorders import all_declared
 from exu_press.scene import DryJoint, Flexible
 from exu_press.scene.joint import LAW_TABLES
 from exu_press.scene.load import LOAD_KINDS
@@ -81,7 +82,7 @@ class Channels(Directive):
     def run(self) -> list[nodes.Node]:
         """Return one table."""
         rows = [("name", "unit", "meaning", "columns", "of")]
-        rows += [_of_channel(one) for one in DECLARED.values()]
+        rows += [_of_channel(one) for one in all_declared()]
         return [table_of(rows)]
 
 

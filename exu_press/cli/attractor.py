@@ -1,7 +1,9 @@
 """Analyse the motion in the long run: period, Lyapunov exponent, figures by revolution."""
 
 import argparse
+import os
 import sys
+from contextlib import suppress
 
 from exu_press.cli.options import (
     add_format_argument,
@@ -53,6 +55,7 @@ def execute(options: argparse.Namespace) -> int:
     """Run for long; print and draw the motion."""
     from exu_press.studies.attractor import attractor
     from exu_press.studies.attractor.lines import attractor_lines
+    from exu_press.studies.attractor.orbit import NoMotion
 
     check_format(options)
     for name in (assignment.partition("=")[0].strip() for assignment in options.set):
@@ -60,14 +63,22 @@ def execute(options: argparse.Namespace) -> int:
             raise InputError(f"--set {name}: a long run has its own; allowed is {ITS_OWN[name]} N")
     scene = scene_of(options)
     directory = output_directory(directory_of(options, options.scene))
-    found = attractor(
-        scene,
-        revolutions=options.revolutions,
-        skip=options.skip,
-        names=options.quantity,
-        most=options.longest,
-        quiet=options.quiet,
-    )
+    try:
+        found = attractor(
+            scene,
+            revolutions=options.revolutions,
+            skip=options.skip,
+            names=options.quantity,
+            most=options.longest,
+            quiet=options.quiet,
+        )
+    except BaseException as error:
+        with suppress(OSError):  # it holds something
+            os.removedirs(directory)
+        if not isinstance(error, NoMotion):
+            raise
+        print(f"exu-press: {error}", file=sys.stderr)
+        return 3
     write_json(directory / "attractor.json", found.to_dict())
     written = ["attractor.json"]
     if not options.quiet:
@@ -81,6 +92,8 @@ def execute(options: argparse.Namespace) -> int:
         written.append(save_figure(attractor_figure(found), file).name)
     if not options.quiet:
         print("written:", ", ".join(written), f"in {directory}")
+    if found.stopped:
+        print(f"exu-press: {found.stopped}", file=sys.stderr)
     if not found.period.told:
         print(f"exu-press: the period is {found.period}", file=sys.stderr)
-    return 0
+    return 3 if found.stopped or not found.period.told else 0

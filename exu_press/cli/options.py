@@ -58,7 +58,7 @@ def add_code_argument(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--allow-code",
         action="store_true",
-        help="import the modules that kinds of joints name in the file; they run with your rights",
+        help="import the modules that the file names as kinds; they run with your rights",
     )
 
 

@@ -27,6 +27,7 @@ from exu_press.result.unfinished import (
 )
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import assumed_line
+from exu_press.scene.warnings import scene_warnings
 from exu_press.verification.refine import refinements
 from exu_press.verification.simulate import simulate
 from exu_press.verification.told import delivered_lines
@@ -179,6 +180,9 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
     """Run the scene in a directory of its own; return the exit status."""
     found: list[str] = []
     interrupted = False
+    doubts = scene_warnings(scene)
+    if not options.quiet:  # a drawing in mm may run for long
+        show_warnings(doubts)
     unfinished = unfinished_of(directory / RESULT)
     _make_room(unfinished, options)
     if options.within is not None:
@@ -201,7 +205,7 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
         assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
         said = [x for text in found for x in textwrap.wrap(text, 100, subsequent_indent="    ")]
         print("\n".join([*run_lines(result), *said, *assumed]), flush=True)
-        show_warnings(summary["warnings"])
+        show_warnings(text for text in summary["warnings"] if text not in doubts)
     if not options.no_pictures:
         from exu_press.plots import save_pictures
 

@@ -1,4 +1,4 @@
-"""Newton's matrix of systems with flexible bodies, reused from step to step."""
+"""Newton's matrix where Exudyn's own takes too long, or lacks a part."""
 
 from contextlib import nullcontext
 from typing import Any
@@ -7,9 +7,37 @@ import exudyn as exu
 import numpy as np
 
 from exu_press.integrate.task import SAME, Task, inertia_factor
+from exu_press.joints.guide_friction import guide_frictions
 from exu_press.numerics.arrays import Array
 
-__all__ = ["FlexibleJacobian"]
+__all__ = ["FlexibleJacobian", "FrictionJacobian"]
+
+
+class FrictionJacobian:
+    """Newton's matrix of a system in which guides rub in proportion to their constraints' forces.
+
+    Exudyn's own, and behind it how friction changes with these multipliers.
+    """
+
+    def __init__(self, task: Task) -> None:
+        """Let the solver of a task take this Jacobian instead of its own."""
+        self._frictions = guide_frictions(task.system.mbs)
+        task.solver.SetUserFunctionComputeNewtonJacobian(task.system.mbs, self._compute)
+
+    def _compute(self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings) -> bool:
+        """Give the solver its Jacobian in the current state; return that this went well."""
+        size, step = solver.GetODE2size(), solver.it.currentStepSize
+        by_q, by_q_t = solver.newmarkBeta * step * step, solver.newmarkGamma * step
+        solver.SetSystemJacobian(np.zeros((size + solver.GetAEsize(),) * 2))
+        solver.ComputeJacobianODE2RHS(mbs, -by_q, -by_q_t)
+        jacobian = np.array(solver.GetSystemJacobian())
+        jacobian[:size, :size] += inertia_factor(solver) * solver.GetSystemMassMatrix()
+        for friction in self._frictions:
+            rows, multiplier, partials = friction.multiplier_partials()
+            jacobian[rows, size + multiplier] += partials
+        solver.SetSystemJacobian(jacobian)
+        solver.ComputeJacobianAE(mbs, 1.0, by_q_t / by_q)  # adds the constraints
+        return True
 
 
 class FlexibleJacobian:

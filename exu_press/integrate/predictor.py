@@ -2,8 +2,9 @@
 
 import math
 
-from exu_press.integrate.jacobian import FlexibleJacobian
+from exu_press.integrate.jacobian import FlexibleJacobian, FrictionJacobian
 from exu_press.integrate.task import Task
+from exu_press.joints.guide_friction import guide_frictions
 from exu_press.numerics.floats import Floats
 
 __all__ = ["Predictor"]
@@ -31,6 +32,8 @@ class Predictor:
         self._rounding = tuning.rounding
         self._patience, self._reach = tuning.roundoff_after_iterations, tuning.max_extrapolation
         self._jacobian = FlexibleJacobian(task) if system.modal_stiffness else None
+        if guide_frictions(system.mbs) and not system.modal_stiffness:
+            FrictionJacobian(task)
         self._relative = tuning.newton_tolerance * task.tolerance
         current = system.current
         self._multipliers = current.multipliers

@@ -2,9 +2,10 @@
 
 The side force is that of the constraint which holds the body across an ideal guide, or of the
 spring of an elastic one. Exudyn's multipliers are iterates of Newton's method like all else, so
-that the friction of a step goes with the side force at its end. Its Jacobian leaves out how it
-changes with a multiplier: each iteration then leaves mu times the slope with which the body's force
-turns aside, some hundredths of the error.
+that the friction of a step goes with the side force at its end. Exudyn asks an item for no
+derivatives by multipliers: without them each iteration leaves mu times the slope with which the
+body's force turns aside, some hundredths of the error, but more than all of it where a film holds
+the crank. So the integration adds them (`multiplier_partials`).
 
 Friction acts in the line of the point that is guided, and has no moment about it. Accelerations at
 the start are those without it, as the multipliers are not known yet: the first step mends that.
@@ -20,7 +21,22 @@ from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 from exu_press.laws.friction import Friction, LuGre
 from exu_press.numerics.arrays import Array
 
-__all__ = ["GuideFriction", "HeldSide", "SideForce", "SlidingFriction", "SpringSide"]
+__all__ = [
+    "GuideFriction",
+    "HeldSide",
+    "SideForce",
+    "SlidingFriction",
+    "SpringSide",
+    "guide_frictions",
+]
+
+REGISTRY = "exu_press_guide_frictions"
+
+
+def guide_frictions(mbs: exu.MainSystem) -> list["GuideFriction"]:
+    """Return the frictions of a system that go with multipliers, kept with its own variables."""
+    registered: list[GuideFriction] = mbs.variables.setdefault(REGISTRY, [])
+    return registered
 
 
 class HeldSide:
@@ -35,12 +51,17 @@ class HeldSide:
         self._constraint = constraint
         self._index: int | None = None
 
+    @property
+    def index(self) -> int:
+        """Its place among the multipliers, which is known when the system is assembled."""
+        if self._index is None:
+            self._index = int(self._data.GetObjectLTGAE(self._constraint)[0])
+        return self._index
+
     def force(self, q: Array, q_t: Array) -> float:
         """Return the multiplier, N."""
-        if self._index is None:  # is known when the system is assembled
-            self._index = int(self._data.GetObjectLTGAE(self._constraint)[0])
         current = exu.ConfigurationType.Current
-        return float(self._data.GetAECoordinates(current, False)[self._index])
+        return float(self._data.GetAECoordinates(current, False)[self.index])
 
 
 class SpringSide:
@@ -134,7 +155,11 @@ class GuideFriction:
         """
         self.friction = SlidingFriction(law)
         self._along, self._side = along, side
+        self._mbs, self._nodes = mbs, list(nodes)
+        self._rows: Array | None = None  # of the body's coordinates among the system's
         self._data: Any = mbs.systemData
+        if isinstance(side, HeldSide):
+            guide_frictions(mbs).append(self)
         self._step: tuple[float, float] | None = None
         forces: Any = self._forces
         jacobian: Any = self._jacobian
@@ -173,6 +198,25 @@ class GuideFriction:
         matrix = exu.MatrixContainer()  # a container would add to what it was given before
         matrix.SetWithDenseMatrix(np.outer(self._along, row))
         return matrix
+
+    def multiplier_partials(self) -> tuple[Array, int, Array]:
+        """Return the change of minus the force with the multiplier of its side force.
+
+        Returns:
+            Rows of the system's coordinates, the place among the multipliers, and the derivatives.
+        """
+        assert isinstance(self._side, HeldSide)
+        if self._rows is None:
+            sizes = [
+                len(self._mbs.GetNodeParameter(n, "referenceCoordinates")) for n in self._nodes
+            ]
+            starts = [self._mbs.GetNodeODE2Index(node) for node in self._nodes]
+            pairs = zip(starts, sizes, strict=True)
+            self._rows = np.concatenate([start + np.arange(size) for start, size in pairs])
+        rates = np.asarray(self._data.GetODE2Coordinates_t(exu.ConfigurationType.Current, False))
+        mu, _ = self.friction(float(self._along @ rates[self._rows]))
+        side = self._side.force(rates, rates)
+        return self._rows, self._side.index, mu * np.sign(side) * self._along
 
     def _begin_step(self, time: float) -> None:
         """Tell the friction about the step that is being tried."""

@@ -24,7 +24,8 @@ __all__ = [
     "step_damping",
 ]
 
-SLOWEST_IMPACT = 1e-3  # m/s
+SLOWEST_IMPACT = 1e-3
+"""m/s, unless one is given, as each scene does (`exu_press.scene.laws.slowest_impact`)."""
 
 
 def step(x: float, x0: float, h0: float, x1: float, h1: float) -> tuple[float, float]:
@@ -264,7 +265,12 @@ def hysteretic(
     return NormalContact(stiffness, damping, needs_impact_speed=True, tension=tension)
 
 
-def hunt_crossley(stiffness: Stiffness, restitution: float, tension: bool = False) -> NormalContact:
+def hunt_crossley(
+    stiffness: Stiffness,
+    restitution: float,
+    tension: bool = False,
+    slowest_impact: float = SLOWEST_IMPACT,
+) -> NormalContact:
     r"""Hysteretic damping of Hunt and Crossley.
 
     .. math::
@@ -282,11 +288,14 @@ def hunt_crossley(stiffness: Stiffness, restitution: float, tension: bool = Fals
     .. [1] Hunt, K. H., and F. R. E. Crossley. "Coefficient of Restitution Interpreted as Damping in
        Vibroimpact." J. Appl. Mech. 42 (1975): 440-445.
     """
-    return hysteretic(stiffness, restitution, lambda e: 1.5 * (1.0 - e), tension)
+    return hysteretic(stiffness, restitution, lambda e: 1.5 * (1.0 - e), tension, slowest_impact)
 
 
 def lankarani_nikravesh(
-    stiffness: Stiffness, restitution: float, tension: bool = False
+    stiffness: Stiffness,
+    restitution: float,
+    tension: bool = False,
+    slowest_impact: float = SLOWEST_IMPACT,
 ) -> NormalContact:
     r"""Hysteretic damping of Lankarani and Nikravesh.
 
@@ -305,10 +314,17 @@ def lankarani_nikravesh(
     .. [1] Lankarani, H. M., and P. E. Nikravesh. "A Contact Force Model with Hysteresis Damping for
        Impact Analysis of Multibody Systems." J. Mech. Des. 112 (1990): 369-376.
     """
-    return hysteretic(stiffness, restitution, lambda e: 0.75 * (1.0 - e**2), tension)
+    return hysteretic(
+        stiffness, restitution, lambda e: 0.75 * (1.0 - e**2), tension, slowest_impact
+    )
 
 
-def flores(stiffness: Stiffness, restitution: float, tension: bool = False) -> NormalContact:
+def flores(
+    stiffness: Stiffness,
+    restitution: float,
+    tension: bool = False,
+    slowest_impact: float = SLOWEST_IMPACT,
+) -> NormalContact:
     r"""Hysteretic damping of Flores, Machado, Silva and Martins.
 
     .. math::
@@ -326,10 +342,17 @@ def flores(stiffness: Stiffness, restitution: float, tension: bool = False) -> N
     .. [1] Flores, P., M. Machado, M. T. Silva, and J. M. Martins. "On the Continuous Contact Force
        Models for Soft Materials in Multibody Dynamics." Multibody Syst. Dyn. 25 (2011): 357-375.
     """
-    return hysteretic(stiffness, restitution, lambda e: 1.6 * (1.0 - e) / e, tension)
+    return hysteretic(
+        stiffness, restitution, lambda e: 1.6 * (1.0 - e) / e, tension, slowest_impact
+    )
 
 
-def gonthier(stiffness: Stiffness, restitution: float, tension: bool = False) -> NormalContact:
+def gonthier(
+    stiffness: Stiffness,
+    restitution: float,
+    tension: bool = False,
+    slowest_impact: float = SLOWEST_IMPACT,
+) -> NormalContact:
     r"""Hysteretic damping of Gonthier, McPhee, Lange and Piedboeuf, their approximation.
 
     .. math::
@@ -348,10 +371,15 @@ def gonthier(stiffness: Stiffness, restitution: float, tension: bool = False) ->
        Asymmetric Damping and Dwell-Time Dependent Friction." Multibody Syst. Dyn. 11 (2004):
        209-233.
     """
-    return hysteretic(stiffness, restitution, lambda e: (1.0 - e**2) / e, tension)
+    return hysteretic(stiffness, restitution, lambda e: (1.0 - e**2) / e, tension, slowest_impact)
 
 
-def hu_guo(stiffness: Stiffness, restitution: float, tension: bool = False) -> NormalContact:
+def hu_guo(
+    stiffness: Stiffness,
+    restitution: float,
+    tension: bool = False,
+    slowest_impact: float = SLOWEST_IMPACT,
+) -> NormalContact:
     r"""Hysteretic damping of Hu and Guo.
 
     .. math::
@@ -369,7 +397,9 @@ def hu_guo(stiffness: Stiffness, restitution: float, tension: bool = False) -> N
     .. [1] Hu, S., and X. Guo. "A Dissipative Contact Force Model for Impact Analysis in Multibody
        Dynamics." Multibody Syst. Dyn. 35 (2015): 131-151.
     """
-    return hysteretic(stiffness, restitution, lambda e: 1.5 * (1.0 - e) / e, tension)
+    return hysteretic(
+        stiffness, restitution, lambda e: 1.5 * (1.0 - e) / e, tension, slowest_impact
+    )
 
 
 DAMPING_LAWS: dict[str, Callable[..., NormalContact]] = {

@@ -17,6 +17,11 @@ SHORT = 0.02
 """Stroke over the crank's circle: a shorter one is hardly meant."""
 
 
+LIGHT = 1e-3
+"""Mass over that of the heaviest body: with clearance a lighter one needs steps that are shorter by
+thirty, the root of it, than the motion of the others asks for."""
+
+
 def doubtful_drawing(mechanism: Mechanism, stroke: float) -> Iterator[str]:
     """Yield warnings about a drawing of another size than machines, or than the rest of it.
 
@@ -37,6 +42,15 @@ def doubtful_drawing(mechanism: Mechanism, stroke: float) -> Iterator[str]:
             yield (
                 f"bodies.{body.name}.centre_of_mass lies {away:.3g} m from the next joint of the "
                 f"body, in a mechanism of {size:.3g} m: is it in the coordinates of the drawing?"
+            )
+    heaviest = max(mechanism.bodies, key=lambda body: body.mass)
+    for body in mechanism.bodies:
+        if body.mass < LIGHT * heaviest.mass:
+            yield (
+                f"bodies.{body.name}.mass = {body.mass:g} kg is "
+                f"{body.mass / heaviest.mass:.2g} times that of {heaviest.name}, too small for "
+                f"steps that its neighbours take. A mass of {LIGHT * heaviest.mass:.2g} kg is as "
+                "good as none for them."
             )
     if mechanism.guides and stroke < SHORT * 2.0 * mechanism.crank_radius:
         yield (

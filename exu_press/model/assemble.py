@@ -40,6 +40,7 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
         scene: of the model.
         quiet: False shows the progress of the flexible bodies' modes, which take long.
     """
+    scene.require_code()
     parts: Mapping[str, PlacedPart] = {}
     if scene.bodies:
         from exu_press.model.placed_part import placed_parts

@@ -42,7 +42,9 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
             middle=body.centre_of_mass,
             direction=guide.direction,
             clearance=guideway.clearance - onset,
-            contact=guide_contact_law(damped, guideway.stiffness),
+            contact=guide_contact_law(
+                damped, guideway.stiffness, guideway.clearance, system.scene.angular_speed
+            ),
             friction=guide_friction_law(table, system.scene.friction),
             half_width=guideway.half_width,
         )

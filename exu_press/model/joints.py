@@ -24,7 +24,7 @@ from exu_press.laws.friction import no_friction
 from exu_press.mechanism import GROUND, Joint, Point
 from exu_press.mechanism.holding import SingleAxis
 from exu_press.model.system import System
-from exu_press.scene import DryJoint, LubricatedJoint
+from exu_press.scene import DryJoint, LubricatedJoint, Scene
 from exu_press.scene.custom import CustomJoint
 from exu_press.scene.joint import LooseJoint, unworn
 from exu_press.scene.laws import ball_film, contact_law, film_law, film_scale_of, friction_law
@@ -50,12 +50,15 @@ def add_clearance_joint(system: System, joint: Joint, kind: LooseJoint) -> Clear
     journal, bearing = (_end(system, joint, *end) for end in system.mechanism.ends(joint))
     if not joint.spherical or isinstance(kind, CustomJoint):
         worn = None if isinstance(kind, CustomJoint) else _worn(system, joint, kind)
-        interfaces = interfaces_of(joint, kind)
+        interfaces = interfaces_of(joint, kind, system.scene)
         return add_revolute(system.mbs, journal, bearing, interfaces, worn=worn)
+    speed = system.scene.angular_speed
     surfaces: dict[str, Any] = {
         "radius": kind.radius,
         "clearance": kind.clearance,
-        "contact": None if kind.contact is None else contact_law(kind, revolute=False),
+        "contact": None
+        if kind.contact is None
+        else contact_law(kind, revolute=False, crank_speed=speed),
         "friction": no_friction() if kind.friction is None else friction_law(kind.friction),
     }
     if not isinstance(kind, LubricatedJoint):
@@ -71,8 +74,8 @@ def add_clearance_joint(system: System, joint: Joint, kind: LooseJoint) -> Clear
     )
 
 
-def interfaces_of(joint: Joint, kind: LooseJoint) -> list[InterfaceLaw]:
-    """Return the surfaces of a joint with clearance, in its plane."""
+def interfaces_of(joint: Joint, kind: LooseJoint, scene: Scene) -> list[InterfaceLaw]:
+    """Return the surfaces of a joint with clearance of a scene, in its plane."""
     if isinstance(kind, CustomJoint):
         return list(kind.interfaces())
     kind = unworn(kind)
@@ -81,7 +84,8 @@ def interfaces_of(joint: Joint, kind: LooseJoint) -> list[InterfaceLaw]:
         law = film_law(kind.film, kind.radius, kind.clearance)
         interfaces.append(FilmInterface(law, film_scale_of(kind), kind.clearance))
     if kind.contact is not None:
-        contact = contact_law(kind, revolute=not joint.spherical)
+        speed = scene.angular_speed
+        contact = contact_law(kind, revolute=not joint.spherical, crank_speed=speed)
         friction = no_friction() if kind.friction is None else friction_law(kind.friction)
         reach = kind.clearance - (kind.onset or 0.0)
         interfaces.append(DryInterface(contact, friction, kind.radius, reach))

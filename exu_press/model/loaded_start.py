@@ -230,7 +230,7 @@ class _Instant:
             kind = scene[joints[k].name]
             assert not isinstance(kind, IdealJoint)
             turning = self._omega[joints[k].journal], self._omega[joints[k].bearing]
-            interfaces = interfaces_of(joints[k], kind)
+            interfaces = interfaces_of(joints[k], kind, self._problem.system.scene)
             e = _borne(interfaces, complex(self.forces[k]), *turning)
             found[k] = (math.nan, math.nan) if e is None else (e.real, e.imag)
         return found

@@ -9,7 +9,7 @@ import numpy as np
 from exu_press.joints import ClearanceJoint, JointHistory
 from exu_press.joints.interface import FilmInterface, InterfaceJoint
 from exu_press.laws.film import FILM_LAWS, film_scale
-from exu_press.laws.film.oil import HOTTEST, film_temperature
+from exu_press.laws.film.oil import HOTTEST, STEADY, film_temperature
 from exu_press.laws.film.side_flow import SideFlow
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.scene import LubricatedJoint
@@ -18,9 +18,12 @@ from exu_press.scene.joint import Joint, unworn
 __all__ = ["Heat", "WarmFilm", "warm_films"]
 
 AVERAGED = 4
-"""A temperature follows from the last quarter of the revolutions so far: from the last one in a
-short run, and from their mean where no two revolutions are alike."""
+"""A temperature follows from the last revolution, or from the mean of the last quarter of those so
+far where no two revolutions are alike."""
 
+SETTLED = 0.05
+"""Relative change of power and side flow from revolution to revolution, below which a film has
+settled: a journal that sinks for many revolutions changes them long before its temperature."""
 
 LEAST_SLOPE, LARGEST_SLOPE = -0.5, 0.75
 """Share of a step from the film's temperature to the one that the heat asks for.
@@ -106,33 +109,68 @@ class WarmFilm:
         area = 2.0 * self.joint.radius * self._length
         return lengths(force) / area
 
+    @property
+    def settled(self) -> bool:
+        """Whether heat and temperature stay as they are in the last revolutions, or their means."""
+        count = self._averaged
+        recent, earlier = self.before[-count:], self.before[-2 * count : -count]
+        if not earlier or self.asked is None or not _alike(recent, earlier):
+            return False
+        return abs(self.temperature - self.asked[0]) <= STEADY
+
+    @property
+    def _averaged(self) -> int:
+        """Number of the last revolutions from whose mean the temperature follows."""
+        if _alike(self.before[-1:], self.before[-2:-1]):
+            return 1
+        return max(1, len(self.before) // AVERAGED)
+
     def balanced(self, last: Heat) -> tuple[float, float]:
         """Return temperature, deg C, and pressure, Pa, at which the film gets rid of its heat.
 
-        The motion of the last revolution is held. In the first revolutions a secant through the
-        last two of them foretells how it will change with the temperature.
+        The motion of the last revolution is held, or the mean of several where revolutions are not
+        alike. A secant through the last two foretells how it will change with the temperature.
         """
         self.before.append(last)
-        recent = self.before[-max(1, len(self.before) // AVERAGED) :]
-        per_viscosity = _mean([one.power / one.viscosity for one in recent])
-        pressure = _mean([one.pressure for one in recent])
+        recent = self.before[-self._averaged :]
+        per_viscosity = _mean([heat.power / heat.viscosity for heat in recent])
+        pressure = _mean([heat.pressure for heat in recent])
         oil = self.oil
-        found = film_temperature(
+        balance = film_temperature(
             per_viscosity,
-            oil.heat_capacity * _mean([one.flow for one in recent]),
+            oil.heat_capacity * _mean([heat.flow for heat in recent]),
             oil.conductance,
             oil.supply_celsius,
             oil.frame,
             lambda temperature: oil.viscosity(temperature, pressure),
         )
-        before, self.asked = self.asked, (self.temperature, found)
-        if before is None or len(self.before) >= 2 * AVERAGED or found == math.inf:
-            return found, pressure
+        before, self.asked = self.asked, (self.temperature, balance)
+        if before is None or len(recent) > 1 or balance == math.inf:
+            return balance, pressure
         moved = self.temperature - before[0]
-        slope = (found - before[1]) / moved if moved else 0.0
+        slope = (balance - before[1]) / moved if moved else 0.0
         slope = min(max(slope, LEAST_SLOPE), LARGEST_SLOPE)
-        foretold = self.temperature + (found - self.temperature) / (1.0 - slope)
+        foretold = self.temperature + (balance - self.temperature) / (1.0 - slope)
         return min(max(foretold, min(oil.supply_celsius, oil.frame)), HOTTEST), pressure
+
+
+def _alike(recent: Sequence[Heat], earlier: Sequence[Heat]) -> bool:
+    """Return whether power and side flow of revolutions are those of earlier ones, on average."""
+    if not recent or not earlier:
+        return False
+    for read in (_power, _flow):
+        now, then = _mean([read(heat) for heat in recent]), _mean([read(heat) for heat in earlier])
+        if abs(now - then) > SETTLED * abs(now):
+            return False
+    return True
+
+
+def _power(heat: Heat) -> float:
+    return heat.power
+
+
+def _flow(heat: Heat) -> float:
+    return heat.flow
 
 
 def warm_films(

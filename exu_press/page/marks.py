@@ -9,7 +9,6 @@ from exu_press.numerics.arrays import Array, lengths
 from exu_press.page.curves import Curve
 from exu_press.quantities.alternating import LOADS, steady
 from exu_press.quantities.dead_centre import bottom_dead_centres
-from exu_press.quantities.joints import TOUCH
 from exu_press.quantities.value import values_of
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
@@ -31,7 +30,7 @@ def impacts(result: Result) -> tuple[list[dict[str, Any]], int]:
         joint, described = result.joints[name], result.scene.joints[name]
         if described.onset is None:
             continue
-        touching = described.onset - joint.gap > TOUCH
+        touching = described.onset - joint.gap > 0.0
         edges = np.flatnonzero(np.diff(touching.astype(int), prepend=0, append=0))
         size = lengths(joint.force)
         for begin, end in zip(edges[::2], edges[1::2], strict=True):

@@ -71,6 +71,11 @@ class RowFile(AbstractContextManager["RowFile", None]):
             ) from None
         self._found[record["key"]] = record["row"], record["time_limit"]
 
+    @property
+    def count(self) -> int:
+        """Number of the tasks with a row."""
+        return len(self._found)
+
     def finished(self, key: str, time_limit: float | None) -> Row | None:
         """Return a task's row, or None if the task is to be run (again).
 

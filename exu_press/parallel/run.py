@@ -112,6 +112,8 @@ class Batch(ExitStack):
             output_directory(self.directory)
             self.enter_context(locked(self.directory))
             self._file = self.enter_context(RowFile(self.directory / FILE))
+            if self._file.count and not self._quiet:
+                print(f"{self._label}: runs that are finished: {self._file.count}", file=sys.stderr)
         except BaseException:
             self.close()
             raise
@@ -132,9 +134,6 @@ class Batch(ExitStack):
         given = {task.key: each for task, each in zip(tasks, arguments, strict=True)}
         rows = {task.key: self._finished(task, given[task.key]) for task in tasks}
         todo = [key for key, row in rows.items() if row is None]
-        if len(todo) < len(rows) and not self._quiet:
-            there = f"{len(rows) - len(todo)} of {len(rows)}"
-            print(f"{self._label}: {there} are there", file=sys.stderr)
 
         def alone(key: str) -> Chain:
             rows[key] = yield given[key]

@@ -24,9 +24,10 @@ ORDERS = 30
 def attractor_figure(found: Attractor) -> Figure:
     """Return eight panels, of the first joint with clearance and the most scattered figure."""
     low, high = found.per_second[1:]
-    exponent = f"in [{low:.3g}, {high:.3g}]" if np.isfinite(low) else f"below {high:.3g}"
+    exponent = f"in [{low:.3g}, {high:.3g}] 1/s" if np.isfinite(low) else f"below {high:.3g} 1/s"
+    exponent = exponent if np.isfinite(high) else "not known"
     words = f"{describe([found.scene], 160)}\nperiod: {found.period}; largest Lyapunov exponent "
-    words += f"{exponent} 1/s"
+    words += exponent
     figure = figure_with_title("In the long run", words, (18.0, 8.6))
     panels = figure.subplots(2, 4)
     loose = next(iter(found.scene.joints.with_clearance), None)

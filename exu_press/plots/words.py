@@ -110,6 +110,8 @@ def _of_loads(scene: Scene) -> dict[str, str]:
     for name, load in applied_loads(scene).items():
         what = "blanking" if load.kind == "blanking" else f"{name.replace('_', ' ')}"
         words = f"{what} force {load.curve.peak / 1e3:g} kN"
+        if math.isnan(load.curve.peak):
+            words = f"{what} of kind {load.kind}"
         if load.body != mechanism_of(scene).slider:
             words += f" on {load.body.replace('_', ' ')}"
         arm = load.point[0] * load.direction[1] - load.point[1] * load.direction[0]

@@ -9,10 +9,7 @@ from exu_press.quantities.reading import Reading
 from exu_press.result import JointRecord
 from exu_press.scene import IdealJoint, Scene
 
-__all__ = ["IMPACTS", "JOINTS", "START", "TOUCH", "contacts", "share_of_contact"]
-
-TOUCH = 1e-10
-"""Penetration from which surfaces count as touching, m; the force begins at zero."""
+__all__ = ["IMPACTS", "JOINTS", "START", "contacts", "share_of_contact"]
 
 
 def contacts(depth: Array) -> int:
@@ -21,7 +18,7 @@ def contacts(depth: Array) -> int:
     Args:
         depth: (n,), m, of the penetration beyond the contact onset.
     """
-    touching = depth > TOUCH
+    touching = depth > 0.0
     return int(np.count_nonzero(touching[1:] & ~touching[:-1])) + int(touching[0])
 
 
@@ -32,7 +29,7 @@ def share_of_contact(time: Array, depth: Array) -> float:
         time: (n,), s.
         depth: (n,), m, of the penetration beyond the contact onset, linear between instants.
     """
-    depth, span = depth - TOUCH, np.diff(time)
+    span = np.diff(time)
     if not len(span):
         return 0.0
     depth_before, depth_after = np.maximum(depth[:-1], 0.0), np.maximum(depth[1:], 0.0)

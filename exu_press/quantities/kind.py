@@ -33,7 +33,7 @@ class Kind:
         absolute: least error, in the quantity's unit.
         of_largest: least error over the run's largest value of the quantity's unit; extremes are
             compared with extremes, as impacts make them large.
-        of_forces: least error over the run's largest force, in the unit of the quantity over N.
+        of_forces: least error over the run's largest force times the mechanism's size.
         from_accelerations: whether the first step leaves an error of its own in it.
         may_vanish: whether nothing, within an error, is an answer. Where it is none, as for a peak,
             a figure that is smaller than its error is not determined.
@@ -63,7 +63,8 @@ RESULTANT = Kind("resultant", relative=1e-5, of_largest=1e-6, from_accelerations
 positions leave of_largest of them (5e-7 was measured at 1 rpm)."""
 
 MOMENT = Kind("moment", relative=0.0, of_forces=1e-7)
-"""Is a moment of forces that balance each other; their arms are rounded, by of_forces in m."""
+"""Is a moment of forces that balance each other; their arms are rounded, by of_forces
+of the mechanism's size."""
 
 ENERGY = Kind("energy", relative=0.0, of_largest=1e-6)
 """Is stored or dissipated: a difference of larger amounts."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from exu_press.laws.film.oil import STEADY
 from exu_press.numerics.arrays import lengths
 from exu_press.quantities.kind import LOAD, MEASURE
 from exu_press.quantities.quantity import Place, Quantity
@@ -11,9 +12,6 @@ from exu_press.scene import LubricatedJoint, Scene
 from exu_press.scene.joint import oil_of
 
 __all__ = ["OIL", "film_balance", "film_change", "oil_warnings"]
-
-UNSETTLED = 0.5
-"""K, within which a film has found its temperature."""
 
 UNBALANCED = 0.05
 """Part of the dissipated heat within which it is carried off in the revolutions that are read."""
@@ -26,6 +24,12 @@ def oil_warnings(result: Result) -> Iterator[str]:
     """Yield films that have not found their temperature, or in which an oil's law is stretched."""
     if not result.completed:
         return
+    added = result.info.get("added_revolutions", 0)
+    if added:
+        yield (
+            f"{added} revolution{'s' if added > 1 else ''} more than asked for, until the films' "
+            f"heat and temperature stayed as they were: settle is {result.scene.settled:g} now"
+        )
     for name, joint in result.scene.joints.items():
         if isinstance(joint, LubricatedJoint) and f"{name}_temperature" in result:
             yield from _settling(result, name)
@@ -37,7 +41,7 @@ def _settling(result: Result, name: str) -> Iterator[str]:
     run, label = Reading(result), name.replace("_", " ")
     change, balance = film_change(run, name), film_balance(run, name)
     now = float(result[f"{name}_temperature"][-1])
-    if change is not None and abs(change) > UNSETTLED:
+    if change is not None and abs(change) > STEADY:
         yield (
             f"{label}: the film is at {now:.1f} deg C, and the heat of the last revolution asks "
             f"for {change:+.2g} K; it warms from revolution to revolution: try more revolutions"

@@ -51,7 +51,12 @@ def _exponent(told: dict[str, Any]) -> list[list[str]]:
         ("1/s", ("per_second", "low_per_second", "high_per_second")),
     ):
         value, low, high = (one[part] for part in parts)
-        words = f"below {high:.4g}" if low is None else f"{value:.4g}, in {low:.4g} to {high:.4g}"
+        if high is None:
+            words = "not known of so few revolutions"
+        elif low is None:
+            words = f"below {high:.4g}"
+        else:
+            words = f"{value:.4g}, in {low:.4g} to {high:.4g}"
         rows.append([f"largest Lyapunov exponent, {name}", words])
     apart = f"{told['period']['distances'][0]:.3g}, known within {told['period']['error']:.3g}"
     return [

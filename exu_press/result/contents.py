@@ -10,8 +10,8 @@ from exu_press.integrate import SolverStatus
 from exu_press.mechanism import Mechanism
 from exu_press.result.channel import Channel
 from exu_press.result.channels import described, on_disk
-from exu_press.result.declared import expected
 from exu_press.result.info import Info
+from exu_press.result.recorders import expected
 from exu_press.result.surface import Surface
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.output import ALWAYS

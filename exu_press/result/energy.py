@@ -1,4 +1,4 @@
-"""The energy balance of a run: mechanical energy, and work of loads."""
+"""The energy balance of a run: mechanical energy, work of loads, and the sums of all recorders."""
 
 from collections.abc import Iterable, Mapping
 
@@ -6,8 +6,27 @@ import numpy as np
 
 from exu_press.mechanism import Body, Motion
 from exu_press.numerics.arrays import Array
+from exu_press.result.declared import OWN, Declared
+from exu_press.result.recording import Record, Recording
 
-__all__ = ["mechanical_energy", "work"]
+__all__ = ["CHANNELS", "mechanical_energy", "record", "work"]
+
+CHANNELS = INPUT, STORED, DISSIPATED = (
+    Declared("energy_input", "J", "work of drive and loads since the start", unless=OWN),
+    Declared("energy_stored", "J", "change of stored energy", unless=OWN),
+    Declared("energy_dissipated", "J", "energy dissipated since the start", unless=OWN),
+)
+
+
+def record(run: Recording) -> Record:
+    """Return the sums of all recorders before; none with own items, whose energy is not known."""
+    if run.model.own_items:
+        return Record({})
+    supplied, stored, dissipated = map(
+        np.asarray, (run.so_far.supplied, run.so_far.stored, run.so_far.dissipated)
+    )
+    channels = INPUT.record(supplied) | STORED.record(stored - stored[0])
+    return Record(channels | DISSIPATED.record(dissipated))
 
 
 def mechanical_energy(

@@ -9,34 +9,26 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from exu_press.joints import JointHistory
-from exu_press.mechanism import Motion, Point
+from exu_press.mechanism import Point
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
-from exu_press.result.declared import channel
-from exu_press.result.forces import guide_channels, vectors
+from exu_press.result.guide_channels import guide_channels
+from exu_press.result.ideal_joints import FORCE, vectors
+from exu_press.result.recording import Record, Recording
 
-__all__ = ["equilibrium"]
+__all__ = ["record"]
 
 Held = tuple[str, float, Point]
 """A joint on a body, the sign with which its force acts there, and where in the body's frame."""
 
 
-def equilibrium(
-    model: Model,
-    motions: Mapping[str, Motion],
-    channels: Mapping[str, Channel],
-    states: Mapping[str, JointHistory],
-) -> dict[str, Channel]:
-    """Return force and moment of the guides, and the pivots' forces on the journals.
+def record(run: Recording) -> Record:
+    """Return force and moment of ideal guides, and the pivots' forces on the journals.
 
-    Args:
-        model: integrated.
-        motions: of every body.
-        channels: with the loads and the forces of all joints that hold a coordinate or have
-            clearance.
-        states: motion and force of each clearance joint; ideal ones have no moment.
+    The loads and all joints that hold a coordinate or have clearance have their channels.
     """
+    model, motions, channels, histories = run.model, run.motions, run.so_far.channels, run.histories
     found: dict[str, Channel] = {}
     guides = {guide.body: guide for guide in model.mechanism.guides}
     masses = {body.name: body.mass for body in model.mechanism.bodies}
@@ -58,13 +50,13 @@ def equilibrium(
     for name in sorted(model.holding.sliding):
         across = held(name) @ np.array(guides[name].across)
         angle = motions[name].position[:, 2]
-        moment = -_moment(model, name, on_body[name], angle, channels, states)
-        found |= guide_channels(model, name, {"force": across, "moment": moment})
+        moment = -_moment(model, name, on_body[name], angle, channels, histories)
+        found |= guide_channels(model.mechanism, name, {"force": across, "moment": moment})
     for name, pivot in model.holding.pivoted.items():
         if name in model.rigid:
             force = held(name) * (1.0 if pivot.journal == name else -1.0)
-            found |= channel("{joint}_force", vectors(force, pivot.spherical), pivot.name)
-    return found
+            found |= FORCE.record(vectors(force, pivot.spherical), pivot.name)
+    return Record(found)
 
 
 def _force(
@@ -86,7 +78,7 @@ def _moment(
     joints: Sequence[Held],
     angle: Array,
     channels: Mapping[str, Channel],
-    states: Mapping[str, JointHistory],
+    histories: Mapping[str, JointHistory],
 ) -> Array:
     """Return the moment about its centre, (n,), of joints and loads on a body at an angle (n,)."""
     cos, sin = np.cos(angle), np.sin(angle)
@@ -94,8 +86,8 @@ def _moment(
     for joint, sign, (x, y) in joints:
         on_body = sign * channels[f"{joint}_force"].values
         moment += (x * cos - y * sin) * on_body[:, 1] - (x * sin + y * cos) * on_body[:, 0]
-        if joint in states:
-            moment += states[joint].moments_in_plane[:, 0 if sign > 0.0 else 1]
+        if joint in histories:
+            moment += histories[joint].moments_in_plane[:, 0 if sign > 0.0 else 1]
     for key, (load, _) in model.loads.items():
         if load.body == name:
             moment += load.moment(channels[f"load_{key}_force"].values, angle)

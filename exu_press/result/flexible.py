@@ -8,24 +8,41 @@ from exu_press.mechanism import Motion, Point
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
-from exu_press.result.declared import channel
+from exu_press.result.declared import Declared
 from exu_press.result.energy import work
+from exu_press.result.info import Solid
 from exu_press.result.motion import frame_motion, moving_point, point_motion, sensor
+from exu_press.result.recording import Record, Recording
 
 if TYPE_CHECKING:
     from exu_press.model.placed_part import PlacedPart
     from fe_models import ReducedPart
 
-__all__ = ["carried_motion", "deflection", "guided_motion", "modal", "record_parts"]
+__all__ = ["CHANNELS", "carried_motion", "deflection", "guided_motion", "modal", "record"]
+
+CHANNELS = STRAIN_ENERGY, MODES_LOSS, MODES, ELONGATION, BENDING, DEFLECTION = (
+    Declared("{body}_strain_energy", "J", "{body}: elastic energy", always=False),
+    Declared(
+        "{body}_modes_loss",
+        "J",
+        "{body}: energy dissipated by the damping of modes since the start",
+        always=False,
+    ),
+    Declared("{body}_modes", "kg^0.5 m", "{body}: modal coordinates", "{body}_mode", False),
+    Declared("{body}_elongation", "m", "{body}: joints further apart", always=False),
+    Declared("{body}_bending", "rad", "{body}: joints turned apart", always=False),
+    Declared("{faced}_deflection", "m", "{faced}: displacement from a rigid body", "plane", False),
+)
 
 
-def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, Array]:
-    """Return the channels of the flexible bodies, their stored and their dissipated energy, J.
+def record(run: Recording) -> Record:
+    """Return the channels of the flexible bodies, their stored and their dissipated energy.
 
     Modes are orthogonal to rigid motions, so that kinetic energy is that of the undeformed body
     plus half of every modal velocity's square and deformation's part of the moment of inertia,
     to the square of deformation over length.
     """
+    model, time = run.model, run.time
     channels: dict[str, Channel] = {}
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
     for name, placed in model.parts.items():
@@ -40,10 +57,10 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
         damping = np.diag(part.damping_matrix(placed.damping_ratio))
         lost = work(time, q_t * damping, q_t)
         dissipated += lost
-        channels |= channel("{body}_strain_energy", strain, name)
+        channels |= STRAIN_ENERGY.record(strain, name)
         if part.mode_count:
-            channels |= channel("{body}_modes_loss", lost, name)
-            channels |= channel("{body}_modes", q, name)
+            channels |= MODES_LOSS.record(lost, name)
+            channels |= MODES.record(q, name)
         pivot = next((j.name for j in model.mechanism.joints_of(name) if j.on_frame), None)
         if pivot is not None:
             for joint in placed.faces:
@@ -51,10 +68,22 @@ def record_parts(model: Model, time: Array) -> tuple[dict[str, Channel], Array, 
                     moved = q @ deflection(placed, joint, pivot).T
                     turned = _turned(moved, position[:, 2])
                     words = f"{joint} on the {name}".replace("_", " ")
-                    channels |= channel("{faced}_deflection", turned, joint, words=words)
+                    channels |= DEFLECTION.record(turned, joint, words=words)
         elif len(placed.faces) == 2:
             channels |= _between(placed, name, q)
-    return channels, stored, dissipated
+    solids = {name: _solid(placed) for name, placed in model.parts.items()}
+    return Record(channels, stored, dissipated, info={"solids": solids})
+
+
+def _solid(placed: "PlacedPart") -> Solid:
+    """Return the mass properties of a body's solid."""
+    return {
+        "mass": placed.reduced.mass,
+        "centre_of_mass": [*placed.centre_of_mass],
+        "inertia": placed.inertia,
+        "modes": placed.reduced.mode_count,
+        "frequencies": placed.reduced.fixed_interface_frequencies.tolist(),
+    }
 
 
 def _between(placed: "PlacedPart", name: str, q: Array) -> dict[str, Channel]:
@@ -64,8 +93,7 @@ def _between(placed: "PlacedPart", name: str, q: Array) -> dict[str, Channel]:
     along = along / np.linalg.norm(along)
     longer = along @ (second.translation - first.translation)[:2]
     bent = (second.rotation - first.rotation)[2]
-    longer_by = channel("{body}_elongation", q @ longer, name)
-    return longer_by | channel("{body}_bending", q @ bent, name)
+    return ELONGATION.record(q @ longer, name) | BENDING.record(q @ bent, name)
 
 
 def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:

@@ -1,4 +1,4 @@
-"""Forces that hold and drive the mechanism, press its frame, and shake it."""
+"""Forces that press the mechanism's frame, and shake it."""
 
 from collections.abc import Collection, Mapping
 
@@ -7,55 +7,33 @@ import numpy as np
 from exu_press.mechanism import GROUND, Motion
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
-from exu_press.result.channel import Channel, guide_channel, positive
-from exu_press.result.declared import channel
-from exu_press.result.motion import point_acceleration, sensor
+from exu_press.result.channel import Channel, guide_channel
+from exu_press.result.declared import UNBALANCED, Declared
+from exu_press.result.motion import point_acceleration
+from exu_press.result.recording import Record, Recording
 
-__all__ = ["frame_force", "guide_channels", "held_forces", "shaking_forces", "vectors"]
+__all__ = ["CHANNELS", "record"]
 
-
-def held_forces(model: Model, motions: Mapping[str, Motion]) -> dict[str, Channel]:
-    """Return the forces of drive, ideal joints and guides that hold a coordinate.
-
-    Args:
-        model: integrated.
-        motions: of every body.
-    """
-    spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
-    channels: dict[str, Channel] = {}
-    for name, quantity in model.sensors:
-        if quantity not in ("force", "moment"):
-            continue
-        values = sensor(model, name, quantity)
-        if name == "drive":
-            channels |= channel("drive_torque", -values[:, 0])
-        elif name.endswith("_guide"):
-            body = name.removesuffix("_guide")
-            channels |= guide_channels(model, body, {quantity: -values[:, 0]})
-        else:
-            if name in model.holding.single_axis and not _flexible(model, name):
-                values = _single_axis(model, motions, name, values[:, 0])
-            channels |= channel("{joint}_force", vectors(values[:, :2], name in spherical), name)
-    return channels | _of_several_faces(channels, model)
+CHANNELS = FRAME, SHAKING, WITHOUT_COUNTERWEIGHT = (
+    Declared("frame_force", "N", "force of shaft, pivots and guides on the frame", "plane"),
+    Declared("shaking_force", "N", "shaking force: minus the rate of momentum", "plane"),
+    Declared(
+        "shaking_force_without_counterweight",
+        "N",
+        "shaking force without the counterweight",
+        "plane",
+        unless=UNBALANCED,
+    ),
+)
 
 
-def _of_several_faces(channels: Mapping[str, Channel], model: Model) -> dict[str, Channel]:
-    """Return the forces of joints of the frame with several faces: those of the faces.
-
-    Face by face they are in the channels, too, numbered.
-    """
-    found: dict[str, Channel] = {}
-    spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
-    for part in model.parts.values():
-        for joint, faces in part.faces.items():
-            each = [f"{joint}_{number}_force" for number in range(1, len(faces) + 1)]
-            if len(each) > 1 and each[0] in channels:
-                force = np.sum([channels[name].values for name in each], axis=0)
-                found |= channel("{joint}_force", vectors(force, joint in spherical), joint)
-    return found
+def record(run: Recording) -> Record:
+    """Return the forces on the frame; all joints and guides have their channels."""
+    force = _frame_force(run.model, run.so_far.channels)
+    return Record(FRAME.record(force) | _shaking_forces(run.model, run.motions))
 
 
-def frame_force(model: Model, channels: Mapping[str, Channel]) -> dict[str, Channel]:
+def _frame_force(model: Model, channels: Mapping[str, Channel]) -> Array:
     """Return the force of shaft, pivots and guides together on the frame, (n, 2), N."""
     on_bodies = np.zeros((len(channels["time"].values), 2))
     signs = {joint.name: 1.0 for joint in model.mechanism.joints if joint.bearing == GROUND}
@@ -68,51 +46,10 @@ def frame_force(model: Model, channels: Mapping[str, Channel]) -> dict[str, Chan
             force = channels.get(f"{guide_channel(model.mechanism, guide.body)}_{quantity}")
             if force is not None:
                 on_bodies += np.outer(force.values, direction)
-    return channel("frame_force", -on_bodies)
+    return -on_bodies
 
 
-def _flexible(model: Model, joint: str) -> bool:
-    """Return whether a joint holds a flexible body."""
-    return any(joint in part.faces for part in model.parts.values())
-
-
-def _single_axis(model: Model, motions: Mapping[str, Motion], joint: str, force: Array) -> Array:
-    """Return the force on the journal, (n, 2), N, of a joint that holds one direction."""
-    held = model.holding.single_axis[joint]
-    described = next(one for one in model.mechanism.joints if one.name == joint)
-    turned = 0.0 if held.body == GROUND else motions[held.body].position[:, 2]
-    angle = held.angle + turned * np.ones_like(force)
-    on_journal = force * (1.0 if held.body == described.journal else -1.0)
-    return np.asarray(on_journal[:, None] * np.column_stack([np.cos(angle), np.sin(angle)]))
-
-
-def guide_channels(model: Model, body: str, loads: Mapping[str, Array]) -> dict[str, Channel]:
-    """Return the channels of a guide's action on its body.
-
-    Args:
-        model: integrated.
-        body: that it guides.
-        loads: "force" (N), "moment" (N m), "friction" (N) and "loss" (J), as far as there are.
-    """
-    guide = next(guide for guide in model.mechanism.guides if guide.body == body)
-    shown, words = guide_channel(model.mechanism, body), f"{body.replace('_', ' ')} guide"
-    found: dict[str, Channel] = {}
-    for quantity, values in loads.items():
-        way = positive(guide.direction if quantity == "friction" else guide.across)
-        found |= channel(f"{{guide}}_{quantity}", values, shown, words=words, way=way)
-    return found
-
-
-def vectors(values: Array, spherical: bool) -> Array:
-    """Return vectors (n, 2 or 3) in space for spherical joints, (n, 3), else in the plane."""
-    if not spherical:
-        return np.ascontiguousarray(values[:, :2])
-    in_space = np.zeros((len(values), 3))
-    in_space[:, : values.shape[1]] = values
-    return in_space
-
-
-def shaking_forces(model: Model, motions: Mapping[str, Motion]) -> dict[str, Channel]:
+def _shaking_forces(model: Model, motions: Mapping[str, Motion]) -> dict[str, Channel]:
     """Return the shaking force, minus the rate of the mechanism's momentum, (n, 2), N.
 
     That is the force of shaft, pivots and guides on the frame, less weight and blanking force; the
@@ -133,10 +70,10 @@ def shaking_forces(model: Model, motions: Mapping[str, Motion]) -> dict[str, Cha
             part = model.parts[body.name].reduced
             mass, centre = part.mass, point_acceleration(model, body.name, part.centre_of_mass)
         forces[body.name] = -mass * centre[:, :2]
-    channels = channel("shaking_force", _sum(forces, forces))
+    channels = SHAKING.record(_sum(forces, forces))
     if counterweight := model.mechanism.counterweight:
         others = [name for name in forces if name not in counterweight]
-        channels |= channel("shaking_force_without_counterweight", _sum(forces, others))
+        channels |= WITHOUT_COUNTERWEIGHT.record(_sum(forces, others))
     return channels
 
 

@@ -103,6 +103,7 @@ class Info(TypedDict):
         law_evaluations: how often the clearance joints' forces were asked for.
         stress: of the flexible bodies with modes, by name.
         solids: of the flexible bodies, by name.
+        added_revolutions: how many more than asked for were run until films had settled.
         coordinates: of the model.
         bodies: of the model.
         connectors: of the model.
@@ -126,6 +127,7 @@ class Info(TypedDict):
     law_evaluations: int
     stress: NotRequired[dict[str, Stress]]
     solids: NotRequired[dict[str, Solid]]
+    added_revolutions: NotRequired[int]
     coordinates: int
     bodies: int
     connectors: int

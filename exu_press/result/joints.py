@@ -1,7 +1,5 @@
 """Channels of clearance joints: eccentricity, force, moments, losses."""
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from exu_press.joints import JointHistory, history
@@ -10,13 +8,42 @@ from exu_press.model.warm_film import WarmFilm
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral
 from exu_press.result.channel import Channel
-from exu_press.result.declared import channel
-from exu_press.result.forces import vectors
+from exu_press.result.declared import VECTOR, Declared
+from exu_press.result.ideal_joints import vectors
+from exu_press.result.recording import Record, Recording
 
-__all__ = ["joint_states", "record_joints", "stored_and_lost"]
+__all__ = ["CHANNELS", "joint_histories", "record", "stored_and_lost"]
+
+CHANNELS = (
+    FORCE,
+    ECCENTRICITY,
+    MOMENT,
+    POWER,
+    WORN_GAP,
+    NORMAL_FORCE,
+    SLIDING,
+    LOSS,
+    TEMPERATURE,
+    VISCOSITY,
+    SIDE_FLOW,
+    CARRIED_OFF,
+) = (
+    Declared("{loose}_force", "N", "{loose}: force on journal", VECTOR),
+    Declared("{loose}_eccentricity", "m", "{loose}: journal minus bearing centre", VECTOR),
+    Declared("{loose}_moment", "N m", "{loose}: moment on journal and on bearing", "ends"),
+    Declared("{loose}_power", "W", "{loose}: dissipated power"),
+    Declared("{worn}_gap", "m", "{worn}: least gap of the worn surfaces, or -penetration"),
+    Declared("{wearing}_normal_force", "N", "{wearing}: normal force of the contact", always=False),
+    Declared("{wearing}_sliding", "m/s", "{wearing}: sliding velocity", always=False),
+    Declared("{loose}_loss", "J", "{loose}: energy dissipated since the start"),
+    Declared("{warm}_temperature", "deg C", "{warm}: temperature of the film"),
+    Declared("{warm}_viscosity", "Pa s", "{warm}: viscosity of the film"),
+    Declared("{warm}_side_flow", "m^3/s", "{warm}: oil that leaves the bearing's ends"),
+    Declared("{warm}_carried_off", "J", "{warm}: heat given to oil and frame since the start"),
+)
 
 
-def joint_states(model: Model, time: Array) -> dict[str, JointHistory]:
+def joint_histories(model: Model, time: Array) -> dict[str, JointHistory]:
     """Return the states of every clearance joint at the recorded instants."""
     return {
         name: history(model.states, joint, time) for name, joint in model.clearance_joints.items()
@@ -32,46 +59,37 @@ def stored_and_lost(states: JointHistory, time: Array) -> tuple[Array, Array]:
     return states.stored_energy, integral(time, states.dissipated_power)
 
 
-def _record_heat(
-    film: WarmFilm, states: JointHistory, time: Array, name: str
-) -> dict[str, Channel]:
+def record(run: Recording) -> Record:
+    """Return the channels of the clearance joints, their stored and their dissipated energy."""
+    model, time = run.model, run.time
+    channels: dict[str, Channel] = {}
+    all_stored, all_lost = np.zeros_like(time), np.zeros_like(time)
+    balls = {joint.name for joint in model.mechanism.joints if joint.spherical}
+    for name, states in run.histories.items():
+        stored, lost = stored_and_lost(states, time)
+        all_stored += stored
+        all_lost += lost
+        channels |= ECCENTRICITY.record(vectors(states.eccentricity, name in balls), name)
+        channels |= FORCE.record(vectors(states.force, name in balls), name)
+        channels |= MOMENT.record(states.moments_in_plane, name)
+        channels |= POWER.record(states.dissipated_power, name)
+        channels |= LOSS.record(lost, name)
+        if name in model.warm:
+            channels |= _heat(model.warm[name], states, time, name)
+        if len(states.rubbing):
+            channels |= NORMAL_FORCE.record(states.rubbing[:, 0], name)
+            channels |= SLIDING.record(states.rubbing[:, 1], name)
+        if model.scene.joints[name].worn is not None:
+            channels |= WORN_GAP.record(states.gap, name)
+    return Record(channels, all_stored, all_lost)
+
+
+def _heat(film: WarmFilm, states: JointHistory, time: Array, name: str) -> dict[str, Channel]:
     """Return the channels of a film whose oil warms."""
     flow = film.side_flow(states)
-    channels: dict[str, Channel] = {}
-    for quantity, values in (
-        ("{warm}_temperature", np.full_like(time, film.temperature)),
-        ("{warm}_viscosity", np.full_like(time, film.viscosity)),
-        ("{warm}_side_flow", flow),
-        ("{warm}_carried_off", integral(time, film.cooling(flow))),
-    ):
-        channels |= channel(quantity, values, name)
-    return channels
-
-
-def record_joints(
-    model: Model, histories: Mapping[str, JointHistory], time: Array
-) -> tuple[dict[str, Channel], Array, Array]:
-    """Return the channels of the clearance joints, their stored and their dissipated energy, J."""
-    channels: dict[str, Channel] = {}
-    stored, dissipated = np.zeros_like(time), np.zeros_like(time)
-    balls = {joint.name for joint in model.mechanism.joints if joint.spherical}
-    for name, states in histories.items():
-        elastic, lost = stored_and_lost(states, time)
-        stored += elastic
-        dissipated += lost
-        for quantity, values in (
-            ("{loose}_eccentricity", vectors(states.eccentricity, name in balls)),
-            ("{loose}_force", vectors(states.force, name in balls)),
-            ("{loose}_moment", states.moments_in_plane),
-            ("{loose}_power", states.dissipated_power),
-            ("{loose}_loss", lost),
-        ):
-            channels |= channel(quantity, values, name)
-        if name in model.warm:
-            channels |= _record_heat(model.warm[name], states, time, name)
-        if len(states.rubbing):
-            channels |= channel("{wearing}_normal_force", states.rubbing[:, 0], name)
-            channels |= channel("{wearing}_sliding", states.rubbing[:, 1], name)
-        if model.scene.joints[name].worn is not None:
-            channels |= channel("{worn}_gap", states.gap, name)
-    return channels, stored, dissipated
+    return (
+        TEMPERATURE.record(np.full_like(time, film.temperature), name)
+        | VISCOSITY.record(np.full_like(time, film.viscosity), name)
+        | SIDE_FLOW.record(flow, name)
+        | CARRIED_OFF.record(integral(time, film.cooling(flow)), name)
+    )

@@ -1,58 +1,54 @@
-"""Channels of loads: forces, and the work that they put in."""
-
-from collections.abc import Mapping
+"""Channels of loads: forces, moments, and the work that they put in."""
 
 import numpy as np
 
-from exu_press.mechanism import Motion
-from exu_press.model import Model
-from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
-from exu_press.result.declared import channel
+from exu_press.result.declared import Declared
 from exu_press.result.energy import work
-from exu_press.result.flexible import carried_motion
+from exu_press.result.recording import Record, Recording
 
-__all__ = ["record_loads"]
+__all__ = ["CHANNELS", "record"]
+
+CHANNELS = FORCE, WORK, MOMENT = (
+    Declared("load_{load}_force", "N", "load {load}: force"),
+    Declared("load_{load}_work", "J", "load {load}: work since the start"),
+    Declared(
+        "load_{load}_moment",
+        "N m",
+        "load {load}: moment about its body's centre of mass, counter-clockwise",
+        always=False,
+        unless="where a load acts on the centre of mass",
+    ),
+)
 
 
-def record_loads(
-    model: Model,
-    time: Array,
-    crank: tuple[Array, Array],
-    slider: tuple[Array, Array],
-    motions: Mapping[str, Motion],
-) -> tuple[dict[str, Channel], Array]:
-    """Return force, moment (where the load acts beside the middle) and work of every load.
-
-    Args:
-        model: integrated.
-        time: (n,), s.
-        crank: angle of the body that the drive turns, (n,), rad, and angular velocity, rad/s.
-        slider: its position, (n,), m, and velocity, m/s.
-        motions: of every body.
-
-    Returns:
-        The channels, and the work of all loads since the start, (n,), J.
-    """
+def record(run: Recording) -> Record:
+    """Return force, moment (where the load acts beside the middle) and work of every load."""
+    model, time, scene = run.model, run.time, run.model.scene
     channels: dict[str, Channel] = {}
     all_work = np.zeros_like(time)
     lasting = [name for name, (load, _) in model.loads.items() if load.clock or load.sheet]
     memory = dict(zip(lasting, model.remembered, strict=False))  # empty in a run of its own
-    height = slider[0] - model.mechanism.bottom, slider[1]
+    angle = scene.start_angle + scene.angular_speed * time + model.ahead[0]
+    if scene.drive is not None:
+        drawn = model.mechanism.body(model.mechanism.crank).angle
+        angle = run.turned.position[:, 2] - drawn
+    crank = angle, run.turned.velocity[:, 2]
+    height = run["slider_position"] - model.mechanism.bottom, run["slider_velocity"]
     for name, (load, _) in model.loads.items():
         force = load.force(time, crank, height, memory.get(name))
         if load.body in model.parts:
+            from exu_press.result.flexible import carried_motion
+
             part = model.parts[load.body]
             velocity = carried_motion(model, load.body, part.loads[name], load.point)[1]
         else:
-            velocity = motions[load.body].at(load.point).velocity
-        along = velocity[:, :2] @ np.array(load.direction)
-        done = work(time, force, along)
+            velocity = run.motions[load.body].at(load.point).velocity
+        done = work(time, force, velocity[:, :2] @ np.array(load.direction))
         all_work += done
         words = f"{name} on the {load.body.replace('_', ' ')}"
-        channels |= channel("load_{load}_force", force, name, words=words)
-        channels |= channel("load_{load}_work", done, name, words=words)
+        channels |= FORCE.record(force, name, words=words) | WORK.record(done, name, words=words)
         if load.point != (0.0, 0.0):
-            moment = load.moment(force, motions[load.body].position[:, 2])
-            channels |= channel("load_{load}_moment", moment, name, words=words)
-    return channels, all_work
+            moment = load.moment(force, run.motions[load.body].position[:, 2])
+            channels |= MOMENT.record(moment, name, words=words)
+    return Record(channels, supplied=all_work)

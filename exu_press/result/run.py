@@ -23,6 +23,9 @@ __all__ = ["run_once"]
 SHORT = 1e-5
 """Revolutions of a run that tells which channels there are."""
 
+MOST_ADDED = 12
+"""Revolutions that are added at most until films have settled."""
+
 BLOCK = 10.0
 """Revolutions that are in memory at once. A longer run goes on from block to block, and its
 channels go to the disk."""
@@ -34,11 +37,20 @@ def run_once(
     start: State | None = None,
     unfinished: Path | None = None,
     quiet: bool = True,
+    settling: bool = False,
 ) -> Result:
     """Simulate a scene as `exu_press.simulate` does without errors.
 
     Channels that [output] names are looked for in a shorter run first: the record alone knows what
     a scene has.
+
+    Args:
+        scene: to be simulated.
+        start: state of another run, from which this one goes on.
+        unfinished: directory in which the run is while it goes on, see `simulate`.
+        quiet: False shows the progress.
+        settling: whether revolutions are added, MOST_ADDED at most, until films whose oil warms
+            have settled; as many more then go before those that quantities are read from.
     """
     begun = time.perf_counter()
     if scene.output is not None and not isinstance(scene.output.channels, str):
@@ -50,7 +62,7 @@ def run_once(
         model = go_on_from(model, start)
     try:
         if scene.revolutions > BLOCK or model.warm:
-            result = _block_by_block(model, unfinished, quiet=quiet)
+            result = _block_by_block(model, unfinished, quiet=quiet, settling=settling)
         else:
             result = record(model, model.solve(quiet=quiet))
     finally:
@@ -59,7 +71,9 @@ def run_once(
     return replace(result, info={**result.info, "total_time": total})
 
 
-def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Result:
+def _block_by_block(
+    model: Model, unfinished: Path | None, *, quiet: bool, settling: bool
+) -> Result:
     """Return the result of a run in blocks: of a long one memory holds one block at a time.
 
     Where oil warms, a block is a revolution, after which films have other temperatures.
@@ -68,7 +82,7 @@ def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Re
     assert solver is not None
     unfinished = unfinished if scene.revolutions > BLOCK else None
     infos: list[Info] = []
-    left, steps = scene.revolutions, solver.max_steps
+    left, steps, added = scene.revolutions, solver.max_steps, 0
     with (
         begin(unfinished) as channels,
         Progress("run", scene.duration, quiet=quiet, whole=True),
@@ -91,12 +105,32 @@ def _block_by_block(model: Model, unfinished: Path | None, *, quiet: bool) -> Re
             if unfinished is not None and block.completed:
                 so_far = replace(block, scene=scene, info=_of_all(infos))
                 keep(unfinished, so_far, scene.revolutions - left, channels)
+            may_add = settling and added < MOST_ADDED and block.completed
+            if may_add and _unsettled(model, scene, left):
+                left, added = left + 1.0, added + 1
+                later = {"revolutions": scene.revolutions + 1.0, "settle": scene.settled + 1.0}
+                scene = scene.replace(later)
             ended = left < _least(scene) or model.has_stood(block.info["end_time"])
             if ended or not block.completed or steps < 1:
                 break
             model = go_on_from(model, state_of(model))
     kept = channels if scene.revolutions > BLOCK else channels.in_memory()
-    return replace(block, scene=scene, channels=kept, info=_of_all(infos))
+    info: Info = {**_of_all(infos), "added_revolutions": added} if added else _of_all(infos)
+    return replace(block, scene=scene, channels=kept, info=info)
+
+
+def _unsettled(model: Model, scene: Scene, left: float) -> bool:
+    """Return whether revolutions of a scene are about to be read while films have not settled.
+
+    Args:
+        model: at the end of a revolution.
+        scene: whose settled part is read; one that has nothing to settle is read as it is.
+        left: revolutions that are left of it.
+    """
+    gone = scene.revolutions - left + _least(scene)
+    if not scene.settled or gone < scene.settled:
+        return False
+    return any(not film.settled for film in model.warm.values())
 
 
 def _least(scene: Scene) -> float:

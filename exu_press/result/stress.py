@@ -3,14 +3,23 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
-from exu_press.result.declared import channel
+from exu_press.result.declared import Declared
 from exu_press.result.flexible import modal
 from exu_press.result.info import Stress
+from exu_press.result.recording import Record, Recording
 
-__all__ = ["record_stress"]
+__all__ = ["CHANNELS", "record"]
+
+CHANNELS = (STRESS,) = (
+    Declared(
+        "{body}_stress",
+        "Pa",
+        "{body}: von Mises stress where it is largest, with the sign of the mean stress",
+        always=False,
+    ),
+)
 
 DEVIATOR = np.zeros((6, 6))  # of xx yy zz yz xz xy: its square is that of von Mises
 DEVIATOR[:3, :3] = np.sqrt(0.5) * np.array([[1.0, -1.0, 0.0], [0.0, 1.0, -1.0], [-1.0, 0.0, 1.0]])
@@ -23,12 +32,13 @@ CHUNK = 500
 """Instants at once: 25 MB."""
 
 
-def record_stress(model: Model, time: Array) -> tuple[dict[str, Channel], dict[str, Stress]]:
+def record(run: Recording) -> Record:
     """Return the stress over time at the most stressed place of each flexible body, and where.
 
     The channel BODY_stress, Pa, is the von Mises stress with the sign of the mean normal stress, so
     that tension and compression are told apart.
     """
+    model, time = run.model, run.time
     channels: dict[str, Channel] = {}
     worst: dict[str, Stress] = {}
     for name, placed in model.parts.items():
@@ -42,13 +52,13 @@ def record_stress(model: Model, time: Array) -> tuple[dict[str, Channel], dict[s
         size = np.linalg.norm(components @ DEVIATOR.T, axis=1)
         place = part.nodes[node]
         signed = np.copysign(size, components[:, :3].sum(axis=1))
-        channels |= channel("{body}_stress", signed, name)
+        channels |= STRESS.record(signed, name)
         worst[name] = {
             "von_mises": float(size[instant]),
             "time": float(time[instant]),
             "place": [*placed.point(place), float(place[2])],
         }
-    return channels, worst
+    return Record(channels, info={"stress": worst})
 
 
 def _worst(by_node: Array, q: Array) -> tuple[int, int]:

@@ -6,7 +6,7 @@ from exu_press.scene.custom import CustomJoint
 from exu_press.scene.file import parse_assignment
 from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
 from exu_press.scene.joints import Joints
-from exu_press.scene.load import BlankingLoad, SheetLoad, SpringLoad, TableLoad
+from exu_press.scene.load import BlankingLoad, CustomLoad, SheetLoad, SpringLoad, TableLoad
 from exu_press.scene.motor import Motor
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Solver
@@ -16,6 +16,7 @@ __all__ = [
     "BlankingLoad",
     "Contact",
     "CustomJoint",
+    "CustomLoad",
     "DryJoint",
     "ElasticGuide",
     "Face",

@@ -188,6 +188,6 @@ def applied_loads(scene: Scene) -> dict[str, AppliedLoad]:
             sheet=load.sheet(fade) if isinstance(load, SheetLoad) and fade else None,
             top=load.height if isinstance(load, SheetLoad) else 0.0,
         )
-        if applied.curve.peak > 0.0:
+        if not applied.curve.peak <= 0.0:  # that of a result's load may be unknown
             found[name] = applied
     return found

@@ -12,7 +12,8 @@ from typing import Any
 
 from exu_press.mechanism import Mechanism
 from exu_press.scene.changes import named
-from exu_press.scene.joint import LAW_TABLES, SIZES, Joint
+from exu_press.scene.joint import LAW_TABLES, SIZES, DryJoint, Joint, LubricatedJoint
+from exu_press.scene.laws import slowest_impact
 from exu_press.scene.oil import Oil
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
 from exu_press.scene.tables import DEFAULT_TOLERANCE, USUAL_STIFFNESS
@@ -177,7 +178,31 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
 
 def engineering_values(scene: Scene) -> list[Key]:
     """Return the defaults that decide results and are neither the scene's nor its mechanism's."""
-    return [key for key in _decisive(scene).values() if key.source and key.assumed]
+    given = [key for key in _decisive(scene).values() if key.source and key.assumed]
+    return given + _slowest_impacts(scene)
+
+
+def _slowest_impacts(scene: Scene) -> list[Key]:
+    """Return the key of the speed as which slow contacts are damped, where clearances give it."""
+    touching = [
+        (joint.contact, joint.clearance)
+        for joint in scene.joints.with_clearance.values()
+        if isinstance(joint, DryJoint | LubricatedJoint) and joint.contact is not None
+    ]
+    if scene.guide is not None and scene.guide.clearance is not None:
+        assert scene.contact is not None
+        touching.append((scene.contact, scene.guide.clearance))
+    speeds = sorted(
+        slowest_impact(contact, clearance, scene.angular_speed)
+        for contact, clearance in touching
+        if contact.damping != "step" and contact.slowest_impact is None
+    )
+    if not speeds:
+        return []
+    value = speeds[0] if speeds[0] == speeds[-1] else f"{speeds[0]:g} to {speeds[-1]:g}"
+    meaning = "contacts that begin slower are damped as one at this speed"
+    source = "speed of the crank times the clearance"
+    return [Key("contact.slowest_impact", value, value, "m/s", meaning, source)]
 
 
 def _decisive(scene: Scene) -> dict[str, Key]:

@@ -17,7 +17,7 @@ from exu_press.scene.bodies import changed_bodies
 from exu_press.scene.joint_changes import changed_joints
 from exu_press.scene.loads import changed_loads
 from exu_press.scene.usage import TABLES
-from exu_press.schema.checks import RENAMED, changed_table, given_in
+from exu_press.schema.checks import RENAMED, changed_table, given_in, nearest
 
 __all__ = ["asked_mechanism", "changed_keys", "drop", "named"]
 
@@ -53,7 +53,9 @@ def changed_keys(
         before = data.get(table, {})
         if table not in TABLES or not isinstance(before, Mapping):
             why = RENAMED.get(table, "")
-            why = f"is {why} now" if why else f"{table} is no table of a scene"
+            known = [*TABLES, "joints", "bodies", "load", "mechanism"]
+            unknown = f"{table} is no table of a scene{nearest(table, known)}"
+            why = f"is {why} now" if why else unknown
             key, value = next(iter(keys.items()))
             raise InputError(f"{table}.{key} = {value!r}: {why}")
         data[table] = changed_table(TABLES[table], before, keys)
@@ -82,7 +84,10 @@ def _drawn(mechanism: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return the mechanism of a scene as a nested mapping, of which keys are to be changed."""
     for key, value in changes.items():
         if key.partition(".")[0] not in DRAWN:
-            raise InputError(f"mechanism.{key} = {value!r}: allowed are keys of {', '.join(DRAWN)}")
+            near = nearest(key.partition(".")[0], DRAWN)
+            raise InputError(
+                f"mechanism.{key} = {value!r}: allowed are keys of {', '.join(DRAWN)}{near}"
+            )
     mechanism = asked_mechanism(mechanism)
     if mechanism in SHIPPED:
         mechanism = shipped_mechanism(mechanism)

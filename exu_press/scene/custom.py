@@ -1,4 +1,4 @@
-"""Kinds of joints that users write: their classes, and the code that a name in a file stands for.
+"""Kinds of joints and loads that users write, and the code that a name in a file stands for.
 
 A name alone imports nothing. It stands for a class that is there already, or for one that an
 installed distribution registers; else its module is imported only where the user allows that.
@@ -12,7 +12,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 from exu_press.errors import InputError
 from exu_press.schema.checks import Table, key
@@ -22,40 +22,49 @@ if TYPE_CHECKING:
 
 __all__ = [
     "CustomJoint",
+    "CustomKind",
     "UnresolvedJoint",
+    "custom_class",
     "custom_modules",
     "import_kinds",
-    "joint_class",
+    "refusal",
     "with_unresolved",
 ]
 
 IMPORTLIB = import_module.__code__.co_filename
 
-PLACES = re.compile(r"(?:.*\.)?joints\.[^.]+(?:\.kind)?")
+PLACES = re.compile(r"(?:.*\.)?(?:joints|load)\.[^.]+(?:\.kind)?")
 """Dotted names of keys whose values are kinds, also where a study varies them."""
 
 
+class CustomKind:
+    """What the kinds that users write have in common: the name by which a scene calls them."""
+
+    registered_name: ClassVar[str] = ""
+    """Of the entry point by which an installed distribution offers it."""
+
+    @property
+    def kind(self) -> str:
+        """Name of the class, as a scene has it."""
+        return _name_of(type(self))
+
+
+Kind = TypeVar("Kind", bound=CustomKind)
+
+
 @dataclass(frozen=True)
-class CustomJoint(Table, ABC):
+class CustomJoint(CustomKind, Table, ABC):
     """Base of a joint kind of your own; `kind = "my_module:MyClass"` names it in a scene.
 
     The derived dataclass declares its keys by `exu_press.schema.checks.key`. A key whose default is
     None has to be given.
     """
 
-    registered_name: ClassVar[str] = ""
-    """Of the entry point by which an installed distribution offers it."""
-
     contact: ClassVar[None] = None
     friction: ClassVar[None] = None
     worn: ClassVar[None] = None
     onset: ClassVar[None] = None
     clearance: float = key(None, "eccentricity that others are compared with", "m", above=0)
-
-    @property
-    def kind(self) -> str:
-        """Name of the class, as a scene has it."""
-        return _name_of(type(self))
 
     @abstractmethod
     def interfaces(self) -> Sequence["InterfaceLaw"]:
@@ -74,6 +83,12 @@ class UnresolvedJoint(CustomJoint):
     name: str = ""
     keys: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)
 
+    @classmethod
+    def of(cls, name: str, keys: Mapping[str, Any]) -> Self:
+        """Return the joint of a kind and its keys."""
+        clearance: Any = keys.get("clearance")
+        return cls(clearance, name, keys)
+
     @property
     def kind(self) -> str:
         """Name of the class, as the result has it."""
@@ -81,32 +96,38 @@ class UnresolvedJoint(CustomJoint):
 
     def interfaces(self) -> Sequence["InterfaceLaw"]:
         """Raise InputError: the laws are unknown."""
-        raise InputError(_refusal(self.name))
+        raise InputError(refusal(self.name))
 
 
-def joint_class(name: object) -> type[CustomJoint] | None:
+def custom_class(name: object, base: Any) -> type[Any] | None:
     """Return the class of a kind that a user has written; None for a text that is no such name.
 
     Args:
         name: of the kind, or the class itself.
+        base: of such kinds.
 
     Raises:
-        InputError: code of that name is not loaded, or the class is no joint kind.
+        InputError: code of that name is not loaded, or the class is no such kind.
     """
-    if isinstance(name, type) and issubclass(name, CustomJoint):
-        found: type[CustomJoint] | None = name
+    if isinstance(name, type) and issubclass(name, base):
+        found: type[Any] | None = name
     elif not isinstance(name, str):
         return None
     else:
-        found = _loaded(name)
+        found = _loaded(name, base)
         if found is None and ":" in name:
-            raise InputError(f"kind = {name!r}: {_refusal(name)}")
+            derived = f"allowed is a dataclass derived from {base.__name__}"
+            why = refusal(name) if _loaded(name, CustomKind) is None else derived
+            raise InputError(f"kind = {name!r}: {why}")
         if found is None:
             from exu_press.scene.registered import registered_class  # seldom needed
 
-            found = registered_class(name, CustomJoint)
-    if found is not None and (missing := ", ".join(sorted(found.__abstractmethods__))):
-        raise InputError(f"kind = {name!r}: the class has no {missing}, which CustomJoint asks for")
+            found = registered_class(name, base)
+    missing = ", ".join(sorted(getattr(found, "__abstractmethods__", ())))
+    if missing:
+        raise InputError(
+            f"kind = {name!r}: the class has no {missing}, which {base.__name__} asks for"
+        )
     return found
 
 
@@ -118,7 +139,7 @@ def import_kinds(data: Mapping[str, Any]) -> None:
     """
     for name in dict.fromkeys(_kinds_in(data)):
         module, _, inside = name.partition(":")
-        if _loaded(name) is not None:
+        if _loaded(name, CustomKind) is not None:
             continue
         if module.partition(".")[0] in sys.stdlib_module_names or "__main__" in module.split("."):
             raise InputError(
@@ -134,37 +155,39 @@ def import_kinds(data: Mapping[str, Any]) -> None:
                 f"kind = {name!r}: {_told(error)}; allowed is a module that Python finds "
                 "(PYTHONPATH names further folders) and one of its classes"
             ) from None
-        if _loaded(name) is None:
+        if _loaded(name, CustomKind) is None:
             what = f"module {module!r} has no attribute {inside!r}"
-            if isinstance(found, type) and issubclass(found, CustomJoint):
+            if isinstance(found, type) and issubclass(found, CustomKind):
                 what = f"this class is {_name_of(found)!r}"
             elif found is not None:
                 what = "this is no class derived from it"
             raise InputError(
-                f"kind = {name!r}: {what}; allowed is a dataclass derived from CustomJoint"
+                f"kind = {name!r}: {what}; allowed is a dataclass derived from CustomJoint or "
+                "CustomLoad"
             )
 
 
-def with_unresolved(data: Mapping[str, Any], known: Collection[str]) -> dict[str, Any]:
-    """Return a scene's tables, with joints whose code is not loaded as `UnresolvedJoint`.
+def with_unresolved(
+    data: Mapping[str, Any], tables: Mapping[str, tuple[Collection[str], Any]]
+) -> dict[str, Any]:
+    """Return a scene's tables, with what has a kind whose code is not loaded as unresolved.
 
     Args:
         data: of a result.
-        known: kinds that need no code.
+        tables: name of a table of tables -> kinds that need no code, and the class of the others.
     """
-    joints = data.get("joints")
-    if not isinstance(joints, Mapping):
-        return dict(data)
-    found: dict[str, Any] = dict(joints)
-    for joint, given in joints.items():
-        keys = {"kind": given} if isinstance(given, str) else given
-        if not isinstance(keys, Mapping) or not isinstance(kind := keys.get("kind"), str):
+    changed = dict(data)
+    for table, (known, unresolved) in tables.items():
+        if not isinstance(data.get(table), Mapping):
             continue
-        if kind not in known and _loaded(kind) is None:
-            kept = {name: value for name, value in keys.items() if name != "kind"}
-            clearance: Any = kept.get("clearance")
-            found[joint] = UnresolvedJoint(clearance, kind, kept)
-    return {**data, "joints": found}
+        changed[table] = inner = dict(data[table])
+        for name, given in data[table].items():
+            keys = {"kind": given} if isinstance(given, str) else given
+            if not isinstance(keys, Mapping) or not isinstance(kind := keys.get("kind"), str):
+                continue
+            if kind not in known and _loaded(kind, CustomKind) is None:
+                inner[name] = unresolved.of(kind, {k: v for k, v in keys.items() if k != "kind"})
+    return changed
 
 
 def custom_modules(data: Mapping[str, Any]) -> tuple[str, ...]:
@@ -174,7 +197,8 @@ def custom_modules(data: Mapping[str, Any]) -> tuple[str, ...]:
         InputError: a class is of the script itself or of a function, where no import finds it.
     """
     modules = set()
-    for kind in filter(None, map(_loaded, _kinds_in(data))):
+    kinds = (_loaded(name, CustomKind) for name in _kinds_in(data))
+    for kind in filter(None, kinds):
         if kind.__module__ == "__main__" or "<locals>" in kind.__qualname__:
             raise InputError(
                 f"kind = {_name_of(kind)!r}: workers of a study do not run the script that the "
@@ -184,17 +208,17 @@ def custom_modules(data: Mapping[str, Any]) -> tuple[str, ...]:
     return tuple(sorted(modules))
 
 
-def _name_of(kind: type[CustomJoint]) -> str:
+def _name_of(kind: type[CustomKind]) -> str:
     return kind.registered_name or f"{kind.__module__}:{kind.__qualname__}"
 
 
-def _loaded(name: str) -> type[CustomJoint] | None:
+def _loaded(name: str, base: type[Kind]) -> type[Kind] | None:
     """Return the class of a name among those that Python has made by now; the last one counts."""
-    found = [kind for kind in _derived(CustomJoint) if _name_of(kind) == name]
+    found = [kind for kind in _derived(base) if _name_of(kind) == name]
     return found[-1] if found else None
 
 
-def _derived(base: Any) -> Iterator[type[CustomJoint]]:
+def _derived(base: type[Kind]) -> Iterator[type[Kind]]:
     for kind in base.__subclasses__():
         yield kind
         yield from _derived(kind)
@@ -212,7 +236,8 @@ def _kinds_in(data: Any, path: str = "") -> Iterator[str]:
         yield data
 
 
-def _refusal(name: str) -> str:
+def refusal(name: str) -> str:
+    """Return why a kind is not loaded, and how that is allowed."""
     module = name.partition(":")[0]
     return (
         f"names code, the module {module!r}, and a file that names code runs it with all your "

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, cast
 
 from exu_press.errors import InputError
-from exu_press.scene.custom import CustomJoint, UnresolvedJoint, joint_class
+from exu_press.scene.custom import CustomJoint, UnresolvedJoint, custom_class
 from exu_press.scene.oil import Oil
 from exu_press.scene.tables import Contact, Film, Friction, asperity_onset
 from exu_press.scene.worn import Worn
@@ -125,7 +125,7 @@ def keys_used(kind: Any, at_contact: Any) -> tuple[str, ...]:
         return (*SIZES, *touching, "worn")
     if kind == "lubricated":
         return (*SIZES, "film", *(touching if at_contact == "mixed" else ()), "worn")
-    own = joint_class(kind)
+    own = custom_class(kind, CustomJoint)
     return () if own is None else tuple(field.name for field in dataclasses.fields(own))
 
 

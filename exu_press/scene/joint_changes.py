@@ -6,9 +6,12 @@ from typing import Any
 from exu_press.errors import InputError
 from exu_press.scene.joint import LAW_TABLES, IdealJoint, Joint
 from exu_press.scene.joints import keys_given
-from exu_press.schema.checks import changed_table
+from exu_press.scene.worn import Worn
+from exu_press.schema.checks import Table, changed_table, nearest
 
 __all__ = ["by_group", "changed_joints", "unused_laws"]
+
+TABLES_OF_JOINTS: dict[str, type[Table]] = {**LAW_TABLES, Worn.table: Worn}
 
 
 def unused_laws(joints: Collection[Joint]) -> dict[str, str]:
@@ -43,10 +46,13 @@ def changed_joints(
                 changed[member] = keys_given(name, value)
             elif not last:
                 keys[key or "kind"] = value
-            elif key in LAW_TABLES and isinstance(keys.setdefault(key, {}), dict):
-                keys[key] = changed_table(LAW_TABLES[key], keys[key], {last: value})
+            elif key in TABLES_OF_JOINTS and isinstance(keys.setdefault(key, {}), dict):
+                keys[key] = changed_table(TABLES_OF_JOINTS[key], keys[key], {last: value})
             else:
-                raise InputError(f"joints.{path} = {value!r}: {key} is no table of a joint")
+                raise InputError(
+                    f"joints.{path} = {value!r}: {key} is no table of a joint"
+                    f"{nearest(key, TABLES_OF_JOINTS)}; allowed are {', '.join(TABLES_OF_JOINTS)}"
+                )
     return changed
 
 

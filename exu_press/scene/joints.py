@@ -6,7 +6,7 @@ from typing import Any
 
 from exu_press.errors import InputError, UnusedKeyError, prefixed
 from exu_press.laws.film import FILM_LAWS
-from exu_press.scene.custom import CustomJoint, UnresolvedJoint, joint_class
+from exu_press.scene.custom import CustomJoint, UnresolvedJoint, custom_class
 from exu_press.scene.joint import (
     JOINT_KINDS,
     LAW_TABLES,
@@ -217,7 +217,7 @@ def _joint(
     place = f"joints.{name}"
     kind = given.get("kind")
     with prefixed(f"{place}."):
-        own_class = joint_class(kind)
+        own_class = custom_class(kind, CustomJoint)
     if kind not in [*JOINT_KINDS] and own_class is None:
         what = f"{place}.kind = {kind!r}" if "kind" in given else f"{place} has no kind"
         raise InputError(f"{what}: allowed is one of {', '.join(map(repr, JOINT_KINDS))}")
@@ -280,7 +280,7 @@ def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
                     "interface law or more"
                 )
         if joint.contact is not None:
-            contact_law(joint, revolute=not spherical)
+            contact_law(joint, revolute=not spherical, crank_speed=1.0)
         if joint.friction is not None:
             friction_law(joint.friction)
         if isinstance(joint, LubricatedJoint):

@@ -33,15 +33,19 @@ __all__ = [
     "friction_law",
     "guide_contact_law",
     "guide_friction_law",
+    "slowest_impact",
 ]
 
 
-def contact_law(joint: DryJoint | LubricatedJoint, *, revolute: bool) -> NormalContact:
+def contact_law(
+    joint: DryJoint | LubricatedJoint, *, revolute: bool, crank_speed: float
+) -> NormalContact:
     """Return the normal contact of a joint that has one; only a revolute one can be cylindrical.
 
     Args:
         joint: complete, as a scene has it.
         revolute: whether the joint is a journal in a bearing.
+        crank_speed: rad/s.
     """
     table, clearance, radius = joint.contact, joint.clearance, joint.radius
     assert table is not None
@@ -55,17 +59,26 @@ def contact_law(joint: DryJoint | LubricatedJoint, *, revolute: bool) -> NormalC
         stiffness = hertz(hertz_stiffness(curvature_radius, table.modulus), table.exponent)
     else:
         stiffness = hertz(table.stiffness, table.exponent)
-    return _damped(table, stiffness)
+    return _damped(table, stiffness, slowest_impact(table, clearance, crank_speed))
 
 
-def _damped(table: Contact, stiffness: Stiffness) -> NormalContact:
+def slowest_impact(table: Contact, clearance: float, crank_speed: float) -> float:
+    """Return the speed, m/s, as which contacts that begin slower are damped.
+
+    Unless given, the speed of a journal that follows a load around its bearing as the crank (rad/s)
+    turns: above that of the penetration of a lasting contact, and below that of impacts.
+    """
+    return table.slowest_impact or crank_speed * clearance
+
+
+def _damped(table: Contact, stiffness: Stiffness, slowest: float) -> NormalContact:
     """Return the normal contact with an elastic part and the damping of [contact]."""
     parameters: dict[str, float]
     if table.damping == "step":
         assert table.damping_max is not None and table.damping_depth is not None
         parameters = {"damping_max": table.damping_max, "damping_depth": table.damping_depth}
     else:
-        parameters = {"restitution": table.restitution}
+        parameters = {"restitution": table.restitution, "slowest_impact": slowest}
     law = DAMPING_LAWS[table.damping]
     with prefixed("contact."):
         return law(stiffness, tension=table.tension, **parameters)
@@ -87,14 +100,19 @@ def friction_law(table: Friction) -> FrictionLaw | LuGre:
         return laws[table.law]()
 
 
-def guide_contact_law(contact: Contact, stiffness: float) -> NormalContact:
+def guide_contact_law(
+    contact: Contact, stiffness: float, clearance: float, crank_speed: float
+) -> NormalContact:
     """Return the normal contact of a guided body's end with its guideways.
 
     Args:
         contact: [contact] of the scene, whose damping it has.
         stiffness: of the end, N/m; the force is linear in the penetration.
+        clearance: on each side, m.
+        crank_speed: rad/s.
     """
-    return _damped(contact, hertz(stiffness, 1.0))
+    slowest = slowest_impact(contact, clearance, crank_speed)
+    return _damped(contact, hertz(stiffness, 1.0), slowest)
 
 
 def guide_friction_law(guide: ElasticGuide, friction: Friction | None) -> FrictionLaw | LuGre:

@@ -1,17 +1,30 @@
 """One load: a blanking pulse, a table of forces, a sheet or a spring."""
 
+import dataclasses
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, Self
 
 from exu_press.errors import InputError
 from exu_press.laws.load_curve import REVOLUTION, LoadCurve, PulseClock, blanking_pulse
 from exu_press.laws.sheet import SHAPE, Sheet, shear_force
 from exu_press.scene.bodies import Face, patch_given
+from exu_press.scene.custom import CustomKind
 from exu_press.schema.checks import Table, check_columns, check_increasing, key
 
-__all__ = ["COLUMNS", "LOAD_KINDS", "BlankingLoad", "Load", "SheetLoad", "SpringLoad", "TableLoad"]
+__all__ = [
+    "COLUMNS",
+    "LOAD_KINDS",
+    "BlankingLoad",
+    "CustomLoad",
+    "Load",
+    "SheetLoad",
+    "SpringLoad",
+    "TableLoad",
+    "UnresolvedLoad",
+]
 
 COLUMNS = ("time", "crank_angle_deg", "height")
 """Variables that a table's forces may be given over."""
@@ -259,7 +272,52 @@ class SpringLoad(_Placed):
         return LoadCurve(places, tuple(reversed(self.force)))
 
 
-Load = BlankingLoad | TableLoad | SheetLoad | SpringLoad
+@dataclass(frozen=True)
+class CustomLoad(CustomKind, _Placed, ABC):
+    """Base of a load kind of your own; `kind = "my_module:MyClass"` names it in a scene.
+
+    The derived dataclass declares its keys by `exu_press.schema.checks.key`, and `over`, one of
+    "time" (s), "crank_angle_deg" (its curve is over rad) and "height" (m), as class variables.
+    """
+
+    over: ClassVar[str] = "height"
+    closing: ClassVar[bool] = False
+
+    @abstractmethod
+    def curve(self, angular_speed: float) -> LoadCurve:
+        """Return the force, N, at a speed of the crank, rad/s."""
+
+
+@dataclass(frozen=True)
+class UnresolvedLoad(CustomLoad):
+    """A load of a result whose kind is code that is not loaded: it is shown, and not built.
+
+    Attributes:
+        name: of the kind.
+        keys: as the result has them.
+    """
+
+    over: ClassVar[str] = "time"
+    name: str = ""
+    keys: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)
+
+    @classmethod
+    def of(cls, name: str, keys: Mapping[str, Any]) -> Self:
+        """Return the load of a kind and its keys."""
+        placed = {k: v for k, v in keys.items() if k in _Placed.__dataclass_fields__}
+        return cls(**placed, name=name, keys=keys)
+
+    @property
+    def kind(self) -> str:
+        """Name of the class, as the result has it."""
+        return self.name
+
+    def curve(self, angular_speed: float) -> LoadCurve:
+        """Return forces that are no numbers: they are unknown."""
+        return LoadCurve([0.0, 1.0], [math.nan, math.nan])
+
+
+Load = BlankingLoad | TableLoad | SheetLoad | SpringLoad | CustomLoad
 LOAD_KINDS: dict[str, type[Load]] = {
     kind.kind: kind for kind in (BlankingLoad, TableLoad, SheetLoad, SpringLoad)
 }

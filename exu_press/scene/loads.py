@@ -9,10 +9,22 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError, prefixed
+from exu_press.laws.load_curve import LoadCurve
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
-from exu_press.scene.load import COLUMNS, LOAD_KINDS, BlankingLoad, Load, SheetLoad, SpringLoad
-from exu_press.schema.checks import demand_known, demand_name, plain
+from exu_press.scene.custom import custom_class
+from exu_press.scene.load import (
+    COLUMNS,
+    LOAD_KINDS,
+    BlankingLoad,
+    CustomLoad,
+    Load,
+    SheetLoad,
+    SpringLoad,
+    UnresolvedLoad,
+)
+from exu_press.scene.tables import RPM
+from exu_press.schema.checks import demand_keys, demand_known, demand_name, plain
 from exu_press.schema.two_columns import read_two_columns
 
 __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
@@ -46,6 +58,8 @@ def loads_of(
             text = str(error)
             raise InputError(text if text.startswith(where) else f"{where}.{text}") from None
         _check_body(where, load, mechanism, flexible)
+        if isinstance(load, CustomLoad):
+            _check_curve(where, load, speed_rpm)
         if isinstance(load, SheetLoad | SpringLoad):
             _check_height(where, load, mechanism)
         if isinstance(load, BlankingLoad) and load.rise + load.fall > 60.0 / speed_rpm:
@@ -58,6 +72,8 @@ def loads_of(
 
 def load_dict(load: Load) -> dict[str, Any]:
     """Return a load as a mapping; a table with its numbers, not its file."""
+    if isinstance(load, UnresolvedLoad):
+        return {"kind": load.kind, **load.keys}
     keys = {"kind": load.kind, **plain(load)}
     if load.face is not None:
         faces = [face_dict(face) for face in load.face]
@@ -115,9 +131,11 @@ def _load(where: str, given: Any) -> Load:
     kinds = ", ".join(map(repr, LOAD_KINDS))
     if "kind" not in keys:
         raise InputError(f"{where} has no kind: allowed is one of {kinds}")
-    if (kind := keys.pop("kind")) not in [*LOAD_KINDS]:
+    kind = keys.pop("kind")
+    table = LOAD_KINDS[kind] if kind in [*LOAD_KINDS] else custom_class(kind, CustomLoad)
+    if table is None:
         raise InputError(f"kind = {kind!r}: allowed is one of {kinds}")
-    known = ["kind", *(field.name for field in dataclasses.fields(LOAD_KINDS[kind]))]
+    known = ["kind", *(field.name for field in dataclasses.fields(table))]
     if kind == "table":
         known.append("file")
     for name in [name for name in keys if name not in known]:
@@ -131,7 +149,8 @@ def _load(where: str, given: Any) -> Load:
             raise InputError(f"file and {both[0]}: allowed is one of the two")
         with prefixed("file: "):
             keys |= _read_table(Path(path))
-    return LOAD_KINDS[kind](**keys)
+    load: Load = table(**keys)
+    return load
 
 
 def _read_table(path: Path) -> dict[str, list[float]]:
@@ -143,6 +162,20 @@ def _read_table(path: Path) -> dict[str, list[float]]:
     if len(read.places) < 2:
         raise InputError(f"{path}: {len(read.places)} lines of numbers; allowed are at least two")
     return {read.head[0]: read.places, "force": read.values}
+
+
+def _check_curve(where: str, load: CustomLoad, speed_rpm: float) -> None:
+    """Make a curve of the user's own once, so that it is refused before anything is run."""
+    own = [field.name for field in dataclasses.fields(load) if field.default is None]
+    demand_keys(where, load, [name for name in own if name not in _PLACES], "", f"[{where}]")
+    if load.over not in COLUMNS:
+        raise InputError(f"{where}: {load.kind}.over = {load.over!r}: allowed is one of {COLUMNS}")
+    with prefixed(f"{where}: "):
+        curve = load.curve(speed_rpm * RPM)
+    if not isinstance(curve, LoadCurve):
+        raise InputError(
+            f"{where}: {load.kind}.curve() returns {curve!r:.80}: allowed is a LoadCurve"
+        )
 
 
 def _check_height(where: str, load: SheetLoad | SpringLoad, mechanism: Mechanism) -> None:

@@ -105,8 +105,9 @@ def body_lines(body: Flexible, comments: bool, *, absent: bool = False) -> list[
 
 def load_lines(load: Load, comments: bool, *, absent: bool = False) -> list[str]:
     """Return the keys of a load; arguments as those of `table_lines`."""
-    meanings = {"kind": " | ".join(LOAD_KINDS), **_meanings(load)}
-    return _given_lines(load_dict(load), meanings, comments, absent)
+    keys = load_dict(load)
+    meanings = {**dict.fromkeys(keys, ""), "kind": " | ".join(LOAD_KINDS), **_meanings(load)}
+    return _given_lines(keys, meanings, comments, absent)
 
 
 def joint_lines(joints: Joints, laws: Laws, comments: bool) -> list[str]:

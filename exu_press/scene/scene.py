@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast, overload
 
@@ -22,7 +22,7 @@ from exu_press.mechanism.examine import require_turning
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.built import Built
 from exu_press.scene.changes import asked_mechanism, changed_keys, drop, named
-from exu_press.scene.custom import UnresolvedJoint, import_kinds, with_unresolved
+from exu_press.scene.custom import UnresolvedJoint, import_kinds, refusal, with_unresolved
 from exu_press.scene.elastic import with_elastic_guides
 from exu_press.scene.file import parse_assignment, scene_tables
 from exu_press.scene.joint import (
@@ -35,7 +35,7 @@ from exu_press.scene.joint import (
 )
 from exu_press.scene.joint_changes import by_group, unused_laws
 from exu_press.scene.joints import Joints, joints_of
-from exu_press.scene.load import Load
+from exu_press.scene.load import LOAD_KINDS, Load, UnresolvedLoad
 from exu_press.scene.loads import load_dict, loads_of
 from exu_press.scene.motor import Motor
 from exu_press.scene.output import Output
@@ -58,6 +58,12 @@ WARM = 3.0
 
 STARTS = ("loaded", "centred")
 """The first one is that of a mechanism without a default of its own."""
+
+UNRESOLVED = {
+    "joints": (frozenset(JOINT_KINDS), UnresolvedJoint),
+    "load": (frozenset(LOAD_KINDS), UnresolvedLoad),
+}
+"""Tables whose kinds may be users' -> the kinds that are not, and what stands for unloaded ones."""
 
 ONLY_WHERE_GIVEN = ("drive", "guide", "output", "wear")
 """Tables that a scene without them does not have: constant speed, ideal guides, no samples."""
@@ -288,9 +294,10 @@ class Scene(Table):
         Args:
             data: its tables.
             asked: as above.
-            resolve: False takes kinds of joints whose code is not loaded as `UnresolvedJoint`.
+            resolve: False takes kinds whose code is not loaded as `UnresolvedJoint` and
+                `UnresolvedLoad`.
         """
-        scene = table_from(cls, "", data if resolve else with_unresolved(data, JOINT_KINDS))
+        scene = table_from(cls, "", data if resolve else with_unresolved(data, UNRESOLVED))
         object.__setattr__(scene, "asked", frozenset(asked))
         return scene
 
@@ -382,8 +389,20 @@ class Scene(Table):
 
     @property
     def unresolved(self) -> bool:
-        """Whether a joint's kind is code that is not loaded: the scene can be shown, not built."""
-        return any(isinstance(joint, UnresolvedJoint) for joint in self.joints.values())
+        """Whether a kind is code that is not loaded: the scene can be shown, and not built."""
+        return any(self._unresolved())
+
+    def require_code(self) -> None:
+        """Raise InputError for a kind whose code is not loaded."""
+        for name, kind in self._unresolved():
+            raise InputError(f"{name}.kind = {kind!r}: {refusal(kind)}")
+
+    def _unresolved(self) -> Iterator[tuple[str, str]]:
+        """Yield dotted name and kind of what has a kind whose code is not loaded."""
+        for table in ("joints", "load"):
+            for name, one in getattr(self, table).items():
+                if isinstance(one, UnresolvedJoint | UnresolvedLoad):
+                    yield f"{table}.{name}", one.kind
 
     @property
     def shipped(self) -> str:
@@ -418,11 +437,15 @@ class Scene(Table):
         if self.drive is not None and self.drive.scheduled:
             return 0.0
         usual = mechanism_of(self).defaults.get("settle", 1.0)
-        warms = any(oil_of(joint) is not None for joint in self.joints.values())
-        if warms and self.revolutions >= WARM + 1.0:
+        if self.warms and self.revolutions >= WARM + 1.0:
             usual = max(usual, WARM)
         least = 2.0 if self.drive is None else 3.0  # a motor may lag behind its revolutions
         return float(usual) if self.revolutions >= least else 0.0
+
+    @property
+    def warms(self) -> bool:
+        """Whether the oil of a film warms."""
+        return any(oil_of(joint) is not None for joint in self.joints.values())
 
     @property
     def duration(self) -> float:

@@ -64,7 +64,7 @@ class Contact(Table):
             "point": ("stiffness", "exponent", "modulus"),
             "cylindrical": ("modulus", "length"),
         },
-        "damping": dict.fromkeys(DAMPING_LAWS, ("restitution",))
+        "damping": dict.fromkeys(DAMPING_LAWS, ("restitution", "slowest_impact"))
         | {"step": ("damping_max", "damping_depth")},
     }
 
@@ -97,6 +97,14 @@ class Contact(Table):
     damping_depth: float | None = key(None, "d_max", "m", above=0, example=1e-6)
     restitution: float = key(
         0.9, "wanted restitution", above=0, at_most=1, source="steel pins, Flores et al. 2008"
+    )
+    slowest_impact: float | None = key(
+        None,
+        "contacts that begin slower are damped as one at this speed; that of the crank, rad/s, "
+        "times the clearance unless given",
+        "m/s",
+        above=0,
+        example=1e-3,
     )
     tension: bool = key(False, "let the damping pull, as the printed law does (A-10)")
 

@@ -42,7 +42,7 @@ def _lines(scene: Scene) -> Iterator[str]:
         if isinstance(value, Joints):
             yield from ("", *_all_joints(value), *joint_lines(value, scene.laws, True))
             if not value.grouped:  # an example
-                name = list(value)[-1]
+                name = [joint for joint in value if joint not in value.spherical][-1]
                 dry = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
                 example = scene.replace({f"joints.{name}": dry, "contact": {"length": 0.05}})
                 shown = joint_lines(example.joints, example.laws, True)[1:]

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, prefixed
 from exu_press.files.output_directory import replacing
-from exu_press.schema.stored import LARGEST
+from exu_press.schema.stored import LARGEST, shown
 
 __all__ = ["Value", "flat", "read_csv", "write_csv"]
 
@@ -30,15 +30,19 @@ def read_csv(path: Path) -> dict[str, tuple[Value, ...]]:
 
     Raises:
         OSError: it cannot be read.
-        ValueError: it is no table.
+        ValueError: it is no table, or has a number that is none or too large, in this column.
     """
     try:
         with path.open(encoding="utf-8", newline="") as stream:
             head, *lines = csv.reader(stream)
     except csv.Error as error:
         raise ValueError(f"{path.name}: {error}") from None
-    columns = zip(*lines, strict=True) if lines else [()] * len(head)
-    return {n: tuple(map(_value, each)) for n, each in zip(head, columns, strict=True)}
+    columns: dict[str, tuple[Value, ...]] = {}
+    cells = zip(*lines, strict=True) if lines else [()] * len(head)
+    for name, texts in zip(head, cells, strict=True):
+        with prefixed(f"column {shown(name)}: "):
+            columns[name] = tuple(map(_value, texts))
+    return columns
 
 
 def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -67,11 +71,13 @@ def _text(value: Value) -> str:
 
 
 def _value(text: str) -> Value:
-    """Return the content of a cell: a finite number, or a text."""
+    """Return the content of a cell: a number, or a text; raise InputError if it is too large."""
     if text in ("true", "false"):
         return text == "true"
     try:
         number = float(text)
     except ValueError:
         return text or None
-    return number if abs(number) < LARGEST else text
+    if not abs(number) < LARGEST:
+        raise InputError(f"{shown(text)}: allowed are numbers below {LARGEST:g}")
+    return number

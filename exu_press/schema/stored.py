@@ -14,6 +14,9 @@ T = TypeVar("T")
 LARGEST = 1e100
 """Largest number that is taken for a quantity: its square is a number too."""
 
+MOST_DIGITS = 4000
+"""Of a whole number: Python itself refuses more than 4300, without saying which number it is."""
+
 NOUNS = {
     str: "a text",
     bool: "true or false",
@@ -38,11 +41,16 @@ def from_json(kind: type[T], text: str | bytes, where: str) -> T:
         InputError: the text is no JSON, or its content is of another kind.
     """
     try:
-        return cast(T, _checked(kind, json.loads(text), where))
+        return cast(T, _checked(kind, json.loads(text, parse_int=_whole_number), where))
     except InputError:
         raise
     except (ValueError, RecursionError):  # too many nested lists
         raise InputError(f"{where} = {shown(text)}: allowed is JSON") from None
+
+
+def _whole_number(digits: str) -> float:
+    """Return a whole number; one of too many digits is infinite, which is refused by its name."""
+    return int(digits) if len(digits) < MOST_DIGITS else float(digits)
 
 
 def shown(value: object) -> str:

@@ -64,17 +64,22 @@ class SceneAdvice(Advice):
 
     def film(self) -> str:
         """Return the cure of a film that broke down."""
-        slips = self._slips()
-        thicker = "film.at_contact = 'mixed', or a larger film.viscosity or film.length"
-        return f"another value, as this one is hardly meant: {slips}" if slips else thicker
+        return self._slips_or(
+            "film.at_contact = 'mixed', or a larger film.viscosity or film.length"
+        )
 
     def smallest(self) -> str:
         """Return the cure where steps became too small."""
-        return "a larger solver.tolerance or a smaller solver.min_step"
+        return self._slips_or("a larger solver.tolerance or a smaller solver.min_step")
 
     def budget(self) -> str:
         """Return the cure where too many steps were needed."""
-        return f"fewer revolutions, a larger {self.setting} or solver.max_steps"
+        larger = f"fewer revolutions, a larger {self.setting} or solver.max_steps"
+        return self._slips_or(larger)
+
+    def convergence(self) -> str:
+        """Return the cure where Newton's method did not converge."""
+        return self._slips_or(super().convergence())
 
     def redundancy(self, redundant: int) -> str:
         """Return the cure where so many constraints are redundant."""
@@ -95,9 +100,8 @@ class SceneAdvice(Advice):
         return " (viscosity of the film, clearance)" if joint.lubricated else " (contact)"
 
     def cause(self) -> str:
-        """Return that the pin seizes, a film is too thin or a size hardly meant, or nothing."""
-        slips = self._slips()
-        return self._seizing() + self._thin_film() + (f"; hardly meant: {slips}" if slips else "")
+        """Return that the pin seizes or a film is too thin, or nothing."""
+        return self._seizing() + self._thin_film()
 
     def resolution(self, worst: Unresolved) -> str:
         """Return the step or the tolerance that resolves the impacts."""
@@ -108,9 +112,10 @@ class SceneAdvice(Advice):
         needed = min([0.5 * worst.step, *impact_steps(self._model)])
         return f"solver.step = {_rounded_down(needed):.0e}"
 
-    def _slips(self) -> str:
-        """Return in words that a size is hardly meant, or nothing."""
-        return "; ".join(slip.partition(". ")[0] for slip in doubtful_sizes(self._scene))
+    def _slips_or(self, cure: str) -> str:
+        """Return that another size is the cure where one is hardly meant, or the usual cure."""
+        slips = "; ".join(slip.partition(". ")[0] for slip in doubtful_sizes(self._scene))
+        return f"another value, as this one is hardly meant: {slips}" if slips else cure
 
     def _seizing(self) -> str:
         """Return in words which pin of the crank has a friction circle wide enough to seize.

@@ -43,7 +43,9 @@ def impact_steps(model: Assembled) -> Iterator[float]:
         touches = free[:-1] & ~free[1:]
         speed = float(closing[:-1][touches].max(initial=0.0))
         if speed > 0.0:
-            law = contact_law(kind, revolute=not description.spherical)
+            law = contact_law(
+                kind, revolute=not description.spherical, crank_speed=scene.angular_speed
+            )
             mass = min(masses[description.journal], masses[description.bearing])
             yield _rise_time(law, mass, speed) / STEPS_IN_A_RISE
 

@@ -220,7 +220,9 @@ def _on_contacts(result: Result) -> Iterator[Mark]:
         steps = np.gradient(result.time)
         forces = lengths(result[f"{joint.name}_force"])
         mean = float((forces * steps)[touches].sum() / steps[touches].sum())
-        law = contact_law(kind, revolute=not joint.spherical)
+        law = contact_law(
+            kind, revolute=not joint.spherical, crank_speed=result.scene.angular_speed
+        )
 
         def missing(depth: float, law: object = law, mean: float = mean) -> float:
             return float(law.force(depth, 0.0, 1.0)[0]) - mean  # type: ignore[attr-defined]

@@ -1,7 +1,12 @@
-"""Figures over revolutions: mean, scatter and percentiles, and how well each of them is known."""
+"""Figures over revolutions: mean, scatter and percentiles, and how well each of them is known.
+
+Two parts make the error of each: the statistics of finitely many revolutions, and what the steps of
+a revolution miss, from pairs of revolutions that begin in one state, at the scene's tolerance and
+at a finer one.
+"""
 
 import math
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -11,12 +16,32 @@ from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.quantities import quantities_of
 from exu_press.quantities.value import numbers_of
+from exu_press.result import Result
 from exu_press.result.run import run_once
 from exu_press.result.windows import revolutions_of
 from exu_press.scene import Scene
 from exu_press.terminal.progress import Progress
+from exu_press.verification.estimate import ORDER
 
-__all__ = ["BATCHES", "LEAST_REVOLUTIONS", "Distribution", "distributions", "percentiles"]
+__all__ = [
+    "BATCHES",
+    "FINER",
+    "LEAST_REVOLUTIONS",
+    "Distribution",
+    "distributions",
+    "finer",
+    "of_steps",
+    "percentiles",
+]
+
+FINER = 0.1
+"""Tolerance (or fixed step) of a revolution that tells what another one misses, over its own."""
+
+FINEST = 1e-8
+"""No revolution has a finer tolerance."""
+
+PAIRS = 5
+"""Pairs of revolutions that are compared."""
 
 PERCENTILES = (5.0, 50.0, 95.0)
 
@@ -45,10 +70,10 @@ class Distribution:
 
     Attributes:
         revolutions: how many.
-        mean: with its standard error.
-        scatter: standard deviation, with its standard error.
+        mean: with its error.
+        scatter: standard deviation, with its error.
         percentiles: percentile -> the value, and between which values it lies with a confidence of
-            90 %.
+            90 % by the statistics, each further out by what steps miss.
     """
 
     revolutions: int
@@ -57,14 +82,22 @@ class Distribution:
     percentiles: dict[float, tuple[float, float, float]]
 
     @classmethod
-    def of(cls, values: Sequence[float] | Array) -> Self:
-        """Return the distribution of values, one a revolution, two at least, in their order."""
+    def of(cls, values: Sequence[float] | Array, missed: float = 0.0) -> Self:
+        """Return the distribution of values.
+
+        Args:
+            values: one a revolution, two at least, in their order.
+            missed: error of each by the steps, as `of_steps` returns it.
+        """
         each = np.asarray(values, dtype=float)
         return cls(
             len(each),
-            (float(each.mean()), _jackknife(each, _mean)),
-            (float(each.std(ddof=1)), _jackknife(each, _deviation)),
-            percentiles([float(value) for value in each]),
+            (float(each.mean()), _jackknife(each, _mean) + missed),
+            (float(each.std(ddof=1)), _jackknife(each, _deviation) + missed),
+            {
+                percent: (value, low - missed, high + missed)
+                for percent, (value, low, high) in percentiles(each.tolist()).items()
+            },
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -89,7 +122,7 @@ def _deviation(values: Array) -> float:
 
 
 def _jackknife(values: Array, statistic: Callable[[Array], float]) -> float:
-    """Return the standard error of a statistic, by leaving out one batch after the other.
+    """Return half of a statistic's interval of 95 %, by leaving out one batch after the other.
 
     Revolutions that follow each other depend on each other, batches of them hardly do (B. Efron,
     The Jackknife, the Bootstrap and Other Resampling Plans, SIAM 1982, 3). NaN of fewer values
@@ -99,7 +132,44 @@ def _jackknife(values: Array, statistic: Callable[[Array], float]) -> float:
         return math.nan
     parts = np.array_split(np.arange(len(values)), min(BATCHES, len(values)))
     found = np.array([statistic(np.delete(values, part)) for part in parts])
-    return math.sqrt((len(parts) - 1) * float(((found - found.mean()) ** 2).mean()))
+    deviation = math.sqrt((len(parts) - 1) * float(((found - found.mean()) ** 2).mean()))
+    return _student(len(parts)) * deviation
+
+
+def _student(count: int) -> float:
+    """Return half of the interval of 95 % over the standard error of a mean of so many values."""
+    from scipy.stats import t  # takes as long to import as a short run
+
+    return float(t.ppf(0.975, count - 1))
+
+
+def of_steps(apart: Sequence[float]) -> float:
+    """Return what steps miss of a figure in the mean, from its differences in two pairs or more.
+
+    It is what all of them have in common, and how well that is known: where a motion amplifies
+    errors within a revolution, differences scatter.
+
+    >>> round(of_steps([1.0, 1.0]), 3)
+    1.462
+    """
+    values = np.asarray(apart)
+    known = _student(len(values)) * values.std(ddof=1) / math.sqrt(len(values))
+    return (abs(float(values.mean())) + float(known)) / float(1.0 - FINER**ORDER)
+
+
+def finer(scene: Scene) -> Scene:
+    """Return a scene at FINER times its tolerance, or fixed step."""
+    solver = scene.solver
+    assert solver is not None
+    if solver.tolerance is None:
+        assert solver.step is not None
+        return scene.replace({"solver.step": FINER * solver.step})
+    return scene.replace(
+        {
+            "solver.tolerance": max(FINER * solver.tolerance, FINEST),
+            "solver.max_step_deg": math.sqrt(FINER) * solver.max_step_deg,
+        }
+    )
 
 
 def percentiles(values: Sequence[float]) -> dict[float, tuple[float, float, float]]:
@@ -156,14 +226,18 @@ def distributions(
         if name in names and not one.quantity.cumulative
     }
     values: dict[str, list[float]] = {name: [] for name in declared}
+    apart: dict[str, list[float]] = {name: [] for name in declared}
     found: dict[str, Distribution] = {}
     count, start = 0, 0
     with Progress("distribution", most, "revolutions", quiet=quiet) as progress:
         while values and count < most:
             angle = (scene.start_angle_deg + GOLDEN * start) % 360.0
             run = run_once(scene.replace({"revolutions": AT_A_TIME, "start_angle_deg": angle}))
-            if not run.completed:
-                raise InputError(f"no distribution, as a run {run.info['reason']}")
+            _check(run)
+            if start < PAIRS:
+                one, two = (numbers_of(each, declared) for each in _pair(run))
+                for name in apart:
+                    apart[name].append(one.get(name, math.nan) - two.get(name, math.nan))
             new = [numbers_of(one, declared) for one in revolutions_of(run)[1:]]
             values = {
                 name: [*so_far, *(one[name] for one in new)]
@@ -172,10 +246,28 @@ def distributions(
             }
             count, start = count + len(new), start + 1
             progress.update(count)
-            found = {name: Distribution.of(each) for name, each in values.items()}
-            if count >= least and all(_known(one, within) for one in found.values()):
+            if start >= 2:
+                found = {
+                    name: Distribution.of(each, of_steps(apart[name]))
+                    for name, each in values.items()
+                }
+            if start > 1 and count >= least and all(_known(one, within) for one in found.values()):
                 break
     return found
+
+
+def _pair(run: Result) -> Iterator[Result]:
+    """Yield the revolution after a run at the run's tolerance and at a finer one."""
+    scene = run.scene.replace({"revolutions": 1.0, "settle": 0.0})
+    for each in (scene, finer(scene)):
+        revolution = run_once(each, start=run.info["state"])
+        _check(revolution)
+        yield revolution
+
+
+def _check(run: Result) -> None:
+    if not run.completed:
+        raise InputError(f"no distribution, as a run {run.info['reason']}")
 
 
 def _known(found: Distribution, within: float) -> bool:

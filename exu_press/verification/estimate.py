@@ -10,23 +10,13 @@ from exu_press.quantities import Extreme
 from exu_press.quantities.kind import ROUNDING
 from exu_press.result.info import Error
 
-__all__ = [
-    "SAFETY",
-    "SAFETY_OF_STEPS",
-    "converging",
-    "of_both",
-    "of_one",
-    "scattered",
-]
+__all__ = ["ORDER", "converging", "of_both", "of_one", "scattered"]
 
-SAFETY = 1.5
-"""Factor on errors that go with the tolerance. Of 107 random scenes of scripts/calibrate_errors.py
-98.5 % of the figures are covered with 1.2, 98.9 % with 1.5, 99.1 % with 1.8, at 3.4, 3.9 and 4.4
-times the true error in the median; of long dry ones 96.0, 96.5 and 96.8 %."""
-
-SAFETY_OF_STEPS = 3.0
-"""Factor on errors that go with a fixed step: impacts and films that it leaps over are not sampled
-better by half of it."""
+ORDER = 0.5
+"""Power of the tolerance (or step) that errors are taken to go with. Most go with the tolerance
+itself, and are stated three times too large then by runs at half and at 4 times it. But peaks of
+vibrations behind impacts, and what is counted over touches, go with its root, and three runs may
+agree by chance; scripts/calibrate_errors.py has shown ORDER."""
 
 NINETEEN_IN_TWENTY = {1: 11.0, 2: 3.85, 3: 2.9, 4: 2.55}
 """Over the root mean square of a normal sample's differences to so many others: within this of it
@@ -40,32 +30,31 @@ def converging(
     values: Sequence[float],
     ratios: Sequence[float],
     least: float = 0.0,
-    safety: float = SAFETY,
     nearest: float = 0.0,
     earlier: Sequence[Sequence[float]] = (),
 ) -> Error:
-    """Return the error of a figure whose error goes with the tolerance (or the step).
+    """Return the error of a figure whose error falls with the tolerance (or the step).
 
     The first value is the figure itself, its ratio 1; of each pair of runs the difference over that
-    of the ratios is an estimate, and the largest counts: two values may agree by chance.
+    of the ratios' powers is an estimate, and the largest counts.
 
     Args:
         values: the figure at several tolerances.
         ratios: of these tolerances to the first.
         least: error, in the figure's unit.
-        safety: factor on what the differences say.
         nearest: error over the difference from the second run at least, where only this one still
             has the first one's motion; the others' differences do not go with the tolerance then.
         earlier: the values at instants before, of a figure that swings: the largest error counts.
 
-    >>> round(converging([1.01, 1.04, 1.08], [1.0, 4.0, 8.0])["error"], 6)  # SAFETY times 1.01 - 1
-    0.015
+    >>> round(converging([1.01, 1.02, 1.03], [1.0, 4.0, 9.0])["error"], 6)  # goes with the root
+    0.01
     """
+    powers = [ratio**ORDER for ratio in ratios]
     error = 0.0
     for found in (values, *earlier):
-        pairs = combinations(zip(found, ratios, strict=True), 2)
+        pairs = combinations(zip(found, powers, strict=True), 2)
         largest = max(abs(a - b) / abs(i - j) for (a, i), (b, j) in pairs)
-        error = max(error, safety * largest, nearest * abs(found[1] - found[0]))
+        error = max(error, largest, nearest * abs(found[1] - found[0]))
     return _about(values[0], error + least, determined=True)
 
 

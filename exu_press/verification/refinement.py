@@ -16,15 +16,14 @@ __all__ = ["RefinementRuns", "plan", "refine"]
 OF_STEPS = (2.0, 3.0, 4.0)
 """Fixed steps of the refinements over the run's: their errors and cost go with the step."""
 
-PLANS: dict[float, tuple[float, float]] = {8.0: (0.5, 8.0), 2.0: (0.5, 2.0), 0.0: (0.25, 0.5)}
+PLANS: dict[float, tuple[float, float]] = {4.0: (0.5, 4.0), 2.0: (0.5, 2.0), 0.0: (0.25, 0.5)}
 """Tolerances of the refinements over the run's, by how much looser is allowed.
 
 - Two, as a single one may agree with the run by chance.
 - One is finer: at loose tolerances coarser runs do not follow the vibrations of bodies and contacts
-  and agree with each other, and not with the truth. Of 140 random scenes without flexible bodies,
-  a third of them long dry ones, runs at 4, 8 and 16 times the tolerance cover 96 % of the
-  quantities, at half and 8 times 98.5 %, for a sixth more time.
-- The other one is coarser where that is allowed, as it takes half as long as the run.
+  and agree with each other, and not with the truth.
+- The other one is coarser where that is allowed, as it takes two thirds of the run's time. At 8
+  times the tolerance it takes half of it, and agrees with the others by chance more often.
 
 The least ratio is first: it tells where the trajectories diverge.
 """

@@ -17,15 +17,10 @@ from exu_press.result import Result
 from exu_press.result.info import Error, Errors
 from exu_press.result.run import run_once
 from exu_press.result.windows import at, settled, until, window
-from exu_press.scene import Scene
+from exu_press.scene import Scene, mechanism_of
 from exu_press.verification.divergence import Divergence, divergence
-from exu_press.verification.estimate import (
-    SAFETY,
-    SAFETY_OF_STEPS,
-    converging,
-    of_both,
-    scattered,
-)
+from exu_press.verification.drift import earlier, warmed_on
+from exu_press.verification.estimate import converging, of_both, scattered
 from exu_press.verification.reading import overshot, smoothed, turned, unbalanced
 from exu_press.verification.refinement import RefinementRuns, plan
 
@@ -78,9 +73,9 @@ def simulate_with_errors(
         The result; `info` and summary have `errors`, quantity by quantity, `horizon` and
         `lyapunov_exponent` too. Of a run that stopped early, or was stopped, nothing is known.
     """
-    if not beside:
-        run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet)
-        return with_errors(run, start=start, beside=False)
+    if scene.warms or not beside:  # refinements of films have as many revolutions as they settle in
+        run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet, settling=True)
+        return with_errors(run, start=start, beside=beside)
     with RefinementRuns(scene, start) as refinements:
         run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet)
         if interruptible and run.info["status"] == SolverStatus.INTERRUPTED.value:
@@ -167,23 +162,24 @@ def errors_of(
         (OF_READING, overshot),
         (1.0, turned),
         (1.0, unbalanced),
+        (1.0, earlier),
+        (1.0, warmed_on),
     )
     reads = [(part, read(changed(result))) for part, changed in ways]
-    solver = result.scene.solver
-    safety = SAFETY if solver is not None and solver.step is None else SAFETY_OF_STEPS
     before = by_end[horizon]
     swings = {name: one for name, one in told.items() if _swings(one.quantity)}
     late = _late(runs, horizon, swings) if diverged.distances else []
     errors: dict[str, Error] = {}
     sizes = _sizes(by_end[end][1.0], told)
+    arm = mechanism_of(result.scene).size
     for name, value in by_end[end][1.0].items():
         left_open = max(part * abs(value - changed[name]) for part, changed in reads)
         quantity = told[name].quantity
         least = _least(
-            quantity, [found[name] for found in by_end[end].values() if name in found], sizes
+            quantity, [found[name] for found in by_end[end].values() if name in found], sizes, arm
         )
         told_values = by_end[end], [before, *late] if name in swings else [before], after
-        error = _error(name, quantity.extreme, *told_values, least + left_open, safety, diverged)
+        error = _error(name, quantity.extreme, *told_values, least + left_open, diverged)
         if value >= 0.0 and not quantity.signed:
             error["low"] = max(error["low"], 0.0)
             known = error["error"] <= max(value, OF_FLOOR * least)
@@ -211,7 +207,6 @@ def _error(
     before: Sequence[Numbers],
     after: Numbers,
     least: float,
-    safety: float,
     diverged: Divergence,
 ) -> Error:
     """Return the error of a quantity.
@@ -227,7 +222,6 @@ def _error(
             of which the largest error counts.
         after: of the motion from then on.
         least: least error.
-        safety: factor on errors that go with the tolerance or the step.
         diverged: how the run has parted from its refinements.
     """
     values = {ratio: found[name] for ratio, found in now.items() if name in found}
@@ -236,7 +230,7 @@ def _error(
     begun, *earlier = [{r: found[r].get(name, np.nan) for r in values} for found in before]
     later = {r: found.get(name, np.nan) for r, found in after.items() if r in values}
     swung = [list(found.values()) for found in earlier]
-    known = converging(list(begun.values()), list(values), least, safety, diverged.nearest, swung)
+    known = converging(list(begun.values()), list(values), least, diverged.nearest, swung)
     shares = [diverged.distances.get(r, 1.0) for r in values if r != 1.0]
     if later and _is_of_both(extreme, values, begun, later):
         beyond = scattered(list(later.values()), least, shares)
@@ -293,7 +287,10 @@ def _sizes(
 
 
 def _least(
-    quantity: Quantity, values: Sequence[float], sizes: Mapping[tuple[str, Extreme], float]
+    quantity: Quantity,
+    values: Sequence[float],
+    sizes: Mapping[tuple[str, Extreme], float],
+    arm: float,
 ) -> float:
     """Return the least error of a quantity, in its unit.
 
@@ -301,6 +298,7 @@ def _least(
         quantity: as it is declared.
         values: of it, in all runs; the run's own first.
         sizes: the largest values of the run, by their units and extremes.
+        arm: size of the mechanism, m.
     """
     if not any(values):
         return 0.0
@@ -309,5 +307,5 @@ def _least(
     if kind.from_accelerations and max(values) - min(values) <= kind.relative * size:
         relative = OF_THE_START
     largest = kind.of_largest * sizes.get((quantity.unit, quantity.extreme), 0.0)
-    forces = kind.of_forces * sizes.get(("N", Extreme.LARGEST), 0.0)
+    forces = kind.of_forces * arm * sizes.get(("N", Extreme.LARGEST), 0.0)
     return max(relative * size, kind.absolute, largest, forces)

@@ -49,7 +49,7 @@ def simulate(
     """
     directory = None if unfinished is None else Path(unfinished)
     if not errors:
-        return run_once(scene, start=start, unfinished=directory, quiet=quiet)
+        return run_once(scene, start=start, unfinished=directory, quiet=quiet, settling=True)
     from exu_press.verification.run import simulate_with_errors  # a run without them loads less
 
     return simulate_with_errors(

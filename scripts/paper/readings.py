@@ -6,7 +6,6 @@ from scipy.interpolate import CubicHermiteSpline
 
 from exu_press.numerics.arrays import Array
 from exu_press.quantities import Quantity, QuantityAt, differentiated_peak, mean_peak, peak
-from exu_press.quantities.joints import TOUCH
 from exu_press.quantities.kind import LOAD, MOTION, SHARE
 from exu_press.quantities.reading import Reading
 from exu_press.result import Result
@@ -126,7 +125,7 @@ def permanent_contact(time: Array, depth: Array) -> float:
         time: (n,), s.
         depth: (n,), m, of what touches first; negative where the surfaces are apart.
     """
-    touching = depth > TOUCH
+    touching = depth > 0.0
     held = np.concatenate([[False], touching[1:] & touching[:-1], [False]])
     edges = np.flatnonzero(np.diff(held.astype(int)))
     lasting = time[edges[1::2]] - time[edges[::2]]

@@ -27,7 +27,7 @@ from exu_press.scene import Scene
 from exu_press.scene.laws import contact_law, film_law
 
 SCENE = Scene()
-CONTACT = contact_law(SCENE.joints["ball_left"], revolute=True)
+CONTACT = contact_law(SCENE.joints["ball_left"], revolute=True, crank_speed=SCENE.angular_speed)
 DRY = {"radius": 0.02, "clearance": 1e-4, "contact": CONTACT, "friction": no_friction()}
 FILM = {
     "radius": 0.02,

@@ -1,3 +1,6 @@
+import hashlib
+import os
+import random
 import subprocess
 import sys
 from pathlib import Path
@@ -6,6 +9,39 @@ import numpy as np
 import pytest
 
 from fe_models import Reduction, cache, reduced_part
+
+
+def with_digest(data):
+    return data + hashlib.sha256(data).digest()
+
+
+def swapped(by, sound):
+    first, second = sorted(by.sample(range(len(sound) // 512), 2))
+    pieces = [sound[i : i + 512] for i in range(0, len(sound), 512)]
+    pieces[first], pieces[second] = pieces[second], pieces[first] + b"\0"
+    return b"".join(pieces)
+
+
+def flipped(by, sound, count=1, last=0):
+    data = bytearray(sound)
+    for _ in range(count):
+        data[by.randrange(len(data) - last if last else 0, len(data))] ^= 1 << by.randrange(8)
+    return bytes(data)
+
+
+DAMAGE = {
+    "a bit": flipped,
+    "20 bits": lambda by, sound: flipped(by, sound, 20),
+    "the directory": lambda by, sound: flipped(by, sound, 2, last=2500),
+    "the end": lambda by, sound: sound[: by.randrange(len(sound))],
+    "a page": lambda by, sound: sound[:4096] + bytes(4096) + sound[8192:],
+    "pieces": swapped,
+    "more": lambda by, sound: sound + b"\0",
+    "twice": lambda by, sound: sound + sound,
+    "another archive": lambda by, sound: with_digest(b"PK\5\6" + bytes(18)),
+    "no archive": lambda by, sound: with_digest(by.randbytes(1000)),
+    "a damaged archive": lambda by, sound: with_digest(flipped(by, sound[:-32], 20, last=2500)),
+}
 
 SCRIPT = """
 import sys, time
@@ -95,22 +131,41 @@ def test_damaged_or_foreign_file_is_not_read_but_made_again(bar, made, tmp_path:
         same(cache.load(file), part)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_any_damage_is_noticed(bar, made, tmp_path: Path, seed):
+    """Bits, bytes, pages, ends, pieces that changed places, other archives and no files at all."""
+    sound = cache.cache_file(bar, Reduction(6), made[0]).read_bytes()
+    file, by = cache.cache_file(bar, Reduction(6), tmp_path), random.Random(seed)
+    for how in (*DAMAGE, *DAMAGE, *DAMAGE):
+        file.write_bytes(DAMAGE[how](by, sound))
+        assert cache.load(file) is None, how
+    file.unlink()
+    file.mkdir()
+    assert cache.load(file) is None
+    file.rmdir()
+    os.mkfifo(file)
+    assert cache.load(file) is None
+
+
 def test_an_interrupted_write_leaves_nothing(made, tmp_path: Path, monkeypatch):
-    def interrupted(stream, **arrays):
-        stream.write(b"half")
+    """It comes between the archive and its digest."""
+
+    def interrupted(content):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(np, "savez", interrupted)
+    monkeypatch.setattr(cache.hashlib, "sha256", interrupted)
     with pytest.raises(KeyboardInterrupt):
         cache.save(made[1], tmp_path / "part.npz")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_folder_that_cannot_be_written(bar, made, tmp_path: Path):
-    """A cache is a help, not a need."""
+    """A cache is a help, not a need; one warning says that it is missing."""
     blocked = tmp_path / "file"
     blocked.touch()
-    same(reduced_part(bar, Reduction(6), folder=blocked / "cache"), made[1])
+    with pytest.warns(UserWarning, match=r"bar.*npz: cannot be written \(.*\)") as warned:
+        same(reduced_part(bar, Reduction(6), folder=blocked / "cache"), made[1])
+    assert len(warned) == 1
 
 
 def test_progress_is_reported_while_made_only(bar, tmp_path: Path):

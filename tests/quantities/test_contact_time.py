@@ -26,10 +26,10 @@ def test_free_flight_all_the_time():
     assert share_of_contact(TIME, APART) == 0.0
 
 
-def test_touching_begins_at_1e_10():
-    """Spec 2: contact where the penetration exceeds 1e-10 m."""
-    assert contacts(np.full(1001, 0.5e-10)) == 0
-    assert contacts(np.full(1001, 2e-10)) == 1
+def test_any_penetration_is_a_touch():
+    """That of a watch's shaft is 1e-17 m, and bears all of its load."""
+    assert contacts(np.zeros(1001)) == 0
+    assert contacts(np.full(1001, 1e-17)) == 1
 
 
 def test_a_touch_begins_and_ends_within_steps():

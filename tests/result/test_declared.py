@@ -6,7 +6,9 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.result.channel import AXES
-from exu_press.result.declared import DECLARED, PLACES, channel, expected
+from exu_press.result.declared import PLACES
+from exu_press.result.ideal_joints import FORCE
+from exu_press.result.recorders import all_declared, expected
 
 FACE = re.compile(r"_\d+_force$")
 """One face of several of a joint."""
@@ -37,7 +39,9 @@ def test_a_run_has_what_is_declared(name):
 
 
 def test_declarations_are_whole():
-    for one in DECLARED.values():
+    names = [one.name for one in all_declared()]
+    assert len(names) == len(set(names)) > 50
+    for one in all_declared():
         assert one.of in PLACES
         assert one.unit
         assert one.meaning.format(**{one.of or "whole": "NAME", "way": "upwards"})
@@ -46,7 +50,7 @@ def test_declarations_are_whole():
 def test_a_channel_is_made_from_its_declaration():
     import numpy as np
 
-    ((name, made),) = channel("{joint}_force", np.zeros((4, 3)), "ball_left").items()
+    ((name, made),) = FORCE.record(np.zeros((4, 3)), "ball_left").items()
     assert (name, made.unit, made.axis) == ("ball_left_force", "N", "space")
     assert made.long_name == "ball left: force on journal"
     assert made.axis in AXES

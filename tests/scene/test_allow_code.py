@@ -9,6 +9,7 @@ import pytest
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
+from exu_press.scene import CustomLoad
 from exu_press.scene.custom import CustomJoint, UnresolvedJoint
 
 KIND = """
@@ -63,7 +64,7 @@ def mark(tmp_path, monkeypatch):
 def forget(module):
     """Let no class of a module be known any more, as in a new process."""
     sys.modules.pop(module, None)
-    for kind in CustomJoint.__subclasses__():
+    for kind in (*CustomJoint.__subclasses__(), *CustomLoad.__subclasses__()):
         if kind.__module__ == module:
             kind.__module__, kind.registered_name = "forgotten", ""
 
@@ -139,6 +140,38 @@ def test_a_result_imports_nothing_and_shows_the_kind(mark, capsys):
     with pytest.raises(InputError, match="names code"):
         Scene.load("again.toml")
     assert not mark.exists()
+    assert simulate(Scene.load("again.toml", allow_code=True)).completed
+
+
+def test_a_load_of_a_result_is_shown_likewise(mark, tmp_path, capsys):
+    (tmp_path / "hostile.py").write_text(
+        f"open({str(mark)!r}, 'a').write('ran ')\n"
+        "from dataclasses import dataclass\n"
+        "from exu_press.laws.load_curve import LoadCurve\n"
+        "from exu_press.scene import CustomLoad, key\n"
+        "@dataclass(frozen=True)\n"
+        "class Ramp(CustomLoad):\n"
+        "    force: float = key(None, 'at the bottom', 'N', above=0)\n"
+        "    def curve(self, angular_speed):\n"
+        "        return LoadCurve([0.0, 0.1], [self.force, 0.0])\n"
+    )
+    Path("scene.toml").write_text(
+        'mechanism = "slider_crank"\nrevolutions = 0.6\njoints = {}\n'
+        '[load.ramp]\nkind = "hostile:Ramp"\nforce = 1e4\n'
+    )
+    assert main(["run", "scene.toml", "--quiet", "--out", "out"]) == 2 and not mark.exists()
+    assert main(["run", "scene.toml", "--allow-code", "--quiet", "--out", "out"]) == 0
+    forget("hostile")
+    mark.unlink()
+    result = Result.load("out/run.nc")
+    assert result.scene.load["ramp"].kind == "hostile:Ramp" and result.scene.unresolved
+    assert result.quantity("loads.ramp.peak_force").value == pytest.approx(1e4, rel=1e-3)
+    result.scene.save("again.toml")
+    assert "force = 10000.0" in Path("again.toml").read_text()
+    assert main(["report", "out"]) == 0 and main(["view", "out", "--save", "a.png"]) in (0, 2)
+    assert "hostile:Ramp" in Path("out/report.html").read_text() and not mark.exists()
+    with pytest.raises(InputError, match=r"load\.ramp\.kind = 'hostile:Ramp': names code"):
+        simulate(result.scene)
     assert simulate(Scene.load("again.toml", allow_code=True)).completed
 
 

@@ -113,3 +113,73 @@ def test_what_is_no_such_joint_is_refused(changes, told):
     with pytest.raises(InputError, match=told):
         import_kinds({"joints": joints})
         Scene(mechanism="slider_crank", joints=joints)
+
+
+LOADS = """
+from dataclasses import dataclass
+from exu_press.laws.load_curve import LoadCurve
+from exu_press.scene import CustomLoad, key
+
+@dataclass(frozen=True)
+class Cushion(CustomLoad):
+    over = "height"
+    stiffness: float = key(None, "of the cushion", "N/m", above=0)
+    height: float = key(2e-2, "above bottom dead centre, where it is met", "m", above=0)
+
+    def curve(self, angular_speed):
+        return LoadCurve([0.0, self.height], [self.stiffness * self.height, 0.0])
+
+@dataclass(frozen=True)
+class NoCurve(CustomLoad):
+    def curve(self, angular_speed):
+        return 7.0
+
+@dataclass(frozen=True)
+class Sideways(Cushion):
+    over = "width"
+"""
+
+
+@pytest.fixture
+def cushion(tmp_path):
+    (tmp_path / "a_cushion.py").write_text(LOADS)
+    yield {"kind": "a_cushion:Cushion", "stiffness": 1e6}
+    sys.modules.pop("a_cushion", None)
+
+
+def with_load(keys):
+    import_kinds({"load": {"cushion": keys}})
+    return Scene(mechanism="slider_crank", joints={}, load={"cushion": keys}, revolutions=1.0)
+
+
+def test_a_load_of_ones_own_gives_back_what_it_takes(cushion, tmp_path):
+    """As the table of the same curve does: a spring has no work in a revolution."""
+    own = simulate(with_load(cushion))
+    table = {"kind": "table", "height": [0.0, 2e-2], "force": [2e4, 0.0], "acts": "both"}
+    same = simulate(with_load(table))
+    name = "loads.cushion.work"
+    assert own.quantity("loads.cushion.peak_force").value == pytest.approx(2e4, rel=1e-9)
+    assert own["load_cushion_force"] == pytest.approx(same["load_cushion_force"], abs=1e-6)
+    assert abs(own.quantity(name).value) < 1e-3 * 0.5 * 1e6 * 2e-2**2
+    own.save(tmp_path / "run.nc")
+    own.scene.save(tmp_path / "scene.toml")
+    assert Scene.load(tmp_path / "scene.toml") == own.scene
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"stiffness": None}, "stiffness"),
+        ({"stifness": 1.0}, "did you mean 'stiffness'"),
+        ({"kind": "a_cushion:NoCurve"}, "returns 7.0: allowed is a LoadCurve"),
+        ({"kind": "a_cushion:Sideways"}, "over = 'width': allowed is one of"),
+        ({"kind": "a_bushing:Bushing"}, "derived from CustomLoad"),
+        ({"kind": "no_module:Load"}, "No module named 'no_module'"),
+    ],
+)
+def test_what_is_no_such_load_is_refused(changes, told, cushion):
+    keys = {key: value for key, value in {**cushion, **changes}.items() if value is not None}
+    if "NoCurve" in keys["kind"]:
+        keys.pop("stiffness")
+    with pytest.raises(InputError, match=told):
+        with_load(keys)

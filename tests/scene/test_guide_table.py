@@ -81,7 +81,7 @@ def test_what_friction_and_damping_of_guides_need_is_in_the_scenes_tables():
     damped = Scene.from_dict({**IDEAL, "guide": LOOSE, "contact": {"restitution": 0.5}})
     assert damped.contact.damping == "hu_guo"
     assert damped.contact.modulus is None
-    law = guide_contact_law(damped.contact, 1e8)
+    law = guide_contact_law(damped.contact, 1e8, LOOSE["clearance"], damped.angular_speed)
     assert delivered_restitution(law, 10.0, 0.1) == pytest.approx(0.5, abs=0.02)
     with pytest.raises(InputError, match=r"contact\.modulus = 1e\+?11|contact\.modulus = 1000"):
         Scene.from_dict({**IDEAL, "guide": LOOSE, "contact": {"modulus": 1e11}})

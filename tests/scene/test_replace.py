@@ -1,5 +1,7 @@
 """scene.replace: the same scene with other values."""
 
+import re
+
 import pytest
 
 from exu_press import InputError, Scene
@@ -143,3 +145,28 @@ def test_step_is_kept_by_other_changes():
     stepped = PRESS.replace({"solver.step": 1e-4}).replace({"solver.spectral_radius": 0.7})
     assert stepped.solver.step == 1e-4
     assert stepped.replace({"joints.crank_pin": "dry"}).solver == stepped.solver
+
+
+@pytest.mark.parametrize(
+    ("key", "near"),
+    [
+        ("flim.viscosity", "film"),
+        ("film.viscocity", "viscosity"),
+        ("lode.a.force", "load"),
+        ("joints.crank_pin.frction.mu_kinetic", "friction"),
+        ("joints.crank_pin.friction.mu_kinetc", "mu_kinetic"),
+        ("joints.crank_pin.worn.bearing_dept", "bearing_depth"),
+        ("joints.crank_pim.clearance", "crank_pin"),
+        ("mechanism.bodys.rod.mass", "bodies"),
+    ],
+)
+def test_a_typo_in_any_part_of_a_key_names_the_nearest_one(key, near):
+    with pytest.raises(InputError, match=re.escape(f"(did you mean {near!r}?)")):
+        Scene(mechanism="slider_crank").replace({key: 0.1})
+
+
+def test_a_key_of_worn_surfaces_is_set_as_others_are():
+    worn = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}).replace(
+        {"joints.crank_pin.worn.bearing_depth": [0.0, 1e-6, 0.0]}
+    )
+    assert worn.joints["crank_pin"].worn.bearing_depth == (0.0, 1e-6, 0.0)

@@ -5,11 +5,12 @@ import dataclasses
 import pytest
 
 from exu_press import InputError, Scene
+from exu_press.mechanism import SHIPPED
 from exu_press.scene.template import template
 from exu_press.scene.usage import TABLES
 
 
-@pytest.mark.parametrize("mechanism", ["press", "slider_crank", "four_bar"])
+@pytest.mark.parametrize("mechanism", ["press", "slider_crank", *SHIPPED])
 def test_it_is_the_mechanisms_own_scene(mechanism, tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text(template(mechanism))

@@ -175,3 +175,12 @@ def test_a_mechanism_file_is_called_one(tmp_path):
     path.write_text(shipped.read_text())
     with pytest.raises(InputError, match="is a mechanism, not a scene"):
         Scene.load(path)
+
+
+@pytest.mark.parametrize(("mass", "warns"), [(1.0, True), (2.0, False)])
+def test_a_body_that_is_a_thousand_times_lighter_than_another(mass, warns):
+    found = [w for w in scene_warnings(crank(rod_mass=mass)) if "too small for steps" in w]
+    assert bool(found) == warns
+    assert all(
+        w.startswith("bodies.rod.mass = 1 kg is 0.00074 times that of slider") for w in found
+    )

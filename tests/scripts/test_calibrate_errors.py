@@ -11,7 +11,7 @@ from calibration.scenes import groups_of, random_scene
 
 def test_scenes_are_of_all_kinds():
     random = np.random.default_rng(3)
-    found = {group for _ in range(100) for group in groups_of(random_scene(random, 0.35))}
+    found = {group for _ in range(200) for group in groups_of(random_scene(random, 0.35))}
     for kind in ("blanking", "table", "sheet", "spring"):
         assert f"load: {kind}" in found
     for kind in ("clearance", "elastic", "rubbing"):
@@ -20,6 +20,8 @@ def test_scenes_are_of_all_kinds():
         assert f"friction: {law}" in found
     assert {"motor", "flexible", "steps: fixed", "joints: mixed", "joints: ideal"} <= found
     assert {"mechanism: own eccentric", "mechanism: own knuckle", "mechanism: six_bar"} <= found
+    assert {"mechanism: own crank_rocker", "size: of a watch", "speed: below 30 rpm"} <= found
+    assert {"joints: dry alone", "motor, load: blanking"} <= found
 
 
 @pytest.mark.long

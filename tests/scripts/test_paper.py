@@ -74,7 +74,7 @@ def test_it_goes_on_where_it_was_stopped(directory):
     (directory / "runs.jsonl").write_text("\n".join(rows[3:]) + "\n")
     next(directory.glob("*.nc")).unlink()
     again = process("paper.py", directory, "--out", ".")
-    assert again.returncode == 0 and "are there" in again.stderr
+    assert again.returncode == 0 and "runs that are finished: " in again.stderr
     assert "REDUCED FORM" in again.stdout and "72 of 72 runs" in again.stdout
     assert read(directory)["tables"] == before["tables"]
     assert len(list(directory.glob("*.nc"))) == 2 * 4 + 2  # the ideal press has no contact

@@ -17,3 +17,19 @@ def test_fixed_steps_that_fail_in_a_singular_position_are_advised_to_follow_a_to
     assert stopped.info["status"] == "not converged"
     assert "tolerance" in stopped.info["reason"] and "linearSolver" not in stopped.info["reason"]
     assert simulate(scene.replace({"solver.step": None, "solver.tolerance": 1e-3})).completed
+
+
+def test_a_body_that_is_too_light_for_its_neighbours_is_named_and_no_tolerance():
+    pin = {"kind": "dry", "clearance": 5e-5, "radius": 0.02}
+    scene = Scene(
+        mechanism="slider_crank",
+        joints={"crank_pin": pin, "wrist_pin": pin},
+        contact={"length": 0.03},
+        slider_crank={"rod_mass": 1e-9, "rod_inertia": 1e-11},
+        revolutions=0.02,
+    )
+    cure = simulate(scene).info["reason"].partition("; try ")[2]
+    assert cure.startswith("another value, as this one is hardly meant: bodies.rod.mass = 1e-09 kg")
+    assert "tolerance" not in cure
+    usual = {"slider_crank.rod_mass": 20.0, "slider_crank.rod_inertia": 0.3}
+    assert simulate(scene.replace(usual)).completed

@@ -8,6 +8,7 @@ from exu_press.verification.distribution import (
     LEAST_REVOLUTIONS,
     Distribution,
     distributions,
+    of_steps,
     percentiles,
 )
 
@@ -60,16 +61,16 @@ def test_percentiles_of_thousands_of_revolutions():
 
 
 def test_errors_of_mean_and_scatter_are_those_of_many_samples():
-    """Of independent values the textbook's; of values that come in runs of ten, three times it."""
+    """They are within it in nineteen of twenty; also of values that come in runs of ten."""
     random = np.random.default_rng(3)
     found = [Distribution.of(random.normal(5.0, 2.0, 200).tolist()) for _ in range(200)]
     for name, expected in (("mean", 2.0 / 200**0.5), ("scatter", 2.0 / 398**0.5)):
         told = np.array([getattr(one, name) for one in found])
+        true = 5.0 if name == "mean" else 2.0
         assert told[:, 0].std() == pytest.approx(expected, rel=0.15)
-        assert np.sqrt((told[:, 1] ** 2).mean()) == pytest.approx(expected, rel=0.15)
+        assert 0.91 < np.mean(np.abs(told[:, 0] - true) <= told[:, 1]) < 0.98
     runs = [Distribution.of(np.repeat(random.normal(size=20), 10).tolist()) for _ in range(200)]
-    errors = np.array([one.mean[1] for one in runs])
-    assert np.sqrt((errors**2).mean()) == pytest.approx(20**-0.5, rel=0.15)
+    assert 0.91 < np.mean([abs(one.mean[0]) <= one.mean[1] for one in runs]) < 0.98
 
 
 def test_what_does_not_scatter_has_no_error():
@@ -77,3 +78,34 @@ def test_what_does_not_scatter_has_no_error():
     assert told["mean"] == {"value": 2.0, "error": 0.0}
     assert told["scatter"] == {"value": 0.0, "error": 0.0}
     assert told["percentiles"]["95"] == {"value": 2.0, "low": 2.0, "high": 2.0}
+
+
+def test_what_steps_miss_is_in_all_of_it():
+    values = np.random.default_rng(3).normal(5.0, 2.0, 100)
+    exact, told = (Distribution.of(values, missed) for missed in (0.0, 0.3))
+    assert told.mean == pytest.approx((exact.mean[0], exact.mean[1] + 0.3))
+    assert told.scatter == pytest.approx((exact.scatter[0], exact.scatter[1] + 0.3))
+    for percent, (value, low, high) in exact.percentiles.items():
+        assert told.percentiles[percent] == pytest.approx((value, low - 0.3, high + 0.3))
+
+
+def test_differences_of_pairs_that_scatter_are_known_the_worse():
+    random = np.random.default_rng(3)
+    assert of_steps([0.2] * 5) == pytest.approx(0.2 / (1.0 - 0.1**0.5))
+    inside = [of_steps(random.normal(0.2, 1.0, 5)) > 0.2 for _ in range(200)]
+    assert np.mean(inside) > 0.95
+
+
+@pytest.mark.long
+def test_means_over_revolutions_are_those_of_a_finer_tolerance():
+    """The statistics alone said +- 0.0013 m/s^2, for 0.18 from runs at a hundredth of it."""
+    scene = Scene(mechanism="slider_crank")
+    names = [NAME, "joints.wrist_pin.peak_force", "peak_acceleration.mean_1ms", "peak_velocity"]
+    rough = distributions(scene, names, within=1.0, least=10, most=10)
+    fine = distributions(
+        scene.replace({"solver.tolerance": 1e-5}), names, within=1.0, least=10, most=10
+    )
+    for name in names:
+        (value, error), (true, _) = rough[name].mean, fine[name].mean
+        assert abs(value - true) <= error, name
+        assert error <= 0.05 * value

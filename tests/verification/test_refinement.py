@@ -38,7 +38,7 @@ def test_finer_ones_may_take_as_many_more_steps():
     allowed = plan(SHORT.replace({"solver.tolerance": 1e-3, "solver.max_steps": 20_000}))
     assert {ratio: other.solver.max_steps for ratio, other in allowed.items()} == {
         0.5: 40_000,
-        8.0: 20_000,
+        4.0: 20_000,
     }
 
 

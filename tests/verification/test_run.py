@@ -11,7 +11,7 @@ from exu_press.quantities import Quantity, QuantityAt, quantities_of
 from exu_press.quantities.kind import DIFFERENCE, MOTION, RESULTANT, SHARE
 from exu_press.quantities.value import numbers_of
 from exu_press.scene import flexible_press
-from exu_press.verification.estimate import SAFETY
+from exu_press.verification.estimate import ORDER
 from exu_press.verification.refinement import RefinementRuns, plan
 from exu_press.verification.run import errors_of, with_errors
 
@@ -118,7 +118,8 @@ def test_energies_that_agree_at_the_end_by_chance_are_not_known_so_well(result):
         assert told["horizon"] is None
         found.append(told["errors"]["energy.stored"]["error"])
     assert found[0] < 1e-3
-    assert SAFETY * 0.2 / 0.5 <= 1.1 * found[1] <= 1.2 * SAFETY * 0.2 / 0.5
+    expected = 0.2 / (1.0 - 0.5**ORDER)
+    assert expected <= 1.1 * found[1] <= 1.2 * expected
 
 
 def test_what_energies_differ_by_while_a_run_settles_is_no_error():
@@ -203,7 +204,7 @@ def test_magnitudes_are_not_below_zero_and_energies_may_be(result):
 @pytest.mark.parametrize(
     ("solver", "ratios"),
     [
-        ({"tolerance": 1e-3}, [0.5, 8.0]),
+        ({"tolerance": 1e-3}, [0.5, 4.0]),
         ({"tolerance": 0.04}, [0.5, 2.0]),
         ({"tolerance": 0.1}, [0.25, 0.5]),
         ({"step": 1e-5}, [2.0, 3.0, 4.0]),
@@ -348,3 +349,47 @@ def test_a_peak_while_a_film_passes_its_load_over_is_seen(tolerance):
     told = simulate(scene, errors=True).quantity("shaking.horizontal")
     assert told.low < 1012.5 < told.high
     assert told.error < 200.0 * tolerance * told.value
+
+
+@pytest.mark.long
+def test_the_vibration_behind_a_slow_cut_is_within_its_error():
+    """An independent model with steps of 0.1 us has a peak of 168368.54 N."""
+    scene = Scene(
+        mechanism="slider_crank",
+        speed_rpm=30.0,
+        revolutions=0.2,
+        start_angle_deg=130.0,
+        start="centred",
+        settle=0.0,
+        joints={
+            "wrist_pin": {
+                "kind": "dry",
+                "clearance": 5e-5,
+                "radius": 0.07,
+                "contact": {
+                    "shape": "point",
+                    "stiffness": 2e9,
+                    "exponent": 1.0,
+                    "damping": "step",
+                    "damping_max": 1e5,
+                    "damping_depth": 1e-6,
+                },
+                "friction": {"law": "none"},
+            }
+        },
+        load={
+            "sheet": {
+                "kind": "sheet",
+                "height": 0.003,
+                "thickness": 0.002,
+                "shear_strength": 3e8,
+                "cut_length": 0.2,
+                "penetration": 0.4,
+                "crack_time": 2e-4,
+                "stripping": 0.05,
+            }
+        },
+    )
+    told = simulate(scene, errors=True, beside=False).quantity("joints.wrist_pin.peak_force")
+    assert told.low < 168368.54 < told.high
+    assert told.error < 0.02 * told.value

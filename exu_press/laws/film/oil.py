@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 
-__all__ = ["HOTTEST", "barus", "film_temperature", "roelands", "walther"]
+__all__ = ["HOTTEST", "STEADY", "barus", "film_temperature", "roelands", "walther"]
 
 SHIFT = 0.7
 """mm^2/s, of ASTM D341 for kinematic viscosities above 2 mm^2/s."""
@@ -12,6 +12,9 @@ KELVIN = 273.15
 
 HOTTEST = 250.0
 """deg C, above which no mineral oil is used: it cracks, and burns."""
+
+STEADY = 0.5
+"""K, within which a film has found its temperature."""
 
 
 def walther(

@@ -30,12 +30,14 @@ def attractor_lines(found: Attractor) -> list[str]:
     if math.isfinite(low):
         told = f"{value:.3g} 1/s, 95 % in [{low:.3g}, {high:.3g}]"
         told += f"; per revolution {exponent.value:.3g} [{exponent.low:.3g}, {exponent.high:.3g}]"
+    elif not math.isfinite(high):
+        told = "not known of so few revolutions"
     else:
         told = f"below {high:.3g} 1/s ({exponent.high:.3g} per revolution): "
         told += (
             "neighbours come together within the error of a revolution"
             if high < 0.0
-            else "neighbours diverge by no more than the error of a revolution"
+            else "neighbours part by no more than the error of a revolution may hide"
         )
     lines += [f"largest Lyapunov exponent: {told}", f"  motion: {exponent.sign}"]
     return [*lines, *columns(_figures(found))]

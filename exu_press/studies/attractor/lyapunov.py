@@ -7,8 +7,9 @@ Giorgilli, Strelcyn, Meccanica 15 (1980) 9-20; Wolf, Swift, Swinney, Vastano, Ph
 .. math:: \lambda = \frac{1}{n T} \sum_{i=1}^n \ln\frac{d_i}{d_0}
 
 Where contacts begin and end the tangent jumps, and distances count: several d_0 are taken, and
-their difference belongs to the interval. d_0 is to be well above the error of the integration; a
-motion that comes back together faster than to that error has only an upper bound of its exponent.
+their difference belongs to the interval. d_0 is to be well above the error of the integration: each
+of two neighbours may be off by it, so that their distance is known within twice of it. A motion
+that comes back together faster than to that error has only an upper bound of its exponent.
 """
 
 import math
@@ -25,6 +26,9 @@ BATCHES = 10
 """Parts of the revolutions whose means are taken for independent."""
 
 CONFIDENCE = 0.95
+
+FELT = math.e
+"""Times the error: neighbours that come nearer have no lower bound of their exponent."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +62,8 @@ def exponent_of(growths: Array) -> tuple[float, float, float]:
 
     Growths in revolutions that follow each other depend on each other; the means of BATCHES
     batches hardly do, and Student's distribution gives the interval (Law, Kelton, Simulation
-    Modeling and Analysis, 9.5.3).
+    Modeling and Analysis, 9.5.3). While neighbours turn into the direction that grows most, the
+    growth changes: what the later half differs by belongs to the interval.
 
     Args:
         growths: (n,) ln(d_i / d_0), n at least 2 BATCHES.
@@ -68,6 +73,7 @@ def exponent_of(growths: Array) -> tuple[float, float, float]:
     batches = np.array([part.mean() for part in np.array_split(growths, BATCHES)])
     half = float(t.ppf(0.5 + 0.5 * CONFIDENCE, BATCHES - 1)) * batches.std(ddof=1)
     mean, half = float(growths.mean()), half / math.sqrt(BATCHES)
+    half += abs(float(growths[len(growths) // 2 :].mean()) - mean)
     return mean, mean - half, mean + half
 
 
@@ -79,18 +85,17 @@ def combined(growths: Sequence[Array], distances: Sequence[float], error: float)
         distances: d_0.
         error: distance that the integration's error makes of one point in a revolution.
     """
-    found = [exponent_of(each) for each in growths]
-    floors = [math.log(max(error, 1e-300) / distance) for distance in distances]
-    felt = [
-        (one, distance)
-        for one, floor, distance in zip(found, floors, distances, strict=True)
-        if one[0] > floor + 1.0
-    ]
+    found = []
+    for each, distance in zip(growths, distances, strict=True):
+        mean, low, high = exponent_of(each)
+        apart = distance * math.exp(mean)
+        unsure = math.log1p(2.0 * error / apart)
+        found.append((mean, low - unsure if apart > FELT * error else -math.inf, high + unsure))
+    revolutions = len(growths[0])
+    felt = [n for n, (_, low, _) in enumerate(found) if math.isfinite(low)]
     if not felt:  # every distance has shrunk to the error
-        least = min(range(len(found)), key=lambda i: found[i][2])
-        return Exponent(
-            found[least][0], -math.inf, found[least][2], tuple(distances), len(growths[0])
-        )
-    mean = float(np.mean([one[0] for one, _ in felt]))
-    low, high = min(one[1] for one, _ in felt), max(one[2] for one, _ in felt)
-    return Exponent(mean, low, high, tuple(d for _, d in felt), len(growths[0]))
+        mean, low, high = min(found, key=lambda one: one[2])
+        return Exponent(mean, low, high, tuple(distances), revolutions)
+    means, lows, highs = zip(*(found[n] for n in felt), strict=True)
+    kept = tuple(distances[n] for n in felt)
+    return Exponent(float(np.mean(means)), min(lows), max(highs), kept, revolutions)

@@ -19,10 +19,14 @@ from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.joint import oil_of
 from exu_press.solving.solve import scales
 
-__all__ = ["Orbit"]
+__all__ = ["NoMotion", "Orbit"]
 
 AT_MOST = 10.0
 """Revolutions at the scene's speed in which a motor turns the crank once, or not at all."""
+
+
+class NoMotion(InputError):  # noqa: N818  an end, as that of a run
+    """A motion does not get to the next section."""
 
 
 class Orbit:
@@ -91,7 +95,7 @@ class Orbit:
         """Go on by one revolution; return its record if that is wanted.
 
         Raises:
-            InputError: the motion does not get to the next section.
+            NoMotion: the motion does not get to the next section.
             KeyboardInterrupt: of Ctrl-C, which is no motion's fault.
         """
         model = self._model
@@ -99,9 +103,9 @@ class Orbit:
         if outcome.status is SolverStatus.INTERRUPTED:
             raise KeyboardInterrupt
         if not outcome.status.ended:
-            raise InputError(f"no motion in the long run: {outcome.reason}")
+            raise NoMotion(f"no motion in the long run: {outcome.reason}")
         if model.until is not None and model.crank_angle()[0] < model.until:
-            raise InputError(
+            raise NoMotion(
                 f"[drive]: the crank does not get to its section at {self.scene.start_angle_deg:g} "
                 f"deg within {outcome.end_time - model.begin:.3g} s; allowed is a motor that turns "
                 "the press on, as with more torque or inertia"

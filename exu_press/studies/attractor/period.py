@@ -18,9 +18,9 @@ SAME = 3.0
 APART = 10.0
 """Times the error: two points that are further apart are different."""
 
-LARGEST = 0.1
-"""Error of a point, over the clearance, up to which points that lie within it are the same one. A
-larger error hides most motions of a journal in its clearance."""
+LARGEST = 0.01
+"""Clearances: points that are further apart are not the same, and with a larger error of a point
+none can be told to be."""
 
 SETTLED = 0.5
 """A distance that falls below this part of itself from one half of the points to the next is that
@@ -81,14 +81,16 @@ def period_of(points: Array, error: float, most: int = MOST, *, diverging: bool 
             f"periods up to {most}"
         )
     distances = np.array([_distance(points, n) for n in range(1, most + 1)])
-    same = np.flatnonzero(distances <= SAME * error)
-    if len(same) and diverging:
+    within = distances <= SAME * error
+    same = np.flatnonzero(within & (distances <= LARGEST))
+    if within.any() and diverging:
         finer = float(distances.min() / (APART * error))
         why = f"neighbours part, but points lie within their error of {error:.2g}"
         return Period(None, False, why, most, distances, error, finer)
-    if len(same) and error > LARGEST:
-        why = f"points lie within an error of {error:.2g} clearances"
-        return Period(None, False, why, most, distances, error, LARGEST / error)
+    if within.any() and (error > LARGEST or not len(same)):
+        why = f"points lie {distances.min():.2g} clearances apart, with an error of {error:.2g}"
+        finer = (LARGEST if len(same) else float(distances.min()) / APART) / error
+        return Period(None, False, why, most, distances, error, finer)
     if len(same):
         return Period(int(same[0]) + 1, True, "", most, distances, error)
     nearest = int(np.argmin(distances))

@@ -16,29 +16,30 @@ from exu_press.result import Result
 from exu_press.result.run import SHORT, run_once
 from exu_press.scene import Scene
 from exu_press.schema.checks import nearest
+from exu_press.solving.solve import scales
 from exu_press.studies.attractor.lyapunov import BATCHES, Exponent, combined
-from exu_press.studies.attractor.orbit import Orbit
+from exu_press.studies.attractor.orbit import NoMotion, Orbit
 from exu_press.studies.attractor.period import MOST, Period, period_of
 from exu_press.studies.spectrum import column_of
 from exu_press.terminal.progress import Progress
-from exu_press.verification.distribution import Distribution
+from exu_press.verification.distribution import Distribution, finer, of_steps
 
 __all__ = ["DISTANCES", "Attractor", "attractor"]
 
 DISTANCES = (1e-2, 1e-3)
 """Between neighbouring motions at the beginning of a revolution, without dimension."""
 
-FINER = 0.1
-"""Tolerance of the run that a revolution's error is measured against, over the scene's."""
+LATER = (0.4, 0.6, 0.8)
+"""Parts of the revolutions at which errors are measured, too; they are in the first two."""
 
-FINER_STEP = 0.25
-"""Fixed step of that run over the scene's."""
-
-MEASURED = 5
-"""Revolutions whose error is measured."""
+PUSH = 0.01
+"""Gravity that is added for a revolution, over the crank pin's acceleration."""
 
 NOISE = 1e-12
 """Least distance, without dimension."""
+
+FEWEST = 3
+"""Revolutions after the transient, without which nothing is known."""
 
 SHOWN = 4
 """Revolutions at the end whose channels are kept for the pictures."""
@@ -52,16 +53,18 @@ class Attractor:
         scene: complete.
         skip: revolutions before the first point.
         points: (n, k) in the section, one a revolution, without dimension (`Orbit.point`).
-        error: largest error of a point that a revolution makes.
+        error: largest error of a point, by those that revolutions make.
         period: after which the motion comes back.
         exponent: largest Lyapunov exponent.
         figures: quantity -> its value in each revolution, (n,); channel -> its value on the
             section.
+        missed: of these, error of each by the steps.
         units: of these.
         turns: revolutions in a second; a motor's in the mean.
         last: records of the last revolutions.
         transient: (skip,) distance of each point before from the last one.
         state: on the section, at the end.
+        stopped: why there are fewer revolutions than asked for, or nothing.
     """
 
     scene: Scene
@@ -71,11 +74,13 @@ class Attractor:
     period: Period
     exponent: Exponent
     figures: Mapping[str, Array]
+    missed: Mapping[str, float]
     units: Mapping[str, str]
     turns: float
     last: Sequence[Result]
     transient: Array
     state: State
+    stopped: str = ""
 
     @property
     def per_second(self) -> tuple[float, float, float]:
@@ -88,7 +93,11 @@ class Attractor:
     def distributions(self) -> dict[str, Distribution]:
         """Mean, scatter and percentiles of the figures that three revolutions at least have."""
         known = {name: each[np.isfinite(each)] for name, each in self.figures.items()}
-        return {name: Distribution.of(each) for name, each in known.items() if len(each) > 2}
+        return {
+            name: Distribution.of(each, self.missed[name])
+            for name, each in known.items()
+            if len(each) > 2
+        }
 
     def to_dict(self) -> dict[str, Any]:
         """Return the entries of attractor.json."""
@@ -97,6 +106,7 @@ class Attractor:
             "scene": self.scene.to_dict(),
             "skip": self.skip,
             "revolutions": len(self.points),
+            "stopped": self.stopped,
             "section_deg": self.scene.start_angle_deg,
             "period": {
                 "revolutions": self.period.revolutions,
@@ -107,12 +117,12 @@ class Attractor:
                 "finer": self.period.finer,
             },
             "lyapunov_exponent": {
-                "per_revolution": self.exponent.value,
+                "per_revolution": _finite(self.exponent.value),
                 "low": _finite(self.exponent.low),
-                "high": self.exponent.high,
-                "per_second": value,
+                "high": _finite(self.exponent.high),
+                "per_second": _finite(value),
                 "low_per_second": _finite(low),
-                "high_per_second": high,
+                "high_per_second": _finite(high),
                 "distances": list(self.exponent.distances),
                 "revolutions": self.exponent.revolutions,
                 "motion": self.exponent.sign,
@@ -151,8 +161,9 @@ def attractor(
         quiet: False shows the progress.
 
     Raises:
-        InputError: there is no such quantity or channel, there are too few revolutions, the scene
-            has no section, or a run does not get to it.
+        InputError: there is no such quantity or channel, there are too few revolutions, or the
+            scene has no section.
+        NoMotion: a run does not get to the section FEWEST times after the transient.
     """
     if revolutions < max(3 * most, 2 * BATCHES):
         raise InputError(
@@ -169,39 +180,74 @@ def attractor(
     total = skip + revolutions
     orbit = Orbit(scene, start)
     neighbours = [Orbit(scene) for _ in DISTANCES]
-    other = _finer(scene)
+    other, pushed = Orbit(finer(scene)), Orbit(_pushed(scene))
+    begin = min(1, skip - 1)
+    measured = {skip, skip + 1, *(skip + int(part * revolutions) for part in LATER)}
     before: list[Array] = []
     points: list[Array] = []
     values: list[dict[str, float]] = []
     last: list[Result] = []
     growths: list[list[float]] = [[] for _ in DISTANCES]
+    off: list[float] = []
+    apart: list[dict[str, float]] = []
+    stopped = ""
+
+    def read(result: Result) -> dict[str, float]:
+        there = {name: float(column_of(result, name)[0][-1]) for name in channels}
+        return numbers_of(result, wanted) | there
+
     with Progress("attractor", total, "revolutions", quiet=quiet) as progress:
-        for done in range(total):
-            if done == skip - 1:
-                other.put(orbit.state)
-            result = orbit.advance(recorded=done >= skip)
-            point = orbit.point()
-            if done == skip - 1:  # a state that fits all constraints, as the orbit's own does
-                begun = orbit.state["time"]
-                other.advance()
-                for neighbour, distance in zip(neighbours, DISTANCES, strict=True):
-                    _bring_back(orbit, neighbour, other, distance)
-            (points if done >= skip else before).append(point)
-            if result is not None:
-                there = {name: float(column_of(result, name)[0][-1]) for name in channels}
-                values.append(numbers_of(result, wanted) | there)
-                last = [*last[-SHOWN + 1 :], result]
-                for i, neighbour in enumerate(neighbours):
-                    growths[i].append(_grown(orbit, neighbour, DISTANCES[i]))
-            progress.update(done + 1)
-    turns = revolutions / (orbit.state["time"] - begun)
-    error, state = max(_error(orbit, other), NOISE), orbit.state
-    for each in (orbit, other, *neighbours):
+        try:
+            for done in range(total):
+                beside = done == begin or done in measured
+                if done == begin:
+                    pushed.put(orbit.state)
+                if beside:
+                    other.put(orbit.state)
+                result = orbit.advance(recorded=done >= skip)
+                if done == skip - 1:
+                    begun = orbit.state["time"]
+                more = other.advance(recorded=done >= skip) if beside else None
+                if done > begin:
+                    grown = [
+                        _grown(orbit, *pair) for pair in zip(neighbours, DISTANCES, strict=True)
+                    ]
+                if done == begin:  # towards states that fit all constraints
+                    pushed.advance()
+                    for pair in zip(neighbours, (pushed, other), DISTANCES, strict=True):
+                        _bring_back(orbit, *pair)
+                (points if done >= skip else before).append(orbit.point())
+                if result is not None:
+                    values.append(read(result))
+                    last = [*last[-SHOWN + 1 :], result]
+                    for series, growth in zip(growths, grown, strict=True):
+                        series.append(growth)
+                if more is not None and values:
+                    finest = read(more)
+                    off.append(float(np.linalg.norm(orbit.point() - other.point())))
+                    apart.append(
+                        {n: values[-1].get(n, math.nan) - finest.get(n, math.nan) for n in names}
+                    )
+                progress.update(done + 1)
+        except NoMotion as end:
+            if len(values) < FEWEST or len(off) < 2:
+                raise
+            stopped = f"{end} (after {len(before) + len(points)} of {total} revolutions)"
+    state = orbit.state
+    turns = len(values) / (state["time"] - begun)
+    for each in (orbit, other, pushed, *neighbours):
         each.close()
-    # the first growth is from a random direction, and from a state that did not fit its constraints
-    exponent = combined([np.array(each[1:]) for each in growths], DISTANCES, error)
+    # the first growth is from a state that did not fit its constraints
+    settled = [np.array(each[begin == skip - 1 :]) for each in growths]
+    error = max(*off, NOISE)
+    if len(values) > 2 * BATCHES:
+        exponent = combined(settled, DISTANCES, error)
+    else:
+        exponent = Exponent(math.nan, -math.inf, math.inf, DISTANCES, len(settled[0]))
     section = np.array(points)
     kept = error * _amplified(exponent)
+    most = min(most, len(section) // 3)
+    figures = {name: np.array([each.get(name, math.nan) for each in values]) for name in names}
     return Attractor(
         scene=scene,
         skip=skip,
@@ -209,13 +255,40 @@ def attractor(
         error=kept,
         period=period_of(section, kept, most, diverging=exponent.low > 0.0),
         exponent=exponent,
-        figures={name: np.array([each.get(name, math.nan) for each in values]) for name in names},
+        figures=figures,
+        missed={
+            name: _missed([each[name] for each in apart], figures[name], exponent) for name in names
+        },
         units=channels | {name: placed.quantity.unit for name, placed in wanted.items()},
         turns=turns,
         last=last,
         transient=np.linalg.norm(np.array(before) - section[-1], axis=1),
         state=state,
+        stopped=stopped,
     )
+
+
+def _missed(apart: Sequence[float], values: Array, exponent: Exponent) -> float:
+    """Return what steps miss of a figure: in a revolution, and by the state that it begins in.
+
+    Errors of the state are those of all revolutions before. Where neighbours part, the scatter of
+    the figure has them; where they may, they do not move it by more than it scatters.
+    """
+    missed = of_steps(apart)
+    before = (_amplified(exponent) - 1.0) * missed
+    if exponent.high >= 0.0:
+        before = min(before, max(float(np.ptp(values)), missed))
+    return missed if exponent.low > 0.0 else missed + before
+
+
+def _pushed(scene: Scene) -> Scene:
+    """Return a scene that differs a little, to begin a neighbour in another direction.
+
+    Two that begin in one may both follow for long a direction that grows less than another one.
+    """
+    speed = scales(scene).speed
+    assert speed is not None
+    return scene.replace({"gravity": scene.gravity + PUSH * speed * scene.angular_speed})
 
 
 def _grown(orbit: Orbit, neighbour: Orbit, distance: float) -> float:
@@ -244,27 +317,6 @@ def _unit(scene: Scene, name: str) -> str:
         raise InputError(
             f"--quantity {name}: no quantity{nearest(name, list(quantities_of(scene)))}; {error}"
         ) from None
-
-
-def _finer(scene: Scene) -> Orbit:
-    """Return an orbit at a finer tolerance, or with finer fixed steps."""
-    solver = scene.solver
-    assert solver is not None
-    if solver.tolerance is None:
-        assert solver.step is not None
-        return Orbit(scene.replace({"solver.step": FINER_STEP * solver.step}))
-    return Orbit(scene.replace({"solver.tolerance": max(FINER * solver.tolerance, 1e-8)}))
-
-
-def _error(orbit: Orbit, finer: Orbit) -> float:
-    """Return the largest distance that a revolution's error makes, against a finer tolerance."""
-    found = 0.0
-    for _ in range(MEASURED):
-        finer.put(orbit.state)
-        orbit.advance()
-        finer.advance()
-        found = max(found, float(np.linalg.norm(orbit.point() - finer.point())))
-    return found
 
 
 def _amplified(exponent: Exponent) -> float:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from exu_press.errors import InputError
 from exu_press.files.output_directory import write_json
 from exu_press.model.state import State
 from exu_press.parallel import Chain
@@ -133,6 +134,8 @@ def run_point(arguments: dict[str, Any]) -> dict[str, Any]:
         most=arguments["longest"],
         start=start,
     )
+    if found.stopped:
+        raise InputError(found.stopped)
     low = found.exponent.low
     return {
         "status": "completed",

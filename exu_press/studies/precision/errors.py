@@ -14,7 +14,6 @@ from scipy.interpolate import CubicHermiteSpline
 from scipy.spatial.distance import directed_hausdorff
 
 from exu_press.numerics.arrays import Array, lengths
-from exu_press.quantities.joints import TOUCH
 from exu_press.result import Result
 
 __all__ = [
@@ -203,7 +202,7 @@ def _peaks(runs: Sequence[Trajectory]) -> tuple[float, float]:
 def _touches(run: Trajectory) -> Array:
     """Return the instants at which surfaces begin to touch, s."""
     assert run.penetration is not None
-    touching = run.penetration > TOUCH
+    touching = run.penetration > 0.0
     return np.asarray(run.time[1:][touching[1:] & ~touching[:-1]])
 
 

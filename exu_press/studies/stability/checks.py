@@ -163,7 +163,9 @@ def _elastic_energy(result: Result) -> Array | None:
         if joint.contact is None or joint.onset is None:
             continue
         found, record = True, result.joints[name]
-        law = contact_law(joint, revolute=not record.spherical)
+        law = contact_law(
+            joint, revolute=not record.spherical, crank_speed=result.scene.angular_speed
+        )
         depth = joint.onset - record.gap
         total += [law.elastic_energy(d) for d in depth.tolist()]
     return total if found else None

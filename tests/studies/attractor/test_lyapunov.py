@@ -1,5 +1,6 @@
 """Lyapunov exponents: of maps with known ones through the same mean, and of presses."""
 
+import json
 import math
 
 import numpy as np
@@ -10,12 +11,13 @@ from exu_press.cli import main
 from exu_press.quantities import quantities_of
 from exu_press.studies.attractor import attractor
 from exu_press.studies.attractor.lyapunov import combined, exponent_of
+from exu_press.studies.attractor.orbit import NoMotion, Orbit
 
 FILM = Scene(
     mechanism="slider_crank",
     joints={"crank_pin": {"kind": "lubricated", "clearance": 1e-4, "radius": 0.03}},
     film={"law": "short", "length": 0.05, "viscosity": 0.1},
-    solver={"tolerance": 3e-2},
+    solver={"tolerance": 1e-3},
 )
 
 
@@ -77,6 +79,26 @@ def test_a_contraction_is_known_down_to_the_error():
     assert below.sign == "regular"
 
 
+def test_an_interval_that_has_not_aligned_holds_the_exponent_that_it_tends_to():
+    """Two contractions, by 0.3 and 0.238 a revolution; a neighbour begins in the faster one."""
+    turn = np.arange(1, 41)
+    growths = [
+        np.diff(np.log(np.hypot(np.exp(-0.30 * turn), part * np.exp(-0.238 * turn))))
+        for part in (0.02, 0.5)
+    ]
+    found = combined(growths, (1e-2, 1e-3), 1e-9)
+    assert found.low < -0.3 and found.high > -0.245
+
+
+@pytest.mark.parametrize("distance", [1e-2, 3e-2])
+def test_a_distance_within_the_error_is_a_bound_only_with_the_error(distance):
+    """Neighbours with an exponent of -0.4 that steps bring together to less than their error."""
+    error = 4e-3
+    nearer = max(distance * math.exp(-0.4) - 2.0 * error, 1e-4)
+    found = combined([np.full(40, math.log(nearer / distance))], (distance,), error)
+    assert found.low < -0.4 < found.high
+
+
 def test_the_interval_holds_the_mean_in_most_of_many_series():
     random = np.random.default_rng(1)
     inside = 0
@@ -135,9 +157,38 @@ def test_the_command_writes_what_it_found(short, tmp_path, capsys, monkeypatch):
     assert main(given) == 0
     told = capsys.readouterr().out
     assert "period: 1 revolution" in told
-    assert "largest Lyapunov exponent: below" in told or "95 % in [" in told
+    assert "largest Lyapunov exponent: not known of so few revolutions" in told
     assert (tmp_path / "out" / "attractor.png").stat().st_size > 10_000
     assert (tmp_path / "out" / "attractor.json").exists()
+
+
+def stops_after(count):
+    """Return an advance of orbits that fails in its revolution of this number."""
+    advance, done = Orbit.advance, []
+
+    def advanced(orbit, **how):
+        done.append(None)
+        if len(done) > count:
+            raise NoMotion("no motion in the long run: a step is too short")
+        return advance(orbit, **how)
+
+    return advanced
+
+
+@pytest.mark.parametrize("reached", [0, 9])
+def test_a_motion_that_stops_leaves_what_it_reached(tmp_path, monkeypatch, capsys, reached):
+    """Four orbits: of 9 revolutions too few are in the section, of more there are some."""
+    monkeypatch.setattr(Orbit, "advance", stops_after(5 * reached))
+    scene, out = tmp_path / "film.toml", tmp_path / "out"
+    FILM.save(scene)
+    given = ["attractor", str(scene), "--revolutions", "20", "--skip", "2", "--longest", "4"]
+    assert main([*given, "--no-pictures", "--out", str(out)]) == 3
+    assert "a step is too short" in capsys.readouterr().err
+    assert out.exists() == bool(reached)
+    if reached:
+        told = json.loads((out / "attractor.json").read_text())
+        assert 3 <= told["revolutions"] < 20 and "a step is too short" in told["stopped"]
+        assert told["lyapunov_exponent"]["high"] is None
 
 
 @pytest.mark.parametrize(

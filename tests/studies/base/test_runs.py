@@ -22,6 +22,15 @@ def test_calls_share_processes_and_rows(tmp_path):
     assert len((tmp_path / FILE).read_text().splitlines()) == 3
 
 
+def test_a_resumed_study_says_once_how_many_runs_it_has(tmp_path, capsys):
+    scenes = [STUDY.scene_at({"speed_rpm": speed}) for speed in (100.0, 200.0)]
+    for said in ("", "sweep: runs that are finished: 2\n"):
+        with Runs(STUDY, tmp_path, workers=1, quiet=False) as runs:
+            for scene in [*scenes, *scenes]:
+                runs.of([scene])
+        assert capsys.readouterr().err == said
+
+
 def test_a_range_outside_of_what_the_scene_allows_is_refused():
     with pytest.raises(InputError, match=r"run with speed_rpm = -1\.0: speed_rpm = -1\.0: allowed"):
         Study(scene=SCENE, keys={"speed_rpm": {"low": -1.0, "high": 100.0}})

@@ -1,0 +1,66 @@
+"""Channels of guideways with clearance: forces of both ends and of the film, energy, heat."""
+
+import numpy as np
+
+from exu_press.joints import history
+from exu_press.result.channel import Channel
+from exu_press.result.guide_channels import guide_channels
+from exu_press.result.joints import stored_and_lost
+from exu_press.result.recording import Record, Recording
+from exu_press.scene.wearing import wearing_guides
+
+__all__ = ["record"]
+
+
+def record(run: Recording) -> Record:
+    """Return the action of guideways on their bodies, their stored and their dissipated energy.
+
+    The channels are force across and moment about the centre of mass of each guide, friction along
+    it, its losses, and the least thickness of its film; sums of both ends and of the film.
+    """
+    model, time = run.model, run.time
+    channels: dict[str, Channel] = {}
+    all_stored, all_lost = np.zeros_like(time), np.zeros_like(time)
+    wearing = wearing_guides(model.scene)
+    states = {
+        f"{body} {n}": history(model.states, each, time)
+        for body, all_of in model.guideways.items()
+        for n, each in enumerate(all_of)
+    }
+    for guide in model.mechanism.guides:
+        if guide.guideway is None:
+            continue
+        angle = run.motions[guide.body].position[:, 2]
+        angle = angle - model.mechanism.body(guide.body).angle
+        x, y = guide.direction
+        force, moment, lost = np.zeros((len(time), 2)), np.zeros_like(time), np.zeros_like(time)
+        for n, side in enumerate((-1.0, 1.0)):
+            end = states[f"{guide.body} {n}"]
+            pressed = end.force[:, :2]
+            reach = 0.5 * side * guide.guideway.length
+            arm_x = reach * (np.cos(angle) * x - np.sin(angle) * y)
+            arm_y = reach * (np.sin(angle) * x + np.cos(angle) * y)
+            force += pressed
+            moment += arm_x * pressed[:, 1] - arm_y * pressed[:, 0]
+            moment += end.moments[:, 0]
+            elastic, lost_here = stored_and_lost(end, time)
+            lost += lost_here
+            all_stored += elastic
+        film = states.get(f"{guide.body} 2")
+        if film is not None:
+            force += film.force
+            moment += film.moments.sum(axis=1)
+            lost += stored_and_lost(film, time)[1]
+            channels |= guide_channels(model.mechanism, guide.body, {"gap": film.gap})
+        all_lost += lost
+        across, along = force @ np.array(guide.across), force @ np.array(guide.direction)
+        held = {"force": across, "moment": moment, "friction": along, "loss": lost}
+        channels |= guide_channels(model.mechanism, guide.body, held)
+        if guide.body in wearing:
+            both = [states[f"{guide.body} {n}"] for n in (0, 1)]
+            on_right = [np.sign(end.eccentricity[:, :2] @ np.array(guide.across)) for end in both]
+            normal = [s * end.rubbing[:, 0] for s, end in zip(on_right, both, strict=True)]
+            sliding = [end.rubbing[:, 1] for end in both]
+            rubbed = {"normal_force": np.column_stack(normal), "sliding": np.column_stack(sliding)}
+            channels |= guide_channels(model.mechanism, guide.body, rubbed)
+    return Record(channels, all_stored, all_lost)

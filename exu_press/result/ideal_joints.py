@@ -1,0 +1,79 @@
+"""Channels of the forces of ideal joints and guides that hold a coordinate."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from exu_press.mechanism import GROUND, Motion
+from exu_press.model import Model
+from exu_press.numerics.arrays import Array
+from exu_press.result.channel import Channel
+from exu_press.result.declared import VECTOR, Declared
+from exu_press.result.guide_channels import guide_channels
+from exu_press.result.motion import sensor
+from exu_press.result.recording import Record, Recording
+
+__all__ = ["CHANNELS", "FORCE", "record", "vectors"]
+
+CHANNELS = (FORCE,) = (
+    Declared("{joint}_force", "N", "{joint}: force on journal", VECTOR, always=False),
+)
+
+
+def record(run: Recording) -> Record:
+    """Return the forces of ideal joints and guides that the solver has as constraint forces."""
+    model = run.model
+    spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
+    channels: dict[str, Channel] = {}
+    for name, quantity in model.sensors:
+        if quantity not in ("force", "moment") or name == "drive":
+            continue
+        values = sensor(model, name, quantity)
+        if name.endswith("_guide"):
+            body = name.removesuffix("_guide")
+            channels |= guide_channels(model.mechanism, body, {quantity: -values[:, 0]})
+        else:
+            if name in model.holding.single_axis and not _flexible(model, name):
+                values = _single_axis(model, run.motions, name, values[:, 0])
+            channels |= FORCE.record(vectors(values[:, :2], name in spherical), name)
+    return Record(channels | _of_several_faces(channels, model))
+
+
+def _of_several_faces(channels: Mapping[str, Channel], model: Model) -> dict[str, Channel]:
+    """Return the forces of joints of the frame with several faces: those of the faces.
+
+    Face by face they are in the channels, too, numbered.
+    """
+    found: dict[str, Channel] = {}
+    spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
+    for part in model.parts.values():
+        for joint, faces in part.faces.items():
+            each = [f"{joint}_{number}_force" for number in range(1, len(faces) + 1)]
+            if len(each) > 1 and each[0] in channels:
+                force = np.sum([channels[name].values for name in each], axis=0)
+                found |= FORCE.record(vectors(force, joint in spherical), joint)
+    return found
+
+
+def _flexible(model: Model, joint: str) -> bool:
+    """Return whether a joint holds a flexible body."""
+    return any(joint in part.faces for part in model.parts.values())
+
+
+def _single_axis(model: Model, motions: Mapping[str, Motion], joint: str, force: Array) -> Array:
+    """Return the force on the journal, (n, 2), N, of a joint that holds one direction."""
+    held = model.holding.single_axis[joint]
+    described = next(one for one in model.mechanism.joints if one.name == joint)
+    turned = 0.0 if held.body == GROUND else motions[held.body].position[:, 2]
+    angle = held.angle + turned * np.ones_like(force)
+    on_journal = force * (1.0 if held.body == described.journal else -1.0)
+    return np.asarray(on_journal[:, None] * np.column_stack([np.cos(angle), np.sin(angle)]))
+
+
+def vectors(values: Array, spherical: bool) -> Array:
+    """Return vectors (n, 2 or 3) in space for spherical joints, (n, 3), else in the plane."""
+    if not spherical:
+        return np.ascontiguousarray(values[:, :2])
+    in_space = np.zeros((len(values), 3))
+    in_space[:, : values.shape[1]] = values
+    return in_space

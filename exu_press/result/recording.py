@@ -1,0 +1,68 @@
+"""What a recorder reads of an integrated model, and what it returns."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from exu_press.joints import JointHistory
+from exu_press.mechanism import Motion
+from exu_press.model import Model
+from exu_press.numerics.arrays import Array
+from exu_press.result.channel import Channel
+
+__all__ = ["Record", "Recording"]
+
+
+@dataclass(frozen=True)
+class Record:
+    """What one recorder has of a run.
+
+    Attributes:
+        channels: by their names.
+        stored: energy, (n,), J.
+        dissipated: energy since the start, (n,), J. A step's is h times mean load times mean rate
+            (`exu_press.result.energy.work`), which no power at its ends tells.
+        supplied: work since the start, (n,), J.
+        info: that goes into the run's `Info`.
+    """
+
+    channels: dict[str, Channel]
+    stored: Array | float = 0.0
+    dissipated: Array | float = 0.0
+    supplied: Array | float = 0.0
+    info: Mapping[str, Any] = field(default_factory=dict)
+
+    def __add__(self, record: "Record") -> "Record":
+        """Return this and another one together."""
+        return Record(
+            self.channels | record.channels,
+            self.stored + record.stored,
+            self.dissipated + record.dissipated,
+            self.supplied + record.supplied,
+            {**self.info, **record.info},
+        )
+
+
+@dataclass(frozen=True)
+class Recording:
+    """An integrated model with what several recorders read.
+
+    Attributes:
+        model: integrated.
+        time: (n,), s.
+        motions: of every body's frame.
+        turned: motion of the body that the drive turns.
+        histories: of every joint with clearance.
+        so_far: what the recorders before have.
+    """
+
+    model: Model
+    time: Array
+    motions: Mapping[str, Motion]
+    turned: Motion
+    histories: Mapping[str, JointHistory]
+    so_far: Record
+
+    def __getitem__(self, channel: str) -> Array:
+        """Return the values of a channel of the recorders before."""
+        return self.so_far.channels[channel].values

@@ -1,0 +1,73 @@
+"""Figures that change from revolution to revolution, and a film that takes many to settle."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.verification.drift import earlier, warmed_on
+
+OIL = {"viscosity_cst": (68.0, 8.7), "density": 870.0, "supply_celsius": 40.0, "conductance": 5.0}
+FILM = {"oil": OIL, "at_contact": "mixed", "roughness": 4e-7}
+PRESS = Scene(
+    mechanism="eccentric_press",
+    speed_rpm=120.0,
+    joints={"wrist_pin": "lubricated"},
+    film=FILM,
+    revolutions=4.0,
+    solver={"tolerance": 1e-2},
+)
+
+AT_REST = 51.367
+"""deg C, after 19 revolutions at a tolerance of 1e-3 with both pins lubricated."""
+
+
+@pytest.fixture(scope="module")
+def warm():
+    return simulate(PRESS, errors=True, beside=False)
+
+
+def test_a_pin_that_sinks_for_nine_revolutions_is_read_when_it_has_settled(warm):
+    """Its oil is at 40.07 deg C in the fourth one, and at 63.97 in the seventh."""
+    assert np.interp(3.5 * 0.5, warm.time, warm["wrist_pin_temperature"]) < 40.1
+    assert warm.info["added_revolutions"] == 8
+    assert (warm.scene.revolutions, warm.scene.settled) == (12.0, 11.0)
+    temperature = warm.quantity("joints.wrist_pin.film.temperature")
+    assert temperature.determined
+    assert abs(temperature.value - AT_REST) < temperature.error < 0.2
+    assert any(text.startswith("8 revolutions more") for text in warm.summary()["warnings"])
+
+
+def test_the_drift_of_the_last_revolution_is_part_of_every_error(warm):
+    before = earlier(warm)
+    assert before.scene.settled == warm.scene.settled - 1.0
+    for name in ("film.viscosity", "mean_power", "film.side_flow"):
+        full = f"joints.wrist_pin.{name}"
+        moved = abs(before.quantity(full).value - warm.quantity(full).value)
+        assert moved > 0.0
+        assert warm.quantity(full).error >= moved
+
+
+def test_what_heat_asks_for_is_part_of_the_temperatures_error(warm):
+    state = warm.info["state"]
+    films = {"wrist_pin": (warm["wrist_pin_temperature"][-1] + 3.0, 1e6)}
+    asked = ending_with(warm, {**state, "films": films})
+    found = warmed_on(asked)
+    changed = found["wrist_pin_temperature"] - warm["wrist_pin_temperature"]
+    assert changed == pytest.approx(3.0)
+    oil = warm.scene.joints["wrist_pin"].film.oil
+    assert found["wrist_pin_viscosity"][-1] == pytest.approx(
+        oil.viscosity(films["wrist_pin"][0], 1e6)
+    )
+
+
+def ending_with(run, state):
+    """The run with another state at its end."""
+    return replace(run, info={**run.info, "state": state})
+
+
+def test_runs_without_warm_oil_have_no_such_part():
+    run = simulate(Scene(mechanism="slider_crank", revolutions=0.1))
+    assert earlier(run) is run
+    assert warmed_on(run) is run

@@ -24,7 +24,7 @@ def test_calls_share_processes_and_rows(tmp_path):
 
 def test_a_resumed_study_says_once_how_many_runs_it_has(tmp_path, capsys):
     scenes = [STUDY.scene_at({"speed_rpm": speed}) for speed in (100.0, 200.0)]
-    for said in ("", "sweep: runs that are finished: 2\n"):
+    for said in ("", "study: runs that are finished: 2\n"):
         with Runs(STUDY, tmp_path, workers=1, quiet=False) as runs:
             for scene in [*scenes, *scenes]:
                 runs.of([scene])

@@ -71,7 +71,7 @@ def _shapes(axes: Axes, report: Report, joint: str) -> None:
     points = report.points[1:] or report.points
     picked = sorted({round(i) for i in np.linspace(0, len(points) - 1, MOST_SHAPES)})
     for number, i in enumerate(picked):
-        shape = report.shape(points[i], joint)
+        shape = points[i].depths[joint]
         axes.plot(
             np.degrees(ANGLES), 1e6 * shape.bearing, color=colour_of(number),
             label=f"{significant(points[i].strokes, 3)} strokes",

@@ -1,6 +1,7 @@
 """Quantities of joints and guides that wear."""
 
-from collections.abc import Callable
+import dataclasses
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -8,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.laws.profile import Profile
-from exu_press.laws.wear import archard, worn_by_angle
+from exu_press.laws.wear import Contacts, archard, worn_by_angle
 from exu_press.mechanism import GROUND
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.kind import COUNT, FLOW, LOAD
@@ -25,10 +26,11 @@ __all__ = [
     "SECTORS",
     "WEAR",
     "Sliding",
-    "depths_of_a_revolution",
+    "contacts_of",
     "guideway_depths",
     "sliding_of",
     "wear_depths",
+    "wear_of_a_revolution",
 ]
 
 SECTORS = 72
@@ -67,6 +69,77 @@ def wear_depths(result: Result, joint: str) -> tuple[Array, Array]:
     Those of the whole run, in sectors of 5 degrees that begin at the bodies' x axes. Each step's
     volume is spread over where the round surfaces overlap, as deep as they do there.
     """
+    area = _sector(result.scene, joint)
+    depths = [np.zeros(SECTORS), np.zeros(SECTORS)]
+    for steps in _rubbing_steps(result, joint):
+        for end in (0, 1):
+            depths[end] += worn_by_angle(steps.volume, steps.overlap(end))
+    return depths[0] / area, depths[1] / area
+
+
+def _sector(scene: Scene, joint: str) -> float:
+    """Return the area of a sector of a joint's surfaces, m^2."""
+    described = scene.joints[joint]
+    assert isinstance(described, DryJoint | LubricatedJoint)
+    length = wear_of(scene, "joints", joint).length
+    return 2.0 * np.pi * described.radius / SECTORS * length
+
+
+def contacts_of(result: Result, joint: str, turns: float) -> Contacts:
+    """Return where a joint rubs in the mean of so many revolutions, in sectors of both bodies."""
+    sums = np.zeros((SECTORS * SECTORS, 6))
+    for steps in _rubbing_steps(result, joint):
+        direction = np.arctan2(steps.eccentricity[:, 1], steps.eccentricity[:, 0])
+        direction -= steps.turned[1]
+        turned = steps.turned[0] - steps.turned[1]
+        angles = (direction, turned)
+        row, column = ((a / (2.0 * np.pi) * SECTORS).astype(int) % SECTORS for a in angles)
+        values = np.column_stack(
+            [np.ones_like(turned), np.maximum(steps.overlap(1), 0.0).sum(axis=1)]
+            + [f(a) for a in angles for f in (np.cos, np.sin)]
+        )
+        np.add.at(sums, row * SECTORS + column, steps.volume[:, None] * values)
+    sums = sums[sums[:, 0] > 0.0]
+    return Contacts(
+        direction=np.arctan2(sums[:, 3], sums[:, 2]),
+        turned=np.arctan2(sums[:, 5], sums[:, 4]),
+        overlap=sums[:, 1] / sums[:, 0],
+        volume=sums[:, 0] / turns,
+        area=_sector(result.scene, joint),
+    )
+
+
+@dataclass(frozen=True)
+class _Steps:
+    """Some steps in which a joint rubs.
+
+    Attributes:
+        volume: worn off each surface, (n,), m^3.
+        eccentricity: (n, 2), m.
+        turned: angles of journal's and of bearing's body, (n,) each, rad.
+        reach: distance at which round surfaces touch, m.
+        shapes: of journal and bearing, of worn ones, as tables over the angle.
+    """
+
+    volume: Array
+    eccentricity: Array
+    turned: tuple[Array, Array]
+    reach: float
+    shapes: list[tuple[Array, Array]]
+
+    def overlap(self, end: int) -> Array:
+        """Return the surfaces' overlap in the sectors of journal, 0, or bearing, 1, (n, 72), m."""
+        sectors = 2.0 * np.pi * (np.arange(SECTORS) + 0.5) / SECTORS
+        angle = sectors + self.turned[end][:, None]  # of the sectors, as they lie
+        x, y = self.eccentricity[:, :1], self.eccentricity[:, 1:]
+        overlap = x * np.cos(angle) + y * np.sin(angle) - self.reach
+        for shape, turned in zip(self.shapes, self.turned, strict=False):
+            overlap -= np.interp(angle - turned[:, None], *shape, period=2.0 * np.pi)
+        return np.asarray(overlap)
+
+
+def _rubbing_steps(result: Result, joint: str) -> Iterator[_Steps]:
+    """Yield the steps in which a joint rubs, AT_ONCE at a time."""
     wear, described = wear_of(result.scene, "joints", joint), result.scene.joints[joint]
     assert isinstance(described, DryJoint | LubricatedJoint)
     drawn = next(j for j in mechanism_of(result.scene).joints if j.name == joint)
@@ -83,20 +156,10 @@ def wear_depths(result: Result, joint: str) -> tuple[Array, Array]:
     reach = mean.clearance - (mean.onset or 0.0)
     profiles = None if described.worn is None else described.worn.profiles()
     shapes = [_sample_profile(shape) for shape in profiles or ()]
-    sectors = 2.0 * np.pi * (np.arange(SECTORS) + 0.5) / SECTORS
-    width = 2.0 * np.pi * described.radius / SECTORS
-    depths = [np.zeros(SECTORS), np.zeros(SECTORS)]
     rubbing = np.flatnonzero(volume)
     for first in range(0, len(rubbing), AT_ONCE):
         steps = rubbing[first : first + AT_ONCE]
-        turned = turned_j[steps, None], turned_b[steps, None]
-        for end, own in enumerate(turned):
-            angle = sectors + own  # of the sectors, as they lie
-            overlap = at[steps, :1] * np.cos(angle) + at[steps, 1:] * np.sin(angle) - reach
-            for shape, other_angle in zip(shapes, turned, strict=False):
-                overlap -= np.interp(angle - other_angle, *shape, period=2.0 * np.pi)
-            depths[end] += worn_by_angle(volume[steps], overlap)
-    return depths[0] / (width * wear.length), depths[1] / (width * wear.length)
+        yield _Steps(volume[steps], at[steps], (turned_j[steps], turned_b[steps]), reach, shapes)
 
 
 def _sample_profile(shape: Profile) -> tuple[Array, Array]:
@@ -129,20 +192,21 @@ def guideway_depths(result: Result, body: str) -> Array:
     return depths
 
 
-def depths_of_a_revolution(result: Result) -> dict[str, Any]:
-    """Return the depths that the mean settled revolution wears off joints and guideways, m.
+def wear_of_a_revolution(result: Result) -> dict[str, Any]:
+    """Return where joints rub in the mean settled revolution, and what it wears off guideways.
 
-    "journal" and "bearing": joint -> (72,); "guideways": guided body -> largest; for JSON.
+    "contacts": joint -> see Contacts; "guideways": guided body -> largest depth, m; for JSON.
     """
     run = Reading(result)
-    depths: dict[str, dict[str, Any]] = {"journal": {}, "bearing": {}, "guideways": {}}
+    depths: dict[str, dict[str, Any]] = {"contacts": {}, "guideways": {}}
     if run.whole is None:
         return depths
     last, turns = _whole(run, run.whole)
     for joint in wearing_joints(result.scene):
-        journal, bearing = wear_depths(last, joint)
-        depths["journal"][joint] = (journal / turns).tolist()
-        depths["bearing"][joint] = (bearing / turns).tolist()
+        contacts = dataclasses.asdict(contacts_of(last, joint, turns))
+        depths["contacts"][joint] = {
+            name: values.tolist() if name != "area" else values for name, values in contacts.items()
+        }
     for body in wearing_guides(result.scene):
         depths["guideways"][body] = _guideway_depth(last, body) / turns
     return depths

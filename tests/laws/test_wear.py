@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press.laws.profile import profile
-from exu_press.laws.wear import archard, reached, worn_by_angle
+from exu_press.laws.wear import Contacts, archard, reached, worn_after, worn_by_angle
 
 
 def test_archard_by_hand():
@@ -38,3 +38,29 @@ def test_the_shape_that_a_pin_bores_stays():
     smooth = reached(crescent, 5e-5)
     assert np.abs(smooth - crescent).max() < 0.25 * crescent.max()
     assert smooth.mean() == pytest.approx(crescent.mean(), rel=0.02)
+
+
+@pytest.mark.parametrize(("overlap", "parts"), [(2e-5, 1), (2e-5, 20), (1e-8, 1)])
+def test_a_pin_that_turns_under_a_steady_load_bores_a_dent_of_its_own_curvature(overlap, parts):
+    """Closed form: w = e cos - c, the pin's own wear even, and both volumes Archard's."""
+    clearance, area, volume = 5e-5, 2.0 * np.pi * 0.05 * 0.1 / 72, 7.6757e-8
+    all_around = np.ones(72)
+    contacts = Contacts(
+        0.1 * all_around, 2.0 * np.pi * np.arange(72) / 72, overlap * all_around,
+        volume / 72 * all_around, area,
+    )  # fmt: skip
+    journal, bearing = np.zeros(72), np.zeros(72)
+    for _ in range(parts):
+        journal, bearing = worn_after(journal, bearing, clearance, contacts, 1.0 / parts)
+    assert [d.sum() * area for d in (journal, bearing)] == pytest.approx([volume] * 2, rel=1e-9)
+    assert journal == pytest.approx(np.full(72, volume / area / 72), rel=0.01)
+    assert bearing.max() == pytest.approx(16.4e-6, rel=0.01)
+    assert clearance + bearing.max() + journal.max() == pytest.approx(68.8e-6, rel=2e-3)
+
+
+def test_a_pin_that_is_pressed_from_all_sides_wears_its_bearing_evenly():
+    angle = 2.0 * np.pi * (np.arange(72) + 0.5) / 72
+    contacts = Contacts(angle, 0.0 * angle, np.full(72, 1e-5), np.full(72, 1e-10), 1e-3)
+    journal, bearing = worn_after(np.zeros(72), np.zeros(72), 5e-5, contacts, 10.0)
+    assert bearing == pytest.approx(np.full(72, 1e-6), rel=1e-9)
+    assert journal == pytest.approx(bearing, rel=1e-9)

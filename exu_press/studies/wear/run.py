@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.files.output_directory import write_json
+from exu_press.laws.wear import Contacts
 from exu_press.parallel import Chain
 from exu_press.parallel.task import COMPLETED
 from exu_press.quantities.uncertain import significant
@@ -81,14 +82,10 @@ class Report:
         strokes = significant(self.study.wear.strokes, 4)
         return f"ended before {strokes} strokes: {self.reason}" if self.reason else ""
 
-    def shape(self, point: Point, joint: str) -> Depths:
-        """Return the depths that a joint's journal can follow."""
-        return point.depths[joint].reached(self._clearance(joint))
-
     def clearances(self, joint: str) -> list[float]:
         """Return a joint's clearance where it is largest, point by point, m."""
         new = self._clearance(joint)
-        return [new + self.shape(point, joint).deepest for point in self.points]
+        return [new + point.depths[joint].deepest for point in self.points]
 
     def values(self, quantity: str) -> list[float | None]:
         """Return a quantity point by point."""
@@ -157,14 +154,14 @@ def run_worn(arguments: dict[str, Any]) -> dict[str, Any]:
     """Run {"scene": ...}; return its row, and the wear of every joint and guideway in a stroke, m.
 
     Returns:
-        as `row_of`, and "journal", "bearing": joint -> (72,), "guideways": guided body -> largest.
+        as `row_of`, and what `wear_of_a_revolution` returns.
     """
-    from exu_press.quantities.wear import depths_of_a_revolution
+    from exu_press.quantities.wear import wear_of_a_revolution
     from exu_press.verification.simulate import simulate
 
     result = simulate(scene_from(arguments))
     row = row_of(result)
-    return row | (depths_of_a_revolution(result) if row["status"] == COMPLETED else {})
+    return row | (wear_of_a_revolution(result) if row["status"] == COMPLETED else {})
 
 
 def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
@@ -186,7 +183,10 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
         ended.append(f"the first {why}")
         return
     rate = _rates(row, study)
-    fastest = max(rate[n].deepest / clearance[n] for n in study.joints)
+    fastest = max(
+        (depths[n].after(1.0, clearance[n], rate[n]).deepest - depths[n].deepest) / clearance[n]
+        for n in study.joints
+    )
     jump = FIRST * own.tolerance / fastest if fastest > 0.0 else math.inf
     done = error = 0.0
     tries = jumps = 0
@@ -195,16 +195,15 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
             ended.append(f"{jumps} jumps were not enough (wear.most_jumps)")
             return
         jump = min(jump, own.strokes - done)
-        half = {n: depths[n].after(0.5 * jump, rate[n]) for n in depths}
+        half = {n: depths[n].after(0.5 * jump, clearance[n], rate[n]) for n in depths}
         row = yield arguments(half)
         if not (why := failed(row)):
             middle = _rates(row, study)
-            after = {n: depths[n].after(jump, middle[n]) for n in depths}
+            after = {n: depths[n].after(jump, clearance[n], middle[n]) for n in depths}
             apart = {
                 n: depths[n]
-                .after(jump, rate[n])
-                .reached(clearance[n])
-                .differ(half[n].after(0.5 * jump, middle[n]).reached(clearance[n]))
+                .after(jump, clearance[n], rate[n])
+                .differ(half[n].after(0.5 * jump, clearance[n], middle[n]))
                 for n in depths
             }
             off = max(apart[n] / clearance[n] for n in apart) / own.tolerance
@@ -229,8 +228,11 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
         jump *= longer
 
 
-def _rates(row: Row, study: WearStudy) -> dict[str, Depths]:
-    """Return the wear of every joint in a stroke."""
-    return {
-        n: Depths(np.array(row["journal"][n]), np.array(row["bearing"][n])) for n in study.joints
-    }
+def _rates(row: Row, study: WearStudy) -> dict[str, Contacts]:
+    """Return where every joint rubs in a stroke."""
+    rates = {}
+    for joint in study.joints:
+        stored = dict(row["contacts"][joint])
+        area = float(stored.pop("area"))
+        rates[joint] = Contacts(**{n: np.array(v) for n, v in stored.items()}, area=area)
+    return rates

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exu_press.laws.profile import profile
-from exu_press.laws.wear import reached
+from exu_press.laws.wear import Contacts, reached, worn_after
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.wear import SECTORS
 from exu_press.scene import DryJoint, LubricatedJoint, Scene
@@ -32,9 +32,9 @@ class Depths:
         """Return equal depths of the bearing all around, m."""
         return cls(np.zeros(SECTORS), np.full(SECTORS, depth))
 
-    def after(self, strokes: float, rate: "Depths") -> "Depths":
-        """Return the depths after strokes that each wear so much."""
-        return Depths(self.journal + strokes * rate.journal, self.bearing + strokes * rate.bearing)
+    def after(self, strokes: float, clearance: float, contacts: Contacts) -> "Depths":
+        """Return the depths after strokes with these contacts; the clearance is without wear."""
+        return Depths(*worn_after(self.journal, self.bearing, clearance, contacts, strokes))
 
     def reached(self, clearance: float) -> "Depths":
         """Return depths that the journal can follow; half the clearance bounds its own shape."""

@@ -50,6 +50,9 @@ ONE_THREAD = dict.fromkeys(
 LAST_LETTERS = 2000
 """Of what a child that failed has printed, in the message."""
 
+NOT_FOUND = " (a child does not search the folder where one works; PYTHONPATH names others)"
+"""Cure of a module that is not found."""
+
 ANSWER, REPORT, WRONG_INPUT, NO_ROOM, FAILURE = range(5)
 """What a message from a child is."""
 
@@ -273,8 +276,11 @@ class _Copy:
 
     def _wait(self, option: int) -> int | None:
         if self._code is None:
-            ended, status = os.waitpid(self.pid, option)
-            self._code = os.waitstatus_to_exitcode(status) if ended else None
+            try:
+                ended, status = os.waitpid(self.pid, option)
+                self._code = os.waitstatus_to_exitcode(status) if ended else None
+            except ChildProcessError:  # a program that ignores its children's ends (SIGCHLD)
+                self._code = 0
         return self._code
 
 
@@ -394,7 +400,8 @@ def _perform(setup: Setup, requests: BinaryIO, answers: BinaryIO) -> None:
             else:
                 text = " ".join(str(error).partition("\n\nAt:")[0].split())  # no calls of Exudyn
                 name = type(error).__name__
-                answer = pickle.dumps((FAILURE, f"{name}: {text}" if text else name))
+                missing = NOT_FOUND if isinstance(error, ModuleNotFoundError) else ""
+                answer = pickle.dumps((FAILURE, f"{name}: {text}{missing}" if text else name))
         ready.put(answer)
 
 

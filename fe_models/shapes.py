@@ -2,7 +2,6 @@
 
 import math
 import shutil
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -99,16 +98,16 @@ def _read_step(path: Path) -> Any:
 
 def freeze(shape: Any) -> tuple[str, tuple[str | None, ...]]:
     """Return a shape's boundary representation as text, and its faces' names in order."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "shape.brep"
+    with TemporaryFolder() as folder:
+        path = folder / "shape.brep"
         shape.WriteBrep(str(path))
         return path.read_text(), tuple(face.name for face in shape.faces)
 
 
 def thaw(text: str, names: tuple[str | None, ...]) -> Any:
     """Return a fresh shape from the data of `freeze`."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "shape.brep"
+    with TemporaryFolder() as folder:
+        path = folder / "shape.brep"
         path.write_text(text)
         shape = OccGeometry(str(path)).shape
     for face, name in zip(shape.faces, names, strict=True):

@@ -7,7 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-__all__ = ["TemporaryFolder"]
+__all__ = ["TemporaryFolder", "remove_abandoned"]
 
 BEGINNING = "exu_press_temporary_"
 """Of the folders' names."""
@@ -20,13 +20,12 @@ class TemporaryFolder:
     """A folder that is removed with this object, or by the next one if its process is killed."""
 
     def __init__(self) -> None:
-        """Make it, and remove those that killed processes have left behind.
+        """Make it, and remove those that killed processes have left.
 
         Raises:
             OSError: it cannot be made.
         """
-        for folder in Path(tempfile.gettempdir()).glob(f"{BEGINNING}*"):
-            _remove_abandoned(folder)
+        remove_abandoned()
         self._folder = tempfile.TemporaryDirectory(prefix=BEGINNING, ignore_cleanup_errors=True)
         self.path = Path(self._folder.name)
         new = self.path / f"{LOCK}.new"
@@ -49,6 +48,13 @@ class TemporaryFolder:
         """Free the lock, which holds a file open."""
         with contextlib.suppress(AttributeError, OSError):
             os.close(self._lock)
+
+
+def remove_abandoned() -> None:
+    """Remove the folders that killed processes have left."""
+    with contextlib.suppress(OSError):  # no folder for temporary ones, or none that can be read
+        for folder in Path(tempfile.gettempdir()).glob(f"{BEGINNING}*"):
+            _remove_abandoned(folder)
 
 
 def _remove_abandoned(folder: Path) -> None:

@@ -10,7 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.cli.options import SHIPPED, add_set_argument, shipped_names, show_warnings
+from exu_press.cli.options import (
+    SHIPPED,
+    add_code_argument,
+    add_set_argument,
+    shipped_names,
+    show_warnings,
+)
 from exu_press.errors import InputError, prefixed
 from exu_press.mechanism import SHIPPED as MECHANISMS
 from exu_press.mechanism import (
@@ -57,6 +63,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="MECHANISM|SCENE",
         help=f"a mechanism file, a scene file, or a shipped name: {', '.join(_names())}",
     )
+    add_code_argument(parser)
     add_set_argument(
         parser, "the drawing, as in press.crank_radius=0.1 or joints.crank_pin.at=[0.0, 0.1]"
     )

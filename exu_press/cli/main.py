@@ -15,6 +15,7 @@ from typing import TextIO
 import exu_press
 from exu_press.errors import DiskFullError, InputError
 from fe_models.errors import disk_full
+from fe_models.temporary import remove_abandoned
 
 __all__ = ["main"]
 
@@ -148,6 +149,7 @@ def _execute(arguments: Sequence[str] | None) -> int:
             module.add_arguments(command)
             command.set_defaults(execute=module.execute)
     options = parser.parse_args(given)
+    remove_abandoned()
     usual, warnings.formatwarning = warnings.formatwarning, _as_users_read_it
     try:
         return int(options.execute(options))

@@ -1,9 +1,7 @@
 """Notebook cells of a scene, a mechanism, a result or a comparison."""
 
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from exu_press.mechanism import Mechanism
@@ -19,6 +17,7 @@ from exu_press.report.shown import Page
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.studies.compare import different_keys
+from fe_models.temporary import TemporaryFolder
 
 __all__ = ["Comparison", "cell", "page_of"]
 
@@ -68,9 +67,9 @@ def cell(thing: Any) -> str:
 
 
 def _drawing(mechanism: Mechanism) -> str:
-    with tempfile.TemporaryDirectory() as folder:
+    with TemporaryFolder() as folder:
         drawn = drawing_figure(examine(mechanism), mechanism.name)
-        path = save_figure(drawn, Path(folder) / "mechanism.png")
+        path = save_figure(drawn, folder / "mechanism.png")
         return picture(path, mechanism.name)
 
 

@@ -1,6 +1,5 @@
 """The report of a comparison: its variants side by side."""
 
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from exu_press.result import Result
 from exu_press.schema.stored import from_json, shown
 from exu_press.studies.beside_measured import MEASURED, MEASURED_PICTURE, beside_rows
 from exu_press.studies.compare import different_keys
+from fe_models.temporary import TemporaryFolder
 
 __all__ = ["comparison_page", "comparison_report"]
 
@@ -49,7 +49,7 @@ def comparison_page(
     head, *rows = comparison_cells(results)
     keys, *changed = different_keys({label: run.scene for label, run in results.items()})
     live = live_part(results, span)
-    with tempfile.TemporaryDirectory() as folder:
+    with TemporaryFolder() as folder:
         shown = [
             picture(path, CAPTIONS.get(path.stem, path.stem))
             for path in save_comparison(results, folder)

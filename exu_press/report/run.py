@@ -1,8 +1,6 @@
 """The report of one run."""
 
-import tempfile
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -28,6 +26,7 @@ from exu_press.scene.assumptions import engineering_values, keys_of, used_assump
 from exu_press.view import Animation, moment, save_picture
 from exu_press.view.animation import SIZE
 from exu_press.view.instants import interval
+from fe_models.temporary import TemporaryFolder
 
 __all__ = ["changed_keys", "joint_table", "live_part", "run_report", "scene_parts", "warnings_of"]
 
@@ -146,9 +145,9 @@ def warnings_of(summary: Mapping[str, Any]) -> list[str]:
 def _pictures(result: Result) -> str:
     """Return every picture of a run, the mechanism at the slider's largest acceleration first."""
     peak = float(result.time[int(np.argmax(np.abs(result["slider_acceleration"])))])
-    with tempfile.TemporaryDirectory() as folder:
+    with TemporaryFolder() as folder:
         animation = Animation(result, moment(result, peak), Figure(figsize=SIZE))
-        still = save_picture(animation, 1, Path(folder) / "mechanism.png")
+        still = save_picture(animation, 1, folder / "mechanism.png")
         words = f"The press at the slider's largest acceleration, t = {peak * 1e3:.2f} ms."
         if result.scene.press is None:
             words = words.replace("press", "mechanism", 1)

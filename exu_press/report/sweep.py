@@ -1,7 +1,6 @@
 """The report of a sweep: its runs as a table and a picture."""
 
 import shlex
-import tempfile
 from collections import Counter
 from pathlib import Path
 
@@ -22,6 +21,7 @@ from exu_press.schema.csv_table import read_csv
 from exu_press.studies.sweep import Sweep, Table
 from exu_press.studies.sweep.lines import shown
 from exu_press.studies.sweep.table import cell
+from fe_models.temporary import TemporaryFolder
 
 __all__ = ["sweep_report"]
 
@@ -41,7 +41,7 @@ def sweep_report(file: Path) -> str:
     head, *rows = zip(numbers, *shown_runs, strict=True)
     more = "" if count == len(runs) else paragraph(f"{len(runs) - count} more in {file.name}.")
     nothing = paragraph("No number varies, or none came out.")
-    with tempfile.TemporaryDirectory() as folder:
+    with TemporaryFolder() as folder:
         pictures = [
             picture(path, f"Over {' and '.join(runs.study.keys)}.")
             for path in save_figures(sweep_figures(runs), folder)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from exu_press.cli import main
 from fe_models.temporary import TemporaryFolder
 
 
@@ -51,6 +52,13 @@ def test_what_a_killed_process_leaves_goes_at_the_next_start(base):
     folder = left_by_a_kill(base)
     with TemporaryFolder() as other:
         assert list(base.iterdir()) == [other]
+    assert not folder.exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="folders are not locked there")
+def test_any_command_removes_it(base):
+    folder = left_by_a_kill(base)
+    assert main(["new", str(base / "scene.toml")]) == 0
     assert not folder.exists()
 
 

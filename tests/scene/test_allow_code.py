@@ -92,8 +92,9 @@ def test_no_command_imports_what_a_file_names(command, mark, capsys):
         assert "--allow-code" in said and said.count("\n") == 1
 
 
-def test_drawing_imports_nothing_and_needs_no_permission(mark):
-    assert main(["draw", "scene.toml", "--save", "drawing.png"]) == 0
+@pytest.mark.parametrize("more", [[], ["--allow-code"]])
+def test_drawing_imports_nothing_and_needs_no_permission(more, mark):
+    assert main(["draw", "scene.toml", "--save", "drawing.png", *more]) == 0
     assert not mark.exists()
 
 

@@ -29,7 +29,8 @@ class FrictionJacobian:
         size, step = solver.GetODE2size(), solver.it.currentStepSize
         by_q, by_q_t = solver.newmarkBeta * step * step, solver.newmarkGamma * step
         solver.SetSystemJacobian(np.zeros((size + solver.GetAEsize(),) * 2))
-        solver.ComputeJacobianODE2RHS(mbs, -by_q, -by_q_t)
+        loads = settings.timeIntegration.computeLoadsJacobian
+        solver.ComputeJacobianODE2RHS(mbs, -by_q, -by_q_t, computeLoadsJacobian=loads)
         jacobian = np.array(solver.GetSystemJacobian())
         jacobian[:size, :size] += inertia_factor(solver) * solver.GetSystemMassMatrix()
         for friction in self._frictions:
@@ -40,13 +41,19 @@ class FrictionJacobian:
         return True
 
 
+STALE = 4
+"""Newton iterations of a step after which all is differentiated again; most steps take one."""
+
+
 class FlexibleJacobian:
-    """Newton's matrix of a system with flexible bodies, which are differentiated but once.
+    """Newton's matrix of a system with flexible bodies, which are differentiated but seldom.
 
     M (1 - alpha_m)/(1 - alpha_f) + beta h^2 K + gamma h D, bordered by the constraints. Exudyn
     differentiates bodies in floating frames numerically, which takes as long as forty residuals.
     But stiffness and damping belong to modes, whose coordinates turn with the frame. What its
-    motion adds to them is less than a hundredth of the inertia over a step.
+    motion adds to them is less than a hundredth of the inertia over a step. What
+    else has slopes that change, as a forming force that fades where the output comes to rest, shows
+    by many iterations: all is differentiated again then.
 
     To assemble and factorise the matrix takes as long as two iterations. So one serves steps of one
     size until one of them needs a second iteration, which it still serves; a third one, or the next
@@ -79,12 +86,15 @@ class FlexibleJacobian:
             self._serves = False
         if self._kept and iterations == 2:
             self._convergence.jacobianUpdateRequested = True
+        if iterations == STALE:
+            self._bodies = None
+            self._convergence.jacobianUpdateRequested = True
 
     def _compute(self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings) -> bool:
         """Give the solver its Jacobian in the current state; return that this went well."""
         size = solver.GetODE2size()
         if self._bodies is None:
-            self._bodies = self._differentiated(solver, mbs)
+            self._bodies, self._factors = self._differentiated(solver, mbs, settings), (0.0, 0.0)
             self._jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
         step, jacobian = solver.it.currentStepSize, self._jacobian
         self._step = step
@@ -101,11 +111,14 @@ class FlexibleJacobian:
         solver.ComputeJacobianAE(mbs, 1.0, by_q_t / by_q)  # adds the constraints
         return True
 
-    def _differentiated(self, solver: Any, mbs: exu.MainSystem) -> Array:
+    def _differentiated(
+        self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings
+    ) -> Array:
         """Return stiffness and damping of all but the clearance joints, a row each."""
+        loads = settings.timeIntegration.computeLoadsJacobian
         size, rows = solver.GetODE2size(), []
         with nullcontext() if self._joints is None else self._joints.left_out():
             for factors in ((-1.0, 0.0), (0.0, -1.0)):
-                solver.ComputeJacobianODE2RHS(mbs, *factors)
+                solver.ComputeJacobianODE2RHS(mbs, *factors, computeLoadsJacobian=loads)
                 rows.append(np.array(solver.GetSystemJacobian())[:size, :size].ravel())
         return np.array(rows)

@@ -14,6 +14,7 @@ from exu_press.laws.contact import (
     step,
     step_damping,
 )
+from exu_press.laws.contact_damping import Approach
 
 
 def test_adams_step_at_its_ends() -> None:
@@ -120,3 +121,21 @@ def test_restitution_out_of_range_is_refused_by_name(law: str, restitution: floa
 def test_bad_parameters_are_refused_by_name(make, name: str) -> None:
     with pytest.raises(ValueError, match=rf"^{name} = .*: allowed .*{name}"):
         make()
+
+
+@pytest.mark.parametrize("acceleration", [-4e4, 0.0, 6e5])
+@pytest.mark.parametrize("part", [0.1, 0.5, 0.95])
+def test_the_speed_at_first_touch_lies_between_two_instants(
+    acceleration: float, part: float
+) -> None:
+    """Under an even acceleration a, v^2 = v_0^2 + 2 a s; the gap is a part of the way."""
+    start, way = 1.0, 1e-5
+    gap = part * way
+    end = math.sqrt(start**2 + 2.0 * acceleration * way)
+    touch = math.sqrt(start**2 + 2.0 * acceleration * gap)
+    approach = Approach()
+    assert approach.speed(-gap, start) == start
+    approach.accept()
+    assert approach.speed(way - gap, end) == pytest.approx(touch, rel=1e-12)
+    approach.accept()
+    assert approach.speed(way, 0.3 * end) == pytest.approx(touch, rel=1e-12)  # kept in contact

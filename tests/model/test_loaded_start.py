@@ -169,3 +169,21 @@ def test_a_strong_film_starts_with_its_force_and_rings_in_no_constraint(angle, f
     size = np.linalg.norm(film[0])
     assert np.linalg.norm(film[:20] - film[0], axis=1).max() < 0.1 * size
     assert np.abs(guide[:20]).max() < 0.2 * size
+
+
+@pytest.mark.parametrize(("angle", "pressed"), [(0.0, True), (62.1, False)])
+def test_a_joint_that_changes_sides_starts_centred(angle, pressed):
+    """At 63 deg the pins' forces turn round within degrees: pressed journals would be flung."""
+    result = simulate(
+        Scene(
+            mechanism="slider_crank",
+            joints={"wrist_pin": "dry", "crank_pin": "dry"},
+            revolutions=0.05,
+            start_angle_deg=angle,
+        )
+    )
+    away = np.linalg.norm(result["wrist_pin_eccentricity"][0])
+    clearance = result.joints["wrist_pin"].clearance
+    assert away > clearance if pressed else away < 1e-6 * clearance
+    if not pressed:
+        assert np.abs(result["slider_acceleration"]).max() < 50.0

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.mechanism import shipped_mechanism
+from exu_press.mechanism import mechanism_to_dict, shipped_mechanism
 from exu_press.mechanism.holding import holding_of
-from exu_press.scene import flexible_press
+from exu_press.scene import flexible_press, mechanism_of
 
 PULSE = {
     "kind": "blanking",
@@ -86,3 +86,22 @@ def test_a_ball_on_the_frame_that_is_ideal_has_a_force_in_space():
     assert force.shape == (len(ball.time), 3)
     assert np.abs(force[:, :2] - flat["pivot_force"]).max() < 1e-9 * np.abs(force).max()
     assert not force[:, 2].any()
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_force_on_the_frame_is_weight_and_shaking_whichever_side_the_frame_is_of(turned):
+    """By Newton's second law of all bodies; the pivot's journal or its bearing is the frame's."""
+    drawn = mechanism_to_dict(shipped_mechanism("four_bar"))
+    pivot = next(
+        joint
+        for joint in drawn["joints"].values()
+        if joint["bearing"] == "frame" and joint["journal"] != drawn["crank"]
+    )
+    if turned:
+        pivot["journal"], pivot["bearing"] = "frame", pivot["journal"]
+    scene = Scene(mechanism=drawn, joints={}, revolutions=0.3)
+    result = simulate(scene)
+    weight = 9.81 * sum(b.mass for b in mechanism_of(scene).bodies)
+    expected = result["shaking_force"] - [0.0, weight]
+    size = np.abs(expected).max()
+    assert result["frame_force"][5:] == pytest.approx(expected[5:], abs=0.02 * size)

@@ -184,3 +184,15 @@ def test_a_body_that_is_a_thousand_times_lighter_than_another(mass, warns):
     assert all(
         w.startswith("bodies.rod.mass = 1 kg is 0.00074 times that of slider") for w in found
     )
+
+
+@pytest.mark.parametrize(("coefficient", "warns"), [(0.04, False), (0.06, True)])
+def test_a_coefficient_of_wear_that_no_pair_of_metals_has(coefficient, warns):
+    pin = {"kind": "dry", "clearance": 1e-4, "radius": 0.07}
+    scene = Scene(
+        mechanism="slider_crank",
+        joints={"crank_pin": pin},
+        contact={"length": 0.1},
+        wear={"coefficient": coefficient, "hardness": 2e9, "length": 0.1},
+    )
+    assert any("wear.coefficient" in text for text in scene_warnings(scene)) == warns

@@ -1,0 +1,31 @@
+"""Work of loads whose closed form is known."""
+
+import numpy as np
+import pytest
+
+from exu_press.result.energy import work
+
+TIME = np.array([0.0, 0.1, 0.4, 1.0])
+
+
+@pytest.mark.parametrize(
+    ("load", "rate", "done"),
+    [
+        (lambda t: 3.0 + 0.0 * t, lambda t: 2.0 * t, lambda t: 3.0 * t**2),
+        (lambda t: 4.0 * t, lambda t: 2.0 + 0.0 * t, lambda t: 4.0 * t**2),
+        (lambda t: 2.0 - 3.0 * t, lambda t: -1.0 + 0.0 * t, lambda t: 1.5 * t**2 - 2.0 * t),
+    ],
+)
+def test_it_is_exact_where_load_or_rate_is_even(load, rate, done):
+    assert work(TIME, load(TIME), rate(TIME)) == pytest.approx(done(TIME), abs=1e-14)
+
+
+def test_a_spring_that_is_pressed_in_by_an_even_acceleration_has_its_energy():
+    """F = -k x, x = t^2 / 2: in steps of any length, h mean(F) mean(v) misses O(h^2)."""
+    fine = np.linspace(0.0, 1.0, 1001) ** 1.5
+    assert work(fine, -8.0 * 0.5 * fine**2, fine)[-1] == pytest.approx(-0.5 * 8.0 * 0.25, rel=1e-5)
+
+
+def test_columns_are_summed():
+    both = work(TIME, np.column_stack([1.0 + 0.0 * TIME, 2.0 * TIME]), np.ones((4, 2)))
+    assert both == pytest.approx(TIME + TIME**2, abs=1e-14)

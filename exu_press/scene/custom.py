@@ -43,6 +43,9 @@ class CustomKind:
     registered_name: ClassVar[str] = ""
     """Of the entry point by which an installed distribution offers it."""
 
+    resolved: ClassVar[bool] = True
+    """False for what stands in a result for a kind whose code is not loaded."""
+
     @property
     def kind(self) -> str:
         """Name of the class, as a scene has it."""
@@ -80,6 +83,7 @@ class UnresolvedJoint(CustomJoint):
         keys: as the result has them.
     """
 
+    resolved: ClassVar[bool] = False
     name: str = ""
     keys: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)
 
@@ -214,7 +218,7 @@ def _name_of(kind: type[CustomKind]) -> str:
 
 def _loaded(name: str, base: type[Kind]) -> type[Kind] | None:
     """Return the class of a name among those that Python has made by now; the last one counts."""
-    found = [kind for kind in _derived(base) if _name_of(kind) == name]
+    found = [kind for kind in _derived(base) if kind.resolved and _name_of(kind) == name]
     return found[-1] if found else None
 
 

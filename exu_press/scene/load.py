@@ -297,6 +297,7 @@ class UnresolvedLoad(CustomLoad):
         keys: as the result has them.
     """
 
+    resolved: ClassVar[bool] = False
     over: ClassVar[str] = "time"
     name: str = ""
     keys: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)

@@ -180,7 +180,8 @@ def test_a_result_whose_scene_is_forged_runs_nothing(mark, monkeypatch):
     """Whatever it names, and in whatever form; no attribute of a module is asked for either."""
     result = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=0.01))
     honest = result.scene.to_dict()
-    for kind in ("hostile:Spring", "this:x", "os:system", "exu_press:cell", "hostile", "a:b:c"):
+    ours = ("exu_press.scene.custom:UnresolvedJoint", "exu_press.scene:CustomJoint")
+    for kind in ("hostile:Spring", "this:x", "os:system", "exu_press:cell", "hostile", *ours):
         for joints in ({"crank_pin": kind}, {"crank_pin": {"kind": kind, "clearance": "x"}}):
             with pytest.raises(InputError):
                 result.scene.replace({"joints": joints})

@@ -21,6 +21,9 @@ NARROWEST, WIDEST = 1e-4, 1e-2
 THINNEST, THICKEST = 1e-3, 2.0
 """Pa s: water, and gear oil of the thickest grade, ISO VG 1500, hardly warm."""
 
+MANY_MODES = 100
+"""100 modes of a small part take half a minute, 500 several ones."""
+
 SOFTEST, STIFFEST = 1e9, 1.2e12
 """Pa: plastics, and diamond."""
 
@@ -55,6 +58,7 @@ def doubtful_sizes(scene: Scene) -> list[str]:
         *_guides(scene),
         *_viscosity(scene),
         *_stiffness(scene),
+        *_modes(scene),
         *_heights(scene),
     ]
 
@@ -151,6 +155,16 @@ def _stiffness(scene: Scene) -> Iterator[str]:
             f"bodies.{name}.youngs_modulus = {given:g} Pa is {side} Pa. Plastics have 1e9, steel "
             "has 2.1e11 and diamond 1.05e12. Deflections are in proportion to its inverse."
         )
+
+
+def _modes(scene: Scene) -> Iterator[str]:
+    """Yield numbers of modes that take minutes to compute."""
+    for name, body in scene.bodies.items():
+        if body.modes is not None and body.modes > MANY_MODES:
+            yield (
+                f"bodies.{name}.modes = {body.modes} takes minutes to compute, and shorter steps. "
+                f"bodies.{name}.flexibility_error = 0.01 takes as many modes as its loads need."
+            )
 
 
 def _heights(scene: Scene) -> Iterator[str]:

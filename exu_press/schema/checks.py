@@ -333,10 +333,21 @@ def refuse_unknown(where: str, given: Mapping[str, Any], known: Collection[str])
             demand_known(f"{place} = {value!r:.200}: unknown key", name, known)
 
 
+MOST_NAMES, LIKE = 24, 8
+"""Names that a message lists; with more of them so many that are like the one in question."""
+
+
 def demand_known(said: str, name: Any, known: Iterable[str]) -> None:
-    """Raise InputError, with the nearest and all known names behind it, unless a name is known."""
+    """Raise InputError, with the nearest and all known names behind it, unless a name is known.
+
+    Of many known names only some that are most like it.
+    """
     if name not in (names := list(known)):
-        raise InputError(f"{said}{nearest(name, names)}; allowed are {', '.join(names)}")
+        shown, rest = names, ""
+        if len(names) > MOST_NAMES:
+            shown = difflib.get_close_matches(str(name), names, n=LIKE, cutoff=0.3) or names[:LIKE]
+            rest = f" and {len(names) - len(shown)} others"
+        raise InputError(f"{said}{nearest(name, names)}; allowed are {', '.join(shown)}{rest}")
 
 
 def table_with(table: type[T], name: str, data: Any, usual: Mapping[str, Any]) -> T:

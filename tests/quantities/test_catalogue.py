@@ -15,7 +15,7 @@ import exu_press
 from exu_press import InputError, Scene, simulate
 from exu_press.plots.sweep import axes_of, sweep_figure
 from exu_press.quantities import CATALOGUE, Place, add, quantities_of, values_of
-from exu_press.quantities.catalogue import QuantityAt, find_quantity
+from exu_press.quantities.catalogue import QuantityAt, find_quantity, quantity_of
 from exu_press.quantities.table import run_lines
 from exu_press.report.run import run_report
 from exu_press.studies.sweep import Sweep, sweep
@@ -180,3 +180,11 @@ def test_what_a_quantity_gives_is_a_plain_number_or_none(given, value):
 def test_a_quantity_that_gives_no_number_is_named():
     with pytest.raises(InputError, match="quantity stroke: gives 'a'; allowed is a number"):
         QuantityAt(dataclasses.replace(CATALOGUE[0], read=lambda run, at: "a")).read(None)
+
+
+def test_an_unknown_name_gives_those_that_are_like_it_and_not_all():
+    with pytest.raises(InputError) as refused:
+        quantity_of(Scene(), "joints.crank_pin.peak_forse")
+    said = str(refused.value)
+    assert "did you mean 'joints.crank_pin.peak_force'?" in said
+    assert len(said) < 600 and said.endswith(" others")

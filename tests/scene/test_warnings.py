@@ -196,3 +196,9 @@ def test_a_coefficient_of_wear_that_no_pair_of_metals_has(coefficient, warns):
         wear={"coefficient": coefficient, "hardness": 2e9, "length": 0.1},
     )
     assert any("wear.coefficient" in text for text in scene_warnings(scene)) == warns
+
+
+@pytest.mark.parametrize(("modes", "warns"), [(100, False), (500, True)])
+def test_modes_by_the_hundred_are_said_to_take_minutes(modes, warns):
+    scene = Scene(bodies={"linkage": {"flexible": "linkage", "modes": modes}})
+    assert any("takes minutes" in text for text in scene_warnings(scene)) == warns

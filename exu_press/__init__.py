@@ -11,13 +11,13 @@ if TYPE_CHECKING:
     from typing import Any
 
     from exu_press.errors import InputError
+    from exu_press.exudyn_systems import solve_dynamic
     from exu_press.integrate import (
         ErrorScales,
         Outcome,
         SolverStatus,
         SolverTuning,
         follow_modes,
-        solve_dynamic,
     )
     from exu_press.joints import (
         FlexiblePoint,
@@ -70,7 +70,8 @@ __all__ = [
 
 _NAMES = {
     "errors": "InputError",
-    "integrate": "ErrorScales Outcome SolverStatus SolverTuning follow_modes solve_dynamic",
+    "exudyn_systems": "solve_dynamic",
+    "integrate": "ErrorScales Outcome SolverStatus SolverTuning follow_modes",
     "joints": "FlexiblePoint add_dry_revolute add_dry_spherical add_guideway_contact "
     "add_guideway_film add_joint_sensor add_lubricated_revolute add_lubricated_spherical "
     "add_revolute",

@@ -10,6 +10,7 @@ import statistics
 import time
 
 import exudyn as exu
+import exudyn.utilities as items
 import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyRigid,
@@ -24,7 +25,6 @@ from exu_press.integrate.task import Task, prepared_settings
 from exu_press.joints import COMPILED
 from exu_press.laws.film import film_scale, pinkus
 from exu_press.solving import settings_for
-from exudyn_examples.planar import bar, pin
 
 STEP = 1e-5  # s
 PRESS = {
@@ -34,6 +34,28 @@ PRESS = {
 }
 BODIES, LENGTH, MASS = 10, 0.2, 1.0  # of the chain; m, kg
 BEARING = {"radius": 0.02, "clearance": 5e-5, "length": 0.08, "viscosity": 0.4}  # m, Pa s
+
+
+def bar(mbs, start, end, mass):
+    """A uniform bar between two points of the drawing: its body, half its length, its node."""
+    (x0, y0), (x1, y1) = start, end
+    half, angle = 0.5 * np.hypot(x1 - x0, y1 - y0), np.arctan2(y1 - y0, x1 - x0)
+    middle = [0.5 * (x0 + x1), 0.5 * (y0 + y1), angle]
+    node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=middle))
+    inertia = mass * (2.0 * half) ** 2 / 12.0
+    body = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=mass, inertia=inertia))
+    centre = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body))
+    mbs.AddLoad(items.LoadMassProportional(markerNumber=centre, loadVector=[0.0, -9.81, 0.0]))
+    return body, half, node
+
+
+def pin(mbs, one, at_one, other, at_other):
+    """A revolute joint between points of two bodies."""
+    markers = [
+        mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=body, localPosition=[*at, 0.0]))
+        for body, at in ((one, at_one), (other, at_other))
+    ]
+    return mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=markers))
 
 
 def run_press(joints, steps):

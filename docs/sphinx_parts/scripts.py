@@ -19,7 +19,6 @@ LEFT_OUT = (
     "calibrate_",
     "dry_press_",
     "exudyn_",
-    "examples_",
     "fit_",
     "tabulate_",
     "flexible_",
@@ -28,8 +27,6 @@ LEFT_OUT = (
     "paper",
     "precision",
     "press_work_",
-    "random_systems",
-    "sensor_errors",
     "stability",
 )
 """Beginnings of scripts that take minutes, need files beside them, or overwrite what the package

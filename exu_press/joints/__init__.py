@@ -17,7 +17,7 @@ from exu_press.joints.ends import FlexiblePoint
 from exu_press.joints.history import JointHistory, history
 from exu_press.joints.joint import ClearanceJoint, JointState
 from exu_press.joints.states import States
-from exu_press.joints.user_force import user_force_of
+from exu_press.joints.user_force import holds_joints, user_force_of
 
 __all__ = [
     "COMPILED",
@@ -35,6 +35,7 @@ __all__ = [
     "add_lubricated_spherical",
     "add_revolute",
     "history",
+    "holds_joints",
     "user_force_of",
 ]
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 from exu_press.joints.joint import GROUND, SHALLOW, ClearanceJoint, JointState
 
-__all__ = ["UserForceElement", "user_force_of"]
+__all__ = ["UserForceElement", "holds_joints", "user_force_of"]
 
 REGISTRY = "exu_press_joints"
 
@@ -340,3 +340,8 @@ def user_force_of(mbs: exu.MainSystem) -> UserForceElement:
     if user_force is None:
         user_force = mbs.variables[REGISTRY] = UserForceElement(mbs)
     return user_force
+
+
+def holds_joints(mbs: exu.MainSystem) -> bool:
+    """Return whether a system has clearance joints of this package."""
+    return REGISTRY in mbs.variables and bool(user_force_of(mbs).joints)

@@ -3,7 +3,7 @@
 import exudyn as exu
 from exudyn.itemInterface import NodeRigidBody2D, ObjectRigidBody2D, SensorNode
 
-from exu_press import SolverStatus, solve_dynamic
+from exu_press.integrate import SolverStatus, solve_dynamic
 
 
 def solve(mbs, settings):

@@ -14,7 +14,7 @@ from exudyn.itemInterface import (
 )
 from independent.solid import displaced
 
-from exu_press import SolverStatus, solve_dynamic
+from exu_press.integrate import SolverStatus, solve_dynamic
 from exu_press.mechanism import Body, Motion
 from exu_press.model.rigid_body import PivotedBody
 from fe_models import add_flexible_body

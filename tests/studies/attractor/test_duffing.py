@@ -8,7 +8,7 @@ import pytest
 from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2
 from scipy.integrate import solve_ivp
 
-from exu_press import solve_dynamic
+from exu_press.integrate import solve_dynamic
 from exu_press.studies.attractor.lyapunov import combined
 
 DAMPING, FORCE = 0.05, 7.5

@@ -1,0 +1,115 @@
+"""How far two runs are apart, quantity by quantity, each in its own norm.
+
+Quantities, in this order: displacements of nodes, their rotations, coordinates of nodes without
+displacement, first-order coordinates, values of sensors, and when the runs ended.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from exu_press.exudyn_systems.samples import Samples, Variables
+from exu_press.numerics.arrays import Array
+
+__all__ = ["common", "differences", "excess_step", "of_peaks", "scales_of"]
+
+# smallest scale over the largest one of its like: rounding alone moves what is smaller
+SMALLEST = 1e-6
+LARGEST_TURN = 0.5  # angle by which a body may turn in a step of a level that decides, rad
+STEPS_IN_PERIOD = 10.0  # fewest steps in a period of a coordinate in a level that decides
+
+
+def common(one: Samples, other: Samples) -> tuple[Any, Any]:
+    """Return the numbers of the instants that two runs have in common, in either run."""
+    close = 1e-7 * (other.times[-1] - other.times[0])
+    theirs = np.searchsorted(other.times[:-1], one.times - close)
+    ours = np.flatnonzero(np.abs(other.times[theirs] - one.times) <= close)
+    return ours, theirs[ours]
+
+
+def differences(one: Samples, other: Samples, variables: Variables) -> Array:
+    """Return the differences of two runs at their common instants, (instants, quantities)."""
+    ours, theirs = common(one, other)
+
+    def apart(name: str) -> Any:
+        return getattr(one, name)[ours] - getattr(other, name)[theirs]
+
+    coordinates, sensors = apart("coordinates"), np.abs(apart("sensors"))
+    angles = np.char.endswith(variables.kinds, ".Rotation")
+    sensors[:, angles] = np.abs((sensors[:, angles] + np.pi) % (2.0 * np.pi) - np.pi)
+    plain = [_lengths(coordinates[:, variables.spans[node]]) for node in variables.plain]
+    parts = [
+        _lengths(apart("displacements")),
+        _angles(apart("rotations")),
+        np.reshape(plain, (len(plain), len(ours))).T,
+        np.abs(apart("first_order")),
+        sensors,
+        np.full((len(ours), 1), abs(one.times[-1] - other.times[-1])),
+    ]
+    return np.asarray(np.nan_to_num(np.concatenate(parts, axis=1), nan=np.inf))
+
+
+def of_peaks(one: Samples, other: Samples) -> Array:
+    """Return by how much the largest magnitudes of the sensors' values differ, (values,)."""
+    ours, theirs = common(one, other)
+    peaks = np.abs(one.sensors[ours]).max(axis=0) - np.abs(other.sensors[theirs]).max(axis=0)
+    return np.asarray(np.abs(peaks))
+
+
+def scales_of(samples: Samples, variables: Variables, duration: float) -> Array:
+    """Return the scale of each quantity in a run of a duration, s, (quantities,)."""
+    moved = _lengths(samples.displacements - samples.displacements[0]).max(initial=0.0)
+    turned = _angles(samples.rotations - samples.rotations[0]).max(initial=0.0)
+    change = samples.coordinates - samples.coordinates[0]
+    plain = [_lengths(change[:, variables.spans[node]]).max() for node in variables.plain]
+    others = np.concatenate([plain, np.abs(samples.first_order).max(axis=0)])
+    sensors = np.abs(samples.sensors).max(axis=0)
+    for kind in set(variables.kinds):
+        alike = variables.kinds == kind
+        sensors[alike] = np.maximum(sensors[alike], SMALLEST * sensors[alike].max())
+    nodes = [moved] * len(variables.placed) + [turned] * len(variables.turning)
+    least = SMALLEST * np.abs(change).max(initial=0.0)
+    return np.concatenate([nodes, np.maximum(others, least), sensors, [duration]])
+
+
+def excess_step(
+    samples: Samples, step: float, variables: Variables, scales: Array, tolerance: float
+) -> float:
+    """Return a step (s) over the longest one of a level that decides.
+
+    A period is read from the root mean squares of a coordinate and of its velocity, which do not
+    depend on how often they are sampled; a linear trend is no oscillation. Oscillations smaller
+    than the tolerance do not count.
+    """
+    plain = len(variables.placed) + len(variables.turning)
+    first = plain + len(variables.plain)
+    turned = _angles(samples.rotations - samples.rotations[0]).max(axis=0)
+    planar = {node for node, angle in zip(variables.turning, turned, strict=True) if angle > 0.0}
+    scale = np.ones(samples.coordinates.shape[1])  # that of angles and Euler parameters
+    for i, node in enumerate(variables.placed):
+        start, stop = variables.spans[node].start, variables.spans[node].stop
+        size = 2 if stop - start == 3 and node in planar else 3
+        scale[start : min(start + size, stop)] = scales[i]
+    for i, node in enumerate(variables.plain):
+        scale[variables.spans[node]] = scales[plain + i]
+    values = np.concatenate([samples.coordinates, samples.first_order], axis=1)
+    rates = np.concatenate([samples.velocities, samples.rates], axis=1)
+    since = samples.times - samples.times.mean()
+    slope = since @ (values - values.mean(axis=0)) / (since @ since)
+    amplitude = (values - np.outer(since, slope)).std(axis=0)
+    scale = np.concatenate([scale, scales[first : first + samples.first_order.shape[1]]])
+    counts = amplitude > tolerance * scale
+    frequency = (rates.std(axis=0)[counts] / amplitude[counts]).max(initial=0.0)
+    fastest = _lengths(samples.angular_velocities).max(initial=0.0)
+    in_period = frequency * STEPS_IN_PERIOD / (2.0 * np.pi)
+    return float(step * max(in_period, fastest / LARGEST_TURN))
+
+
+def _lengths(vectors: Array) -> Array:
+    return np.asarray(np.sqrt(np.sum(vectors**2, axis=-1)))
+
+
+def _angles(changes: Array) -> Array:
+    """Return the angles between rotation matrices from their differences, rad."""
+    chord = np.sqrt(np.sum(changes**2, axis=(-2, -1)) / 8.0)
+    return np.asarray(2.0 * np.arcsin(np.minimum(chord, 1.0)))

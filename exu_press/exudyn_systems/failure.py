@@ -1,0 +1,85 @@
+"""Why a refinement did not converge, in words."""
+
+import itertools
+import math
+
+import numpy as np
+
+from exu_press.exudyn_systems.difference import STEPS_IN_PERIOD, common
+from exu_press.exudyn_systems.refine import Refinement
+from exu_press.numerics.convergence import ORDER, PLAUSIBLE
+from exu_press.verification.growth import growth
+
+__all__ = ["agreed_until", "why_not_converged"]
+
+SMALL = 1e-4  # relative difference from which on growth is judged
+APART = 0.1  # relative difference from which on motions are as far apart as they get
+GROWN = 1e3  # growth of differences in a run from which on the motion amplifies them
+
+
+def agreed_until(refinement: Refinement) -> float:
+    """Return the time up to which the last two levels agree within the tolerance, s."""
+    one, two = refinement.levels[-2:]
+    above = np.flatnonzero(refinement.apart(one, two).max(axis=1) > refinement.tolerance)
+    times = one.samples.times[common(one.samples, two.samples)[0]]
+    return float(times[max(above[0] - 1, 0)] if len(above) else times[-1])
+
+
+def why_not_converged(refinement: Refinement) -> str:
+    """Return what was reached, which quantity differs most, why, and what would do."""
+    levels, failures = refinement.levels, refinement.failures
+    if len(levels) < 2 or refinement.solver_gives_up():
+        latest = max(failures, key=lambda level: level.end)
+        numbers = ", ".join(str(level.steps) for level in failures)
+        return (
+            f"Newton's method fails at every level{' but coarser ones' * bool(levels)} ({numbers} "
+            f"steps), at the latest at {latest.end:.4g} s: {latest.failure}"
+        )
+    worst = int(refinement.apart(*levels[-2:]).max(axis=0).argmax())
+    pairs = [(refinement.apart(*pair), *pair) for pair in itertools.pairwise(levels[-3:])]
+    last = [f"{d[:, worst].max():.2g} from {a.steps} to {b.steps} steps" for d, a, b in pairs]
+    return (
+        f"the last two levels agree within the tolerance up to {agreed_until(refinement):.4g} s; "
+        f"most differs the {refinement.variables.names[worst]}, over its scale by "
+        f"{', by '.join(last)}; {_cause(refinement)}"
+    )
+
+
+def _cause(refinement: Refinement) -> str:
+    """Return why differences are above the tolerance, and what would do."""
+    (coarser, finest), judgement = refinement.levels[-2:], refinement.judgement
+    used, too_long = sum(steps for steps, _ in refinement.cost), refinement.excess(finest)
+    if refinement.remembers:
+        return (
+            "a user function gives other results in each run, as it remembers earlier ones or "
+            "draws numbers; pass a function that builds the system"
+        )
+    if judgement is not None and not judgement.decided and judgement.order < PLAUSIBLE[0]:
+        times = coarser.samples.times[common(coarser.samples, finest.samples)[0]]
+        apart = refinement.apart(coarser, finest).max(axis=1)
+        rate = growth(times, apart, APART).rate or 0.0
+        logs = np.log(np.maximum.accumulate(np.clip(apart, SMALL, APART)))
+        window = max(len(logs) // 20, 1)  # a switch makes differences within it
+        gradual = np.max(logs[window:] - logs[:-window]) < 0.5 * (logs[-1] - logs[0])
+        if gradual and rate * (times[-1] - times[0]) > math.log(GROWN):
+            return (
+                "differences do not fall, as the motion amplifies them: they double every "
+                f"{math.log(2.0) / rate:.2g} s (chaos); end the run earlier, or take its statistics"
+            )
+        return (
+            "differences do not fall: a right-hand side jumps (a switch, dry friction, a contact, "
+            "a random number) and steps do not resolve it; smooth it, or end the run before it"
+        )
+    steps = math.ceil(finest.steps * too_long)
+    phase = 2.0 * math.pi / STEPS_IN_PERIOD * steps  # is off by its third power / (12 steps^2)
+    by_phase = phase * math.sqrt(phase / (12.0 * refinement.tolerance))
+    need, budget = "three levels whose order is plausible", math.ceil(max(by_phase, 4.0 * steps))
+    if too_long > 1.0:
+        need = f"the shortest period or the fastest turn, in steps of which {steps} make the run"
+    elif judgement is not None and judgement.decided:
+        order = np.clip(judgement.order, PLAUSIBLE[0], ORDER)
+        budget = math.ceil(finest.steps * (judgement.error / refinement.tolerance) ** (1.0 / order))
+        need = (
+            f"the tolerance: the error is {judgement.error:.2g}, and about {budget} steps have it"
+        )
+    return f"the budget was too small for {need}; max_steps = {4 * budget + used} would do"

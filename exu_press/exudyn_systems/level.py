@@ -1,0 +1,147 @@
+"""Runs with constant steps: in copies of the process, on systems of their own, or the user's."""
+
+import sys
+import threading
+import time as clock
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+
+from exu_press.errors import InputError
+from exu_press.exudyn_systems.samples import MOST_SAMPLES, Samples, Variables
+from fe_models.processes import Child, ChildError, may_copy
+
+__all__ = ["Level", "Levels"]
+
+SPARES = 3  # copies of the process that are kept for further levels
+
+
+@dataclass
+class Level:
+    """A run: number and size (s) of steps, processor time and end (s), why the solver gave up."""
+
+    steps: int
+    step: float
+    seconds: float
+    end: float
+    failure: str
+    iterations: int
+    samples: Samples
+
+
+@dataclass
+class Levels:
+    """Runs of one system from the same start, with different numbers of steps."""
+
+    mbs: exu.MainSystem  # that the last level is run on
+    settings: exu.SimulationSettings
+    samples: int  # the least number of them, of which each number of steps is a multiple
+    deadline: float  # of the clock `time.monotonic`, s
+    build: Callable[[], exu.MainSystem] | None  # for each level; None: copies of the process
+    update: bool  # whether the next run starts where the last level ends
+    touched: bool = False  # whether the system has been run
+    spares: list[Child] = field(default_factory=list)  # from before that, if the last level misses
+
+    def run_earlier(self, numbers: list[int]) -> list[Level]:
+        """Return levels that leave no trace on the user's system."""
+        if self.build is not None:
+            return [self.run(steps, alone=True) for steps in numbers]
+        children = [self.spares.pop() if self.touched else self._copy() for _ in numbers]
+        try:
+            for child, steps in zip(children, numbers, strict=True):
+                child.request(steps)
+            return [child.answer() for child in children]
+        except ChildError as error:  # a user function failed
+            raise exu.ExudynError(str(error)) from None
+        finally:
+            for child in children:
+                child.end()
+
+    def _copy(self) -> Child:
+        return Child(lambda steps: self.run(steps, alone=True))
+
+    def run(self, steps: int, *, alone: bool = False) -> Level:
+        """Return a run in this process; `alone` writes no files, no rows and no text."""
+        if self.build is not None and self.touched:
+            self.mbs = self.build()
+        elif self.build is None and not (alone or self.touched):
+            self.spares = [self._copy() for _ in range(SPARES)]
+        system: Any = self.mbs
+        own = system.GetPostStepUserFunction()
+        function = own["function"] if isinstance(own, dict) else None
+        start, end = self.settings.timeIntegration.startTime, self.settings.timeIntegration.endTime
+        factors = range(1, MOST_SAMPLES // self.samples + 1)
+        count = self.samples * max(k for k in factors if steps // self.samples % k == 0)
+        step, period, variables = (end - start) / steps, (end - start) / count, Variables(system)
+        rows, failure, self.touched = list[Any](), "", True
+
+        def sample(mbs: Any, time: float) -> bool:
+            nonlocal failure
+            go_on = function is None or bool(function(mbs, time))
+            if time >= start + len(rows) * period - 0.5 * step:
+                rows.append(variables.row(time))
+                failure = "the time was used up" if clock.monotonic() > self.deadline else ""
+            return go_on and not failure
+
+        begun = clock.process_time()
+        with _constant_steps(self.settings, steps, alone=alone):
+            system.SetPostStepUserFunction(sample)
+            try:
+                system.SolveDynamic(self.settings, updateInitialValues=self.update and not alone)
+            except exu.SolverError:
+                text = str(system.sys["dynamicSolver"].GetErrorString()).strip()
+                failure = failure or (text or "Newton's method did not converge").splitlines()[0]
+            finally:
+                system.SetPostStepUserFunction(function or 0)
+        return Level(
+            steps=steps,
+            step=step,
+            seconds=clock.process_time() - begun,
+            end=float(system.systemData.GetTime()),
+            failure=failure,
+            iterations=int(system.sys["dynamicSolver"].it.newtonStepsCount),
+            samples=Samples(*map(np.array, zip(*(rows or [variables.row(start)]), strict=True))),
+        )
+
+    def refuse_copy(self) -> None:
+        """Refuse a process that cannot be copied safely, with a message that says what to do."""
+        container: Any = self.mbs.GetSystemContainer()
+        threads, of_solver = threading.active_count(), int(self.settings.parallel.numberOfThreads)
+        others = "NGSolve is loaded" if "ngsolve" in sys.modules else f"there are {threads} threads"
+        others = others if sys.platform == "linux" else f"this is {sys.platform}"
+        for reason, applies in (
+            ("the renderer is running", container.renderer.IsActive()),
+            (f"settings.parallel.numberOfThreads = {of_solver}", of_solver > 1),
+            (others, not may_copy()),
+        ):
+            if applies:
+                raise InputError(
+                    "mbs: earlier levels run in copies of this process, which is not safe, as "
+                    f"{reason}; pass a function that builds and returns the assembled system "
+                    "instead: solve_dynamic(build, settings)"
+                )
+
+
+@contextmanager
+def _constant_steps(settings: exu.SimulationSettings, steps: int, *, alone: bool) -> Iterator[None]:
+    """Set what a level needs in Exudyn's settings, and put everything back."""
+    integration, output = settings.timeIntegration, settings.solution
+    values: list[tuple[Any, str, Any]] = [(integration, "numberOfSteps", steps)]
+    values += [(integration, "adaptiveStep", False)]
+    if alone:
+        values += [(integration, name, 0) for name in ("verboseMode", "verboseModeFile")]
+        values += [(part, "write", False) for part in (output.file, output.restart)]
+        values += [(part, "active", False) for part in (output.sensors, integration.realtime)]
+        values += [(output, "recordImagesInterval", -1.0), (exu.config, "printToConsole", False)]
+    before = [(part, name, getattr(part, name)) for part, name, _ in values]
+    try:
+        for part, name, value in values:
+            setattr(part, name, value)
+        yield
+    finally:
+        for part, name, value in before:
+            setattr(part, name, value)

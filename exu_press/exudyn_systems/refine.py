@@ -1,0 +1,180 @@
+"""Levels of rising numbers of steps, until the stated error of the last one is in the tolerance."""
+
+import itertools
+import math
+import time as clock
+from dataclasses import dataclass, field
+
+from exu_press.exudyn_systems import difference
+from exu_press.exudyn_systems.level import Level, Levels
+from exu_press.exudyn_systems.samples import MOST_SAMPLES, Variables
+from exu_press.numerics.arrays import Array
+from exu_press.numerics.convergence import ORDER, PLAUSIBLE, SAFETY, Judgement, judge
+
+__all__ = ["Refinement", "grid"]
+
+COARSEST = 8  # the user's own number of steps over that of the coarsest level, at most
+FACTORS = 2, 8  # least and largest factor to the next level's number of steps
+MARGIN = 0.7  # error over the tolerance at which the last level is aimed
+AT_ONCE = 4  # largest factor to the last level: orders of coarse levels do not hold further
+# times the user's own number of steps, after which differences that do not fall, or a solver that
+# always gives up, end the refinement
+GIVE_UP = 16
+# factor up to which a number of steps is raised so that rows of output are at equal distances
+ALIGNED = 1.35
+
+
+@dataclass
+class Refinement:
+    """Levels of a system, and what they tell."""
+
+    runs: Levels
+    variables: Variables
+    tolerance: float
+    users: int  # the user's own number of steps
+    rows: int  # of output, that he asks for
+    max_steps: int  # of all levels together
+    levels: list[Level] = field(default_factory=list)  # the last ones, the coarsest first
+    failures: list[Level] = field(default_factory=list)  # at which the solver gave up
+    judgement: Judgement | None = None  # of the last three levels, if they can decide
+    orders: list[float] = field(default_factory=list)  # observed, of the worst quantity
+    remembers: bool = False  # whether a run on the user's system differed from its copy
+    cost: list[tuple[int, float]] = field(default_factory=list)  # steps and processor time, s
+
+    def refine(self, coarsest: int) -> Level:
+        """Run levels from a number of steps on; return the one that the system holds."""
+        held: Level | None = None
+        try:
+            self._keep(*self.runs.run_earlier([coarsest, FACTORS[0] * coarsest]))
+            while not self.solver_gives_up():
+                steps, last = self._next()
+                repeats = bool(self.levels) and steps == self.levels[-1].steps
+                if last and (held is None or (repeats and self.converged())):
+                    held = self._run_last(steps, repeats=repeats)
+                    if repeats or self.converged():
+                        return held
+                elif held is not None and (repeats or not (self.runs.build or self.runs.spares)):
+                    return held
+                else:
+                    self._keep(*self.runs.run_earlier([steps]))
+            return held or self.failures[-1]
+        finally:
+            for spare in self.runs.spares:
+                spare.end()
+
+    def converged(self) -> bool:
+        """Return whether the finest level has the tolerance."""
+        if self.judgement is None or self.remembers:
+            return False
+        return self.judgement.decided and self.judgement.error <= self.tolerance
+
+    def scales(self) -> Array:
+        """Return the scales of the finest level."""
+        finest = self.levels[-1]
+        return difference.scales_of(finest.samples, self.variables, finest.step * finest.steps)
+
+    def excess(self, level: Level) -> float:
+        """Return a level's step over the longest one of a level that decides."""
+        samples, scales = level.samples, self.scales()
+        return difference.excess_step(samples, level.step, self.variables, scales, self.tolerance)
+
+    def apart(self, one: Level, other: Level) -> Array:
+        """Return the differences of two levels over the scales, (instants, quantities)."""
+        apart = difference.differences(one.samples, other.samples, self.variables)
+        scales = self.scales()
+        apart[:, scales > 0.0] /= scales[scales > 0.0]
+        return apart
+
+    def solver_gives_up(self) -> bool:
+        """Return whether the solver gave up at the last level, and that had many steps."""
+        last = max([run.steps for run in self.failures], default=0)
+        finest = max([run.steps for run in self.levels], default=0)
+        return last > finest and last >= GIVE_UP * self.users
+
+    def _run_last(self, steps: int, *, repeats: bool) -> Level:
+        """Return the level that the system holds; one that repeats another must be like it."""
+        level = self.runs.run(steps)
+        if repeats and not level.failure:
+            copy, self.levels[-1] = self.levels[-1], level
+            self.remembers = bool(self.apart(copy, level).max() > self.tolerance)
+            self.cost.append((steps, level.seconds))
+        else:
+            self._keep(level)
+        return level
+
+    def _keep(self, *levels: Level) -> None:
+        """Keep levels, and judge the last one where three can decide."""
+        for level in levels:
+            self.cost.append((level.steps, level.seconds))
+            (self.failures if level.failure else self.levels).append(level)
+            if level.failure:
+                continue
+            self.levels, deciding, self.judgement = self.levels[-4:], self._deciding(), None
+            if len(deciding) == 3:
+                pairs = list(itertools.pairwise(deciding))
+                self.judgement = judge(
+                    [level.steps for level in deciding],
+                    [self.apart(*pair).max(axis=0) for pair in pairs],
+                    [difference.of_peaks(one.samples, two.samples) for one, two in pairs],
+                    self.tolerance,
+                )
+                self.orders.append(self.judgement.order)
+
+    def _deciding(self) -> list[Level]:
+        """Return those of the last three levels whose steps are short enough."""
+        return [level for level in self.levels[-3:] if self.excess(level) <= 1.0]
+
+    def _next(self) -> tuple[int, bool]:
+        """Return the next level's number of steps, and whether it is the last one."""
+        tried = max(level.steps for level in (*self.levels, *self.failures))
+        factor, last = float(FACTORS[0]), False
+        if self.levels and self.levels[-1].steps == tried:
+            factor, last = self._next_factor()
+        factor = factor if last else max(factor, FACTORS[0])
+        steps = tried * math.ceil(min(factor, FACTORS[1]) - 1e-9)
+        near = range(steps, int(ALIGNED * steps) + 1, self.runs.samples)
+        steps = next((n for n in near if n % self.rows == 0 or self.rows % n == 0), steps)
+        left = float(self.max_steps - sum(steps for steps, _ in self.cost))
+        if self.levels:
+            pace = max(self.levels[-1].seconds / self.levels[-1].steps, 1e-9)
+            left = min(left, (self.runs.deadline - clock.monotonic()) / pace)
+        if steps * (1 if last else 2) <= left:
+            return steps, last
+        if not self.levels:
+            return tried, True
+        finest = self.levels[-1].steps
+        return finest * max(int(min(left, steps) // finest), 1), True
+
+    def _next_factor(self) -> tuple[float, bool]:
+        """Return the factor to the next level's number of steps, and whether that is the last."""
+        low, levels, judgement = float(FACTORS[0]), self._deciding(), self.judgement
+        if judgement is None:
+            if len(levels) < 2 or self.excess(self.levels[-1]) > 1.0:
+                return self.excess(self.levels[-1]), False
+            ratio = levels[1].steps / levels[0].steps  # the order is taken for the method's
+            error = SAFETY * self.apart(*levels).max() / (ratio**ORDER - 1.0)
+            order = ORDER
+        elif judgement.decided:
+            error, order = judgement.error, min(judgement.order, ORDER)
+            if error <= self.tolerance:
+                return 1.0, True
+        else:
+            late = self.levels[-1].steps >= GIVE_UP * self.users and len(self.orders) > 1
+            return 1.0, late and max(self.orders[-2:]) < PLAUSIBLE[0]
+        factor = (error / (MARGIN * self.tolerance)) ** (1.0 / max(order, PLAUSIBLE[0]))
+        return (max(low, factor), True) if factor <= AT_ONCE else (factor / AT_ONCE, False)
+
+
+def grid(steps: int, rows: int) -> tuple[int, int]:
+    """Return the number of steps of the coarsest level, and of samples, which divides it.
+
+    Samples fall on rows of output where that costs little.
+    """
+    least = max(math.ceil(steps / COARSEST), 3)
+
+    def cost(samples: int) -> tuple[int, int]:
+        matches = samples % rows == 0 or rows % samples == 0
+        return samples * math.ceil(least / samples) * (1 if matches else FACTORS[0]), -samples
+
+    samples = min(range(min(MOST_SAMPLES // 2, least), MOST_SAMPLES + 1), key=cost)
+    return samples * math.ceil(least / samples), samples

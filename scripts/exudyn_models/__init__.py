@@ -1,1 +1,0 @@
-"""Runs the scripts of a checkout of Exudyn, and says how far they are off."""

@@ -1,0 +1,1 @@
+"""What `exudyn_examples.py` does with each of Exudyn's own scripts."""

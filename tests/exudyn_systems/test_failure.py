@@ -1,0 +1,113 @@
+"""What is said where a refinement does not converge."""
+
+import math
+import os
+import random
+import re
+
+import pytest
+from exudyn_systems.models import double_pendulum, oscillator, settings
+
+from exu_press import SolverStatus
+from exu_press.exudyn_systems import solve_dynamic
+
+
+def refused_result(system, chosen, **options):
+    """Return the outcome of a run that misses its tolerance, of which a warning tells."""
+    with pytest.warns(UserWarning, match="solve_dynamic: not converged: "):
+        outcome = solve_dynamic(system, chosen, **options)
+    assert outcome.status is SolverStatus.NOT_CONVERGED and not outcome.status.ended
+    with pytest.raises(RuntimeError, match="not converged"):
+        outcome.check()
+    return outcome
+
+
+def test_chaos_is_told_with_its_doubling_time():
+    """Two bars upside down: errors grow e-fold in some tenths of a second."""
+    outcome = refused_result(double_pendulum(0.1), settings(12.0, 400))
+    doubling = float(re.search(r"double every (\S+) s \(chaos\)", outcome.reason)[1])
+    assert 0.05 < doubling < 0.6
+    until = float(re.search(r"agree within the tolerance up to (\S+) s", outcome.reason)[1])
+    assert 2.0 < until < 11.0
+    assert outcome.error is None or outcome.error.since == pytest.approx(until, rel=1e-3)
+    assert outcome.end_time == pytest.approx(12.0)  # the system holds the finest level
+
+
+def test_differences_that_do_not_fall_are_told():
+    """A push whose side is decided by the last digits of the time at which a step ends."""
+    mbs, spring, _ = oscillator()
+    pushes = []
+
+    def sample(mbs, time):
+        if time > 1.0 and not pushes:
+            pushes.append(math.sin(1e7 * time))
+        return mbs.SetObjectParameter(spring, "offset", sum(pushes)) or True
+
+    mbs.SetPreStepUserFunction(sample)
+    outcome = refused_result(mbs, settings(2.0, 10))
+    assert "differences do not fall: a right-hand side jumps" in outcome.reason
+    until = float(re.search(r"agree within the tolerance up to (\S+) s", outcome.reason)[1])
+    assert until == pytest.approx(1.0, abs=0.1)
+
+
+def test_a_run_that_is_another_one_each_time_is_told():
+    mbs, spring, _ = oscillator()
+    pushes = []
+
+    def sample(mbs, time):
+        if not pushes:
+            pushes.append(random.SystemRandom().uniform(1.0, 2.0))
+        return mbs.SetObjectParameter(spring, "offset", pushes[0]) or True
+
+    mbs.SetPreStepUserFunction(sample)
+    outcome = refused_result(mbs, settings(2.0, 10))
+    assert "a user function gives other results in each run" in outcome.reason
+
+
+def test_newton_fails_at_every_level():
+    """A force that has no number from half of the time on."""
+
+    def force(mbs, t, item, u, v, k, d, offset):
+        return k * u if t < 1.0 else float("nan")
+
+    mbs, _, _ = oscillator(force=force)
+    outcome = refused_result(mbs, settings(2.0, 50))
+    assert "Newton's method fails at every level (" in outcome.reason
+    assert float(re.search(r"at the latest at (\S+) s", outcome.reason)[1]) == pytest.approx(
+        1.0, abs=0.05
+    )
+    assert outcome.error is None
+
+
+def test_a_small_budget_says_which_one_would_do():
+    outcome = refused_result(oscillator()[0], settings(20.0, 100), max_steps=2000)
+    assert "most differs the " in outcome.reason
+    needed = int(re.search(r"max_steps = (\d+) would do", outcome.reason)[1])
+    again = solve_dynamic(oscillator()[0], settings(20.0, 100), max_steps=needed)
+    assert again.status is SolverStatus.COMPLETED
+    assert sum(steps for steps, _ in outcome.levels) <= 2000
+
+
+def test_periods_that_no_level_resolves_are_told():
+    outcome = refused_result(oscillator(stiffness=1e8)[0], settings(1.0, 16), max_steps=1000)
+    needed = int(re.search(r"in steps of which (\d+) make the run", outcome.reason)[1])
+    assert 1e4 < needed < 3e4  # ten steps in a period of 2 pi / 1e4 s
+
+
+def test_a_run_ends_in_time():
+    outcome = refused_result(double_pendulum(0.1), settings(12.0, 50_000), max_time=1.0)
+    assert outcome.wall_time < 20.0
+    assert "the budget" in outcome.reason
+
+
+def test_a_run_that_differs_in_the_users_own_process_is_not_believed():
+    mbs, spring, _ = oscillator()
+    users, push = os.getpid(), [0.0]
+
+    def sample(mbs, time):
+        push[0] += 1e-3 * (os.getpid() == users)
+        return mbs.SetObjectParameter(spring, "offset", push[0]) or True
+
+    mbs.SetPreStepUserFunction(sample)
+    outcome = refused_result(mbs, settings(2.0, 50))
+    assert "chaos" not in outcome.reason

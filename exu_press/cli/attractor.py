@@ -1,9 +1,8 @@
 """Analyse the motion in the long run: period, Lyapunov exponent, figures by revolution."""
 
 import argparse
-import os
 import sys
-from contextlib import suppress
+from pathlib import Path
 
 from exu_press.cli.options import (
     add_format_argument,
@@ -14,7 +13,9 @@ from exu_press.cli.options import (
     show_warnings,
 )
 from exu_press.errors import InputError
+from exu_press.files.lock import locked, remove_unused
 from exu_press.files.output_directory import output_directory, write_json
+from exu_press.scene import Scene
 from exu_press.scene.warnings import scene_warnings
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
@@ -53,16 +54,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> int:
     """Run for long; print and draw the motion."""
-    from exu_press.studies.attractor import attractor
-    from exu_press.studies.attractor.lines import attractor_lines
-    from exu_press.studies.attractor.orbit import NoMotion
-
     check_format(options)
     for name in (assignment.partition("=")[0].strip() for assignment in options.set):
         if name in ITS_OWN:
             raise InputError(f"--set {name}: a long run has its own; allowed is {ITS_OWN[name]} N")
     scene = scene_of(options)
-    directory = output_directory(directory_of(options, options.scene))
+    with locked(output_directory(directory_of(options, options.scene))) as directory:
+        return _execute(scene, directory, options)
+
+
+def _execute(scene: Scene, directory: Path, options: argparse.Namespace) -> int:
+    """Run for long in a directory of its own; return the exit status."""
+    from exu_press.studies.attractor import attractor
+    from exu_press.studies.attractor.lines import attractor_lines
+    from exu_press.studies.attractor.orbit import NoMotion
+
     try:
         found = attractor(
             scene,
@@ -73,8 +79,7 @@ def execute(options: argparse.Namespace) -> int:
             quiet=options.quiet,
         )
     except BaseException as error:
-        with suppress(OSError):  # it holds something
-            os.removedirs(directory)
+        remove_unused(directory)
         if not isinstance(error, NoMotion):
             raise
         print(f"exu-press: {error}", file=sys.stderr)

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from exu_press.cli.options import add_scene_arguments, directory_of, finish, scene_of
+from exu_press.files.lock import locked
 from exu_press.files.output_directory import output_directory
 
 if TYPE_CHECKING:
@@ -30,9 +31,9 @@ def execute(options: argparse.Namespace) -> int:
     from exu_press.studies.precision import case_of, precision
 
     case = case_of(Path(options.scene).stem, scene_of(options))
-    directory = output_directory(directory_of(options, options.scene))
-    report = precision((case,), quick=options.quick, quiet=options.quiet)
-    tell(report, directory, options)
+    with locked(output_directory(directory_of(options, options.scene))) as directory:
+        report = precision((case,), quick=options.quick, quiet=options.quiet)
+        tell(report, directory, options)
     return 0
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from exu_press.cli.options import add_scene_arguments, directory_of, finish, scene_of
 from exu_press.errors import InputError
+from exu_press.files.lock import locked
 from exu_press.files.output_directory import output_directory
 
 if TYPE_CHECKING:
@@ -67,13 +68,15 @@ def run(
         if axis not in axes:
             raise InputError(f"{option} {axis}: allowed are {', '.join(axes)}")
     chosen = [case for case in table if not wanted or case.axis in wanted]
-    directory = output_directory(out)
-    report = stability(chosen, directory, quick=quick, workers=options.workers, quiet=options.quiet)
+    with locked(output_directory(out)) as directory:
+        report = stability(
+            chosen, directory, quick=quick, workers=options.workers, quiet=options.quiet
+        )
 
-    def draw() -> list[Path]:
-        from exu_press.plots.stability import save_stability
+        def draw() -> list[Path]:
+            from exu_press.plots.stability import save_stability
 
-        return [save_stability(report, directory)]
+            return [save_stability(report, directory)]
 
-    finish(report, directory / "stability.json", draw, options)
+        finish(report, directory / "stability.json", draw, options)
     return 1 if report.counts()["wrong"] else 0

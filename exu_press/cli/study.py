@@ -14,7 +14,8 @@ from exu_press.cli.options import (
     directory_of,
     show_warnings,
 )
-from exu_press.files.output_directory import remove_pictures
+from exu_press.files.lock import locked
+from exu_press.files.output_directory import output_directory, remove_pictures
 from exu_press.scene import Scene
 from exu_press.scene.warnings import scene_warnings
 
@@ -81,17 +82,20 @@ def study_command(
         lines: Any = import_module(f"exu_press.studies.{name}.lines")
         study = load_study(options.study, getattr(package, kind), allow_code=options.allow_code)
         more = {} if asked is None else asked(options, study)
-        report = getattr(package, name)(
-            study, directory, workers=options.workers, dask=options.dask, quiet=options.quiet
-        )
-        remove_pictures(directory, name)
-        files = list(written)
-        if not options.no_pictures:
-            from exu_press.plots.file import save_figures
+        with locked(output_directory(directory)):
+            report = getattr(package, name)(
+                study, directory, workers=options.workers, dask=options.dask, quiet=options.quiet
+            )
+            remove_pictures(directory, name)
+            files = list(written)
+            if not options.no_pictures:
+                from exu_press.plots.file import save_figures
 
-            module, _, function = figures.partition(".")
-            drawn = getattr(import_module(f"exu_press.plots.{module}"), function)(report, **more)
-            files += [path.name for path in save_figures(drawn, directory, options.format)]
+                module, _, function = figures.partition(".")
+                drawn = getattr(import_module(f"exu_press.plots.{module}"), function)(
+                    report, **more
+                )
+                files += [path.name for path in save_figures(drawn, directory, options.format)]
         if not options.quiet:
             print("\n".join(lines.report_lines(report, **more)))
             show_warnings(w for scene in warned(study, report) for w in scene_warnings(scene))

@@ -1,15 +1,16 @@
 """One directory belongs to one command at a time."""
 
+import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
-
-from filelock import FileLock, Timeout
 
 from exu_press.errors import InputError
 from exu_press.files.output_directory import refuse_link, writing
 
-__all__ = ["locked"]
+__all__ = ["LOCK", "locked", "remove_unused"]
+
+LOCK = ".lock"
 
 
 @contextmanager
@@ -21,7 +22,9 @@ def locked(directory: Path) -> Iterator[Path]:
     Raises:
         InputError: another process has it, or its lock file is a link.
     """
-    file = directory.resolve() / ".lock"
+    from filelock import FileLock, Timeout  # takes longer to load than a short run needs it
+
+    file = directory.resolve() / LOCK
     refuse_link(file)
     lock = FileLock(file, timeout=0, is_singleton=True)
     with writing(file):
@@ -36,3 +39,11 @@ def locked(directory: Path) -> Iterator[Path]:
         yield directory
     finally:
         lock.release()
+
+
+def remove_unused(directory: Path) -> None:
+    """Remove a locked directory in which nothing was written, and parents that are empty then."""
+    with suppress(OSError):
+        if [file.name for file in directory.iterdir()] == [LOCK]:
+            (directory / LOCK).unlink()
+            os.removedirs(directory)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TypedDict, TypeVar
 
 from exu_press.errors import InputError, prefixed
+from exu_press.files.lock import LOCK, locked
 from exu_press.files.output_directory import refuse_link, writing
 from exu_press.result import netcdf
 from exu_press.result.channels import OnDisk
@@ -38,8 +39,6 @@ MARK, WORDS = (
     "exu-press report shows what is there; exu-press run SCENE --from goes on from its end.\n",
 )
 """File that tells such a directory from others, and what it says."""
-
-LOCK = ".lock"
 
 
 class Blocks(TypedDict):
@@ -89,8 +88,6 @@ def begin(directory: Path | None) -> Iterator[OnDisk]:
     if directory is None:
         yield OnDisk()
         return
-    from exu_press.files.lock import locked  # a run of few revolutions needs none
-
     refuse_link(directory)
     _refuse_others(directory)
     with writing(directory):

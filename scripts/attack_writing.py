@@ -27,6 +27,7 @@ from pathlib import Path
 import numpy as np
 
 from exu_press import InputError, Result
+from exu_press.result.unfinished import HEAD, has_blocks
 
 COMMAND = [sys.executable, "-m", "exu_press"]
 
@@ -115,7 +116,7 @@ def results_in(folder: Path) -> dict[str, Result]:
         return {
             str(file.relative_to(folder)): Result.load(file)
             for file in sorted([*folder.rglob("*.nc"), *folder.rglob("*.unfinished")])
-            if file.name != "table.nc" and file.parent.suffix != ".unfinished"
+            if file.name not in ("table.nc", HEAD) and (file.suffix == ".nc" or has_blocks(file))
         }
 
 

@@ -230,13 +230,15 @@ class Child(AbstractContextManager["Child", None]):
                 self._process.wait()  # just done when it was killed: nothing more to ask of it
 
     def _said(self) -> str:
-        """Return the end of what the child has printed, after a colon."""
+        """Return the end of what the child has printed in a line, after a colon; no traceback."""
         if self._printed is None:
             return ""
         size = self._printed.seek(0, os.SEEK_END)
         self._printed.seek(max(0, size - LAST_LETTERS))
         text = self._printed.read().decode(errors="replace").strip()
-        return f": {text}" if text else ""
+        if "Traceback (most recent call last)" in text:
+            text = text.splitlines()[-1]
+        return f": {' '.join(text.split())}" if text else ""
 
 
 class _Copy:

@@ -59,8 +59,14 @@ def execute(options: argparse.Namespace) -> int:
         if name in ITS_OWN:
             raise InputError(f"--set {name}: a long run has its own; allowed is {ITS_OWN[name]} N")
     scene = scene_of(options)
-    with locked(output_directory(directory_of(options, options.scene))) as directory:
-        return _execute(scene, directory, options)
+    target = directory_of(options, options.scene)
+    is_new = not target.exists()
+    with locked(output_directory(target)) as directory:
+        try:
+            return _execute(scene, directory, options)
+        finally:
+            if is_new:
+                remove_unused(directory)
 
 
 def _execute(scene: Scene, directory: Path, options: argparse.Namespace) -> int:
@@ -78,10 +84,7 @@ def _execute(scene: Scene, directory: Path, options: argparse.Namespace) -> int:
             most=options.longest,
             quiet=options.quiet,
         )
-    except BaseException as error:
-        remove_unused(directory)
-        if not isinstance(error, NoMotion):
-            raise
+    except NoMotion as error:
         print(f"exu-press: {error}", file=sys.stderr)
         return 3
     write_json(directory / "attractor.json", found.to_dict())

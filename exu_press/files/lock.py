@@ -1,6 +1,5 @@
 """One directory belongs to one command at a time."""
 
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -42,8 +41,8 @@ def locked(directory: Path) -> Iterator[Path]:
 
 
 def remove_unused(directory: Path) -> None:
-    """Remove a locked directory in which nothing was written, and parents that are empty then."""
+    """Remove a locked directory in which nothing was written."""
     with suppress(OSError):
         if [file.name for file in directory.iterdir()] == [LOCK]:
             (directory / LOCK).unlink()
-            os.removedirs(directory)
+            directory.rmdir()

@@ -1,5 +1,6 @@
 """What the tests of child processes let them do; a child imports it from here."""
 
+import errno
 import json
 import os
 import re
@@ -32,6 +33,15 @@ def fails():
 def mourns():
     print("about to go", flush=True)
     os._exit(7)
+
+
+def breaks_down():
+    print("before\nTraceback (most recent call last):\n  File\nOSError: no more", flush=True)
+    os._exit(1)
+
+
+def fills_a_disk():
+    raise OSError(errno.ENOSPC, "No space left on device", "/small/file")
 
 
 def deaf(mark):

@@ -10,7 +10,7 @@ from pathlib import Path
 import process_functions
 import pytest
 
-from fe_models.errors import InputError
+from fe_models.errors import DiskFullError, InputError
 from fe_models.processes import Child, ChildError, TimeLimitError, may_copy
 
 HERE = str(Path(__file__).parent)
@@ -63,6 +63,8 @@ def test_it_reports_while_it_computes(copied):
         ("refuses", InputError, "no such thing"),
         ("fails", ChildError, "ValueError: no number"),
         ("mourns", ChildError, "exit status 7: about to go"),
+        ("breaks_down", ChildError, "exit status 1: OSError: no more"),
+        ("fills_a_disk", DiskFullError, "/small/file: cannot be written (No space left on device)"),
     ],
 )
 def test_what_goes_wrong_is_told(copied, name, kind, text):

@@ -3,6 +3,7 @@
 import random
 
 import pytest
+
 from attack_files import damaged, main
 
 

@@ -23,7 +23,7 @@ from exu_press.scene import flexible_press
 
 GRID = 4000  # instants at which runs are compared
 FINER = 1.0 / 30.0
-BUDGET = 20_000  # steps; a variant that needs more counts as stopped
+BUDGET = 10_000  # steps; a variant that needs more counts as stopped
 
 OFF = {
     "factor_max": 1e9,
@@ -41,14 +41,14 @@ NOT_OF_A_STEP = "largest_jump", "fixed_steps", "coverage"
 
 DRY = {"crank_pin": "dry", "balls": "dry"}
 SCENES = {
-    "press ideal": {"joints": {}, "revolutions": 0.5},
-    "press lubricated": {"revolutions": 0.15},
-    "press dry": {"joints": DRY, "revolutions": 0.1},
-    "press flexible": {"bodies": flexible_press(modes=8), "revolutions": 0.05},
+    "press ideal": {"joints": {}, "revolutions": 0.3},
+    "press lubricated": {"revolutions": 0.08},
+    "press dry": {"joints": DRY, "revolutions": 0.04},
+    "press flexible": {"bodies": flexible_press(modes=4), "revolutions": 0.02},
     "slider-crank dry": {
         "mechanism": "slider_crank",
         "joints": {"crank_pin": "dry"},
-        "revolutions": 0.15,
+        "revolutions": 0.08,
         "contact": PAPER_LAWS["contact"],
         "friction": PAPER_LAWS["friction"],
     },
@@ -56,7 +56,7 @@ SCENES = {
         "mechanism": "four_bar",
         "joints": {"crank_pin": {"kind": "lubricated", "clearance": 1e-4, "radius": 0.07}},
         "film": {"viscosity": 0.4, "length": 0.1},
-        "revolutions": 0.2,
+        "revolutions": 0.1,
     },
 }
 

@@ -248,7 +248,7 @@ def distributions(
             progress.update(count)
             if start >= 2:
                 found = {
-                    name: Distribution.of(each, of_steps(apart[name]))
+                    name: Distribution.of(each, 2.0 * of_steps(apart[name]))  # its state, too
                     for name, each in values.items()
                 }
             if start > 1 and count >= least and all(_known(one, within) for one in found.values()):

@@ -240,7 +240,7 @@ def attractor(
     # the first growth is from a state that did not fit its constraints
     settled = [np.array(each[begin == skip - 1 :]) for each in growths]
     error = max(*off, NOISE)
-    if len(values) > 2 * BATCHES:
+    if len(values) >= 2 * BATCHES:
         exponent = combined(settled, DISTANCES, error)
     else:
         exponent = Exponent(math.nan, -math.inf, math.inf, DISTANCES, len(settled[0]))
@@ -275,7 +275,7 @@ def _missed(apart: Sequence[float], values: Array, exponent: Exponent) -> float:
     the figure has them; where they may, they do not move it by more than it scatters.
     """
     missed = of_steps(apart)
-    before = (_amplified(exponent) - 1.0) * missed
+    before = _amplified(exponent) * missed
     if exponent.high >= 0.0:
         before = min(before, max(float(np.ptp(values)), missed))
     return missed if exponent.low > 0.0 else missed + before
@@ -320,7 +320,7 @@ def _unit(scene: Scene, name: str) -> str:
 
 
 def _amplified(exponent: Exponent) -> float:
-    """Return the sum of the errors of all revolutions before, over one revolution's."""
+    """Return the error of a state by all revolutions before, over one revolution's."""
     rate = min(exponent.high, -0.05)  # a motion that does not come together has no period
     return 1.0 / (1.0 - math.exp(rate))
 

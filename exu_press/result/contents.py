@@ -9,7 +9,7 @@ from exu_press.errors import InputError
 from exu_press.integrate import SolverStatus
 from exu_press.mechanism import Mechanism
 from exu_press.result.channel import Channel
-from exu_press.result.channels import described, on_disk
+from exu_press.result.channels import described
 from exu_press.result.info import Info
 from exu_press.result.recorders import expected
 from exu_press.result.surface import Surface
@@ -71,8 +71,9 @@ def _check_channels(
         if name not in channels:
             raise InputError(f"channel {name}: missing; this scene's results have it")
     count = len(channels["time"].values)
-    one_length = on_disk(channels)  # their values are checked when they are read
-    for name, channel in described(channels).items():
+    kinds = described(channels)
+    worked_out = kinds is not channels  # on disk or changed: values are checked where they are read
+    for name, channel in kinds.items():
         if name.endswith("_eccentricity") and name not in known:
             raise InputError(f"channel {name}: the scene has no such joint with clearance")
         allowed, _ = known.get(name, (channel.axis, False))  # one face of several is not known
@@ -80,7 +81,7 @@ def _check_channels(
             raise InputError(
                 f"channel {name}: columns are {shown(channel.axis)}; allowed is {allowed!r}"
             )
-        if not one_length and len(channel.values) != count:
+        if not worked_out and len(channel.values) != count:
             raise InputError(f"channel {name}: {len(channel.values)} values; time has {count}")
     poses = described(channels).get("body_position")
     if poses is not None and poses.values.shape[1] != len(mechanism.bodies):

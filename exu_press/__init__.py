@@ -5,6 +5,8 @@ Importing it costs nothing: a name is loaded on first access.
 
 import importlib
 
+from exu_press.lazy import lazy_names
+
 TYPE_CHECKING = False  # that of typing takes longer to load than all of this
 
 if TYPE_CHECKING:
@@ -87,7 +89,7 @@ _NAMES = {
 """Module -> what it lends to this face: all of the above, and the work of methods of `Scene`,
 `Result` and `Mechanism` that is done by modules which know these classes."""
 
-_HOMES = {name: f"exu_press.{module}" for module, names in _NAMES.items() for name in names.split()}
+_load = lazy_names(__name__, _NAMES)
 
 _ROOMS = ("laws", "quantities")
 """Packages that are used by their own names: `exu_press.quantities`."""
@@ -106,8 +108,4 @@ def __getattr__(name: str) -> "Any":
         return version("exu-press")
     if name in _ROOMS:
         return importlib.import_module(f"exu_press.{name}")
-    if name not in _HOMES:
-        raise AttributeError(f"module 'exu_press' has no attribute {name!r}")
-    value = getattr(importlib.import_module(_HOMES[name]), name)
-    globals()[name] = value
-    return value
+    return _load(name)

@@ -81,7 +81,7 @@ def extras() -> dict[str, dict[str, str | None]]:
 
 def joints_compiled() -> bool:
     """Return whether the joints' forces come from compiled code."""
-    from exu_press.joints import COMPILED
+    from exu_press.joints.compiled import COMPILED
 
     return COMPILED
 

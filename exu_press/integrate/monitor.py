@@ -22,7 +22,7 @@ from exu_press.integrate.stepping import Event, FixedSteps, StepControl
 from exu_press.integrate.task import Task
 from exu_press.integrate.user_functions import UserFunctions
 from exu_press.integrate.variable_step import VariableStepCorrection
-from exu_press.joints import ClearanceJoint
+from exu_press.joints.joint import ClearanceJoint
 from exu_press.terminal.progress import Progress
 
 __all__ = ["Monitor"]

@@ -9,8 +9,7 @@ import exudyn as exu
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.joints import user_force_of
-from exu_press.joints.user_force import UserForceElement
+from exu_press.joints.user_force import UserForceElement, user_force_of
 from exu_press.numerics.arrays import Array
 
 __all__ = [

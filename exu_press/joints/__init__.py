@@ -1,23 +1,26 @@
-"""Clearance joints: the only place where a law meets Exudyn."""
+"""Clearance joints: the only place where a law meets Exudyn. Names are loaded on first access."""
 
-from pathlib import Path
+from typing import TYPE_CHECKING
 
-from exu_press.joints import interface
-from exu_press.joints.add import (
-    add_dry_revolute,
-    add_dry_spherical,
-    add_guideway_contact,
-    add_guideway_film,
-    add_joint_sensor,
-    add_lubricated_revolute,
-    add_lubricated_spherical,
-    add_revolute,
-)
-from exu_press.joints.ends import FlexiblePoint
-from exu_press.joints.history import JointHistory, history
-from exu_press.joints.joint import ClearanceJoint, JointState
-from exu_press.joints.states import States
-from exu_press.joints.user_force import holds_joints, user_force_of
+from exu_press.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from exu_press.joints.add import (
+        add_dry_revolute,
+        add_dry_spherical,
+        add_guideway_contact,
+        add_guideway_film,
+        add_joint_sensor,
+        add_lubricated_revolute,
+        add_lubricated_spherical,
+        add_revolute,
+    )
+    from exu_press.joints.compiled import COMPILED
+    from exu_press.joints.ends import FlexiblePoint
+    from exu_press.joints.history import JointHistory
+    from exu_press.joints.joint import ClearanceJoint, JointState
+    from exu_press.joints.states import States
+    from exu_press.joints.user_force import holds_joints, user_force_of
 
 __all__ = [
     "COMPILED",
@@ -34,10 +37,20 @@ __all__ = [
     "add_lubricated_revolute",
     "add_lubricated_spherical",
     "add_revolute",
-    "history",
     "holds_joints",
     "user_force_of",
 ]
 
-COMPILED = Path(interface.__file__).suffix != ".py"
-"""True where forces and Jacobians are compiled; setup.py compiles the same sources."""
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "add": "add_dry_revolute add_dry_spherical add_guideway_contact add_guideway_film "
+        "add_joint_sensor add_lubricated_revolute add_lubricated_spherical add_revolute",
+        "compiled": "COMPILED",
+        "ends": "FlexiblePoint",
+        "history": "JointHistory",
+        "joint": "ClearanceJoint JointState",
+        "states": "States",
+        "user_force": "holds_joints user_force_of",
+    },
+)

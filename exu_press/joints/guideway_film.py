@@ -13,7 +13,7 @@ import numpy as np
 from exu_press.joints.ends import BodyEnd, Vector
 from exu_press.joints.joint import JointState
 from exu_press.joints.path import Path
-from exu_press.laws.film import PadFilm, PadLaw
+from exu_press.laws.film.plane_pad import PadFilm, PadLaw
 from exu_press.numerics.arrays import Array
 
 __all__ = ["GuidewayFilm"]

@@ -14,7 +14,7 @@ from typing import Any
 from exu_press.joints.joint import SHALLOW, JointState
 from exu_press.joints.path import Path
 from exu_press.laws.contact import Approach, NormalContact
-from exu_press.laws.film import FilmLaw
+from exu_press.laws.film.contract import FilmLaw
 from exu_press.laws.friction import Friction, LuGre
 
 __all__ = [

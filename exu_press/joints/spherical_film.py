@@ -3,7 +3,7 @@
 import numpy as np
 
 from exu_press.joints.ends import cross_matrix
-from exu_press.laws.film import BallFilm
+from exu_press.laws.film.ball import BallFilm
 from exu_press.numerics.arrays import Array
 
 __all__ = ["SphericalFilm"]

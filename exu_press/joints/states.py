@@ -4,7 +4,6 @@ from array import array
 from collections.abc import Collection, Sequence
 from typing import Any
 
-from exu_press.joints.interface import InterfaceJoint
 from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["States"]
@@ -50,10 +49,9 @@ class States:
             numbers.append(state.gap)
             numbers.append(state.stored_energy)
             numbers.append(state.stored_power)
-            rubbed = 0
-            if self._rubbing[i] and isinstance(joint, InterfaceJoint):
-                numbers += joint.rubbing
-                rubbed = 2
+            rubbing: Any = getattr(joint, "rubbing", ()) if self._rubbing[i] else ()
+            rubbed = len(rubbing)
+            numbers += rubbing
             if len(self.lengths) == i:
                 self.lengths.append([*(len(vector) for vector in state.vectors), 1, 1, 1, rubbed])
         self.numbers.fromlist(numbers)

@@ -12,7 +12,7 @@ from exu_press.mechanism.stroke import Stroke, stroke_of
 from exu_press.mechanism.transmission import transmission_angles
 from exu_press.numerics.arrays import Array
 
-__all__ = ["Examination", "examine", "require_turning"]
+__all__ = ["Examination", "complete_refusal", "examine"]
 
 ANGLES = np.radians(np.arange(361.0))
 
@@ -102,17 +102,10 @@ def examine(mechanism: Mechanism) -> Examination:
     return Examination(mechanism, mobility, None, stroke, transmission)
 
 
-def require_turning(mechanism: Mechanism) -> None:
-    """Refuse a mechanism whose crank does not turn through a revolution.
-
-    Raises:
-        MotionError: with the degrees of freedom too many or too few, and the joints to look at.
-    """
-    try:
-        mechanism.require_turning()
-    except MotionError as refusal:
-        found = examine(mechanism).complaints
-        raise MotionError(". ".join(found), refusal.bodies, refusal.angle, refusal.poses) from None
+def complete_refusal(mechanism: Mechanism, refusal: MotionError) -> MotionError:
+    """Return a refusal with the degrees of freedom too many or too few, and joints to look at."""
+    text = ". ".join(examine(mechanism).complaints)
+    return MotionError(text, refusal.bodies, refusal.angle, refusal.poses)
 
 
 def _degrees(count: int) -> str:

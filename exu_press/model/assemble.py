@@ -7,26 +7,26 @@ import exudyn as exu
 from exudyn.itemInterface import SensorNode, SensorObject
 
 from exu_press.integrate.modal_mass import follow_modes
-from exu_press.joints import ClearanceJoint, States
+from exu_press.joints.joint import ClearanceJoint
+from exu_press.joints.states import States
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
 from exu_press.model.drive import add_drive, crank_angle_of, hold_flexible_bodies, turned_body
-from exu_press.model.guides import add_guide, add_guide_friction, add_guideways, guides_rub
-from exu_press.model.joints import add_clearance_joint, add_ideal_joint
-from exu_press.model.loaded_start import moved_start
-from exu_press.model.loads import add_loads, torque_wanted
+from exu_press.model.guides import add_guide
+from exu_press.model.ideal_joints import add_ideal_joint
 from exu_press.model.model import Model, count_items
-from exu_press.model.stall import Stall
-from exu_press.model.start import deformed_start
-from exu_press.model.start_stop import StartStop, add_flywheel, add_start_stop
+from exu_press.model.stall import Stall, holding_torque
 from exu_press.model.system import System
-from exu_press.model.warm_film import warm_films
 from exu_press.scene import IdealJoint, Scene
-from exu_press.scene.wearing import wearing_guides, wearing_joints
+from exu_press.scene.joint import oil_of
 
 if TYPE_CHECKING:
+    from exu_press.joints.guide_friction import GuideFriction
     from exu_press.model.flexible_body import FrameStart
+    from exu_press.model.loads import ActingLoad
     from exu_press.model.placed_part import PlacedPart
+    from exu_press.model.start_stop import StartStop
+    from exu_press.model.warm_film import WarmFilm
 
 __all__ = ["build"]
 
@@ -53,9 +53,13 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
         ideal = scene.replace(constant | {"drive": None, "load": {}} | _settled(scene))
         settled = System(ideal, parts)
         drive = _assembled(settled, {}, {}).drive
+        from exu_press.model.start import deformed_start
+
         start, frames = deformed_start(settled, drive, scene.start_speed)
     system = System(scene, parts)
-    if scene.start == "loaded":
+    if scene.start == "loaded" and scene.joints.with_clearance:
+        from exu_press.model.loaded_start import moved_start
+
         start, frames = moved_start(system, start, frames)
     return _assembled(system, start, frames)
 
@@ -77,11 +81,7 @@ def _assembled(
     """Return a system with everything in it that its scene asks for."""
     mechanism, holding, joints = system.mechanism, system.holding, system.scene.joints
     add_bodies(system, {**system.ideal, **start}, frames)
-    clearance = {
-        joint.name: add_clearance_joint(system, joint, kind)
-        for joint in mechanism.joints
-        if not isinstance(kind := joints[joint.name], IdealJoint)
-    }
+    clearance = _clearance_joints(system) if joints.with_clearance else {}
     held = {*holding.joints, *holding.single_axis}
     ideal = {
         joint.name: add_ideal_joint(system, joint)
@@ -95,30 +95,28 @@ def _assembled(
         for guide in mechanism.guides
         if guide.body not in holding.sliding
     }
-    guideways = {
-        guide.body: add_guideways(system, guide, guide.guideway)
-        for guide in mechanism.guides
-        if guide.guideway is not None
-    }
-    friction = {
-        guide.body: add_guide_friction(system, guide, guides[guide.body])
-        for guide in mechanism.guides
-        if guides_rub(system) and (guide.lateral or "force" in guides[guide.body])
-    }
+    guideways = _guideways(system)
+    friction = _guide_friction(system, guides)
     start_stop: StartStop | None = None
     motor = system.scene.drive
     if motor is not None and motor.clutch_torque is not None:
+        from exu_press.model.start_stop import add_flywheel, add_start_stop
+
         add_flywheel(system)
         start_stop = add_start_stop(system, turned_body(system), crank_angle_of(system))
     drive = add_drive(system)
-    loads = add_loads(system)
+    loads: dict[str, ActingLoad] = {}
+    if system.loads:
+        from exu_press.model.loads import add_loads
+
+        loads = add_loads(system)
     if system.flexible:
         follow_modes(system.mbs)
     _add_sensors(system, ideal | {"drive": drive}, guides)
     system.mbs.Assemble()
     if start_stop is not None:
         forces = dict.fromkeys(system.loads, 0.0)
-        start_stop.begin(torque_wanted(mechanism, system.scene, forces, system.scene.start_angle))
+        start_stop.begin(holding_torque(mechanism, system.scene, forces, system.scene.start_angle))
     return Model(
         scene=system.scene,
         mechanism=mechanism,
@@ -141,9 +139,58 @@ def _assembled(
         states=_states(system.scene, clearance, guideways),
         sensors=system.sensors,
         parts=system.parts,
-        warm=warm_films(clearance, joints),
+        warm=_warm_films(system, clearance),
         made=count_items(system.mbs),
     )
+
+
+def _clearance_joints(system: System) -> dict[str, ClearanceJoint]:
+    """Add the joints with clearance; return them by their names."""
+    from exu_press.model.clearance_joints import add_clearance_joint
+
+    return {
+        joint.name: add_clearance_joint(system, joint, kind)
+        for joint in system.mechanism.joints
+        if not isinstance(kind := system.scene.joints[joint.name], IdealJoint)
+    }
+
+
+def _guideways(system: System) -> dict[str, tuple[ClearanceJoint, ...]]:
+    """Add the guideways with clearance; return the contacts of each body's ends and its film."""
+    guideways = [(guide, way) for guide in system.mechanism.guides if (way := guide.guideway)]
+    if not guideways:
+        return {}
+    from exu_press.model.guideways import add_guideways
+
+    return {guide.body: add_guideways(system, guide, way) for guide, way in guideways}
+
+
+def _guide_friction(
+    system: System, guides: Mapping[str, Mapping[str, int]]
+) -> dict[str, "GuideFriction"]:
+    """Add the friction of guides without clearance; return it by their bodies."""
+    table = system.scene.guide
+    if table is None or not table.rubs or table.clearance is not None:
+        return {}
+    from exu_press.model.guide_friction import add_guide_friction
+
+    return {
+        guide.body: add_guide_friction(system, guide, guides[guide.body])
+        for guide in system.mechanism.guides
+        if guide.lateral or "force" in guides[guide.body]
+    }
+
+
+def _warm_films(
+    system: System, clearance: Mapping[str, ClearanceJoint]
+) -> Mapping[str, "WarmFilm"]:
+    """Return the films whose oil warms."""
+    joints = system.scene.joints
+    if not any(oil_of(joints[name]) for name in clearance):
+        return {}
+    from exu_press.model.warm_film import warm_films
+
+    return warm_films(clearance, joints)
 
 
 def _states(
@@ -152,9 +199,12 @@ def _states(
     guideways: Mapping[str, tuple[ClearanceJoint, ...]],
 ) -> States:
     """Return what takes the joints' states, and the rubbing of those that wear."""
-    wearing = [clearance[name] for name in wearing_joints(scene)]
-    for body in wearing_guides(scene):
-        wearing += guideways[body]
+    wearing: list[ClearanceJoint] = []
+    if scene.wear is not None:
+        from exu_press.scene.wearing import wearing_guides, wearing_joints
+
+        wearing += [clearance[name] for name in wearing_joints(scene)]
+        wearing += [end for body in wearing_guides(scene) for end in guideways[body]]
     ends = [end for all_of in guideways.values() for end in all_of]
     return States([*clearance.values(), *ends], wearing)
 

@@ -26,11 +26,11 @@ from exudyn.rigidBodyUtilities import (
 )
 
 from exu_press.errors import InputError
-from exu_press.joints import FlexiblePoint
+from exu_press.joints.ends import FlexiblePoint
 from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Motion, Point
 from exu_press.model.placed_part import PlacedPart
 from exu_press.numerics.arrays import Array
-from exu_press.scene.applied import AppliedLoad
+from exu_press.scene.applied_load import AppliedLoad
 from fe_models import FlexibleBody, add_flexible_body
 
 __all__ = [

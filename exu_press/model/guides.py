@@ -1,7 +1,4 @@
-"""The guides of a system: constraints where they are ideal, springs, or clearance; and friction."""
-
-from collections.abc import Mapping
-from typing import Any
+"""The guides of a system without clearance: constraints where they are ideal, or springs."""
 
 import numpy as np
 from exudyn.itemInterface import (
@@ -13,104 +10,11 @@ from exudyn.itemInterface import (
     VObjectGenericODE2,
 )
 
-from exu_press.joints import ClearanceJoint, add_guideway_contact, add_guideway_film
-from exu_press.joints.guide_friction import GuideFriction, HeldSide, SideForce, SpringSide
-from exu_press.mechanism import Guide, Guideway, Point, Spring
+from exu_press.mechanism import Guide, Spring
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
-from exu_press.scene.laws import guide_contact_law, guide_friction_law
 
-__all__ = ["add_guide", "add_guide_friction", "add_guideways", "guides_rub"]
-
-
-def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[ClearanceJoint, ...]:
-    """Let both ends of a body touch its guideways with clearance, and oil be between them."""
-    table, damped = system.scene.guide, system.scene.contact
-    assert table is not None
-    assert damped is not None
-    body = system.mechanism.body(guide.body)
-    along = np.array(guide.direction)
-    drawn = [
-        np.array(body.centre_of_mass) + 0.5 * side * guideway.length * along for side in (-1.0, 1.0)
-    ]
-    ends = [_end(system, guide.body, body.local((float(at[0]), float(at[1])))) for at in drawn]
-    onset = 0.0 if table.contact_gap is None else table.contact_gap
-    contacts = [
-        add_guideway_contact(
-            system.mbs,
-            end,
-            middle=body.centre_of_mass,
-            direction=guide.direction,
-            clearance=guideway.clearance - onset,
-            contact=guide_contact_law(
-                damped, guideway.stiffness, guideway.clearance, system.scene.angular_speed
-            ),
-            friction=guide_friction_law(table, system.scene.friction),
-            half_width=guideway.half_width,
-        )
-        for end in ends
-    ]
-    if table.viscosity is None:
-        return tuple(contacts)
-    assert table.face_width is not None
-    film = add_guideway_film(
-        system.mbs,
-        *ends,
-        middle=body.centre_of_mass,
-        direction=guide.direction,
-        clearance=guideway.clearance,
-        length=guideway.length,
-        face_width=table.face_width,
-        viscosity=table.viscosity,
-        asperity_onset=onset,
-        half_width=guideway.half_width,
-    )
-    return (*contacts, film)
-
-
-def guides_rub(system: System) -> bool:
-    """Return whether guides without clearance have friction."""
-    table = system.scene.guide
-    return table is not None and table.rubs and table.clearance is None
-
-
-def add_guide_friction(system: System, guide: Guide, held: Mapping[str, int]) -> GuideFriction:
-    """Add the friction of a guide without clearance.
-
-    Args:
-        system: with the guide in it.
-        guide: ideal or elastic.
-        held: as `add_guide` returns it.
-    """
-    table, mbs = system.scene.guide, system.mbs
-    assert table is not None
-    missed = np.zeros(3)
-    if guide.body in system.flexible:
-        from exu_press.model.flexible_body import guided_motion
-
-        body = system.flexible[guide.body]
-        values, rows = guided_motion(mbs, body, system.parts[guide.body])
-        missed = values - system.ideal[guide.body].position[0]
-        nodes = [body.node_rigid, *([] if body.node_modes is None else [body.node_modes])]
-    else:
-        nodes, rows = [system.rigid[guide.body].node], np.eye(3)
-    side: SideForce
-    if guide.lateral is None:
-        side = HeldSide(mbs, held["force"])
-    else:
-        across, spring = np.array(guide.across), guide.lateral
-        moved = float(across @ missed[:2])
-        side = SpringSide(spring.stiffness, spring.damping, across @ rows[:2], moved)
-    law = guide_friction_law(table, system.scene.friction)
-    return GuideFriction(mbs, nodes, np.array(guide.direction) @ rows[:2], side, law)
-
-
-def _end(system: System, body: str, point: Point) -> Any:
-    if body not in system.flexible:
-        return system.bodies[body], system.rigid[body].local(point)
-    from exu_press.model.flexible_body import guide_end
-
-    return guide_end(system.flexible[body], system.parts[body], point)
+__all__ = ["add_guide"]
 
 
 def add_guide(system: System, guide: Guide) -> dict[str, int]:

@@ -19,7 +19,7 @@ from exu_press.joints.interface import DryInterface, InterfaceLaw
 from exu_press.joints.joint import SHALLOW
 from exu_press.mechanism import GROUND, Motion
 from exu_press.mechanism.planar_constraints import INDEPENDENT, null_space
-from exu_press.model.joints import interfaces_of
+from exu_press.model.clearance_joints import interfaces_of
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
 from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint

@@ -1,7 +1,7 @@
 """The loads of a system, as forces on points of its bodies."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any
 
 import exudyn as exu
@@ -9,14 +9,13 @@ import numpy as np
 from exudyn.itemInterface import LoadForceVector
 
 from exu_press.laws.load_curve import PulseClock
-from exu_press.laws.sheet import Cut
-from exu_press.mechanism import Mechanism
+from exu_press.laws.sheet import Cut, Sheet
 from exu_press.model.drive import crank_angle_of
 from exu_press.model.system import System
 from exu_press.scene import Scene
-from exu_press.scene.applied import AppliedLoad, applied_loads
+from exu_press.scene.applied_load import AppliedLoad
 
-__all__ = ["Place", "add_loads", "force_at", "next_corner", "torque_wanted"]
+__all__ = ["ActingLoad", "Place", "add_loads"]
 
 Place = Callable[[float], tuple[float, float]]
 """Function of time: the place of a load on its curve, and its rate."""
@@ -29,109 +28,90 @@ FORESEEN = 3e-6
 rest of the way would be a step so short that it rings."""
 
 
-def add_loads(system: System) -> dict[str, tuple[AppliedLoad, Place]]:
-    """Let every load press its body; return the loads, each with its place on its curve."""
-    added: dict[str, tuple[AppliedLoad, Place]] = {}
-    for name, load in system.loads.items():
-        if load.sheet is not None:
-            added[name] = load, _add_sheet(system, name, load)
-            continue
-        place = _place(system, load)
-        _add_load(system, name, load, place)
-        added[name] = load, place
-    return added
+class ActingLoad:
+    """A load in a system: its force in the current state, and where its curve has corners.
 
-
-def next_corner(loads: Mapping[str, tuple[AppliedLoad, Place]], scene: Scene, time: float) -> float:
-    """Return the next instant at which a load has a corner, s, or infinity.
-
-    What a load over the output's height, or a motor's crank angle, has before it is foreseen from
-    the speed now.
+    Attributes:
+        applied: on the mechanism.
     """
-    soonest = math.inf
-    for load, place in loads.values():
-        now, rate = place(time)
-        if isinstance(place, Cutting):
-            close = FORESEEN * abs(rate) * 60.0 / scene.speed_rpm
-            soonest = min(soonest, place.cut.next(time, now, rate, close))
-            continue
-        exact = load.over == "time" or (scene.drive is None and load.over == "crank_angle_deg")
-        part = CLOSE if exact else FORESEEN
-        close = part * abs(rate) * 60.0 / scene.speed_rpm
-        if rate > 0.0:
-            soonest = min(soonest, time + (load.curve.corner_after(now, close) - now) / rate)
-        elif rate < 0.0:
-            soonest = min(soonest, time + (load.curve.corner_before(now, close) - now) / rate)
-    return soonest
+
+    def __init__(self, applied: AppliedLoad, scene: Scene, place: Place, height: Place) -> None:
+        """Take where on its curve the load is, and the output's height and velocity."""
+        self.applied, self._scene, self._place, self._height = applied, scene, place, height
+
+    def force(self, time: float) -> float:
+        """Return the force in its direction, N."""
+        moves = self.applied.fade is not None or self.applied.damping
+        velocity = self._height(time)[1] if moves else 0.0
+        return self.applied.at(self._place(time)[0], velocity)
+
+    def force_at_rest(self, time: float) -> float:
+        """Return the force, N, that of forming as it was before the output came to rest."""
+        return self.applied.curve(self._place(time)[0])
+
+    def next_corner(self, time: float) -> float:
+        """Return the next instant at which the force has a corner, s, or infinity.
+
+        What a load over the output's height, or a motor's crank angle, has before it is foreseen
+        from the speed now.
+        """
+        over, curve, (now, rate) = self.applied.over, self.applied.curve, self._place(time)
+        exact = over == "time" or (self._scene.drive is None and over == "crank_angle_deg")
+        close = (CLOSE if exact else FORESEEN) * abs(rate) * 60.0 / self._scene.speed_rpm
+        if rate == 0.0:
+            return math.inf
+        corner = curve.corner_after(now, close) if rate > 0.0 else curve.corner_before(now, close)
+        return time + (corner - now) / rate
 
 
-def force_at(load: AppliedLoad, place: Place, time: float) -> float:
-    """Return a load's force in the current state, N; that of forming does not fade at rest."""
-    now = place(time)
-    return place.cut.force(time, *now) if isinstance(place, Cutting) else load.curve(now[0])
+class CuttingLoad(ActingLoad):
+    """A sheet that resists the punch, by its state."""
 
+    def __init__(self, applied: AppliedLoad, sheet: Sheet, scene: Scene, height: Place) -> None:
+        """Let the output, whose height and velocity are read, cut a sheet."""
+        super().__init__(applied, scene, self.penetration, height)
+        self.cut = Cut(sheet)
 
-def torque_wanted(
-    mechanism: Mechanism, scene: Scene, forces: Mapping[str, float], angle: float
-) -> float:
-    """Return the crank's torque that holds loads and weights, N m, by virtual work.
-
-    Args:
-        mechanism: ideal, and without friction.
-        scene: with the loads.
-        forces: of the loads, as they were before the output came to rest, N.
-        angle: of the crank, rad.
-    """
-    per_angle = mechanism.motion(np.array([angle]), 1.0)
-    wanted = 0.0
-    for body in mechanism.bodies:
-        wanted += body.mass * scene.gravity * float(per_angle[body.name].velocity[0, 1])
-    closes = float(mechanism.along(per_angle[mechanism.slider].velocity)[0]) < 0.0
-    for name, load in applied_loads(scene).items():
-        if load.fade is None or closes:
-            moved = per_angle[load.body].at(load.point).velocity[0, :2]
-            wanted -= forces[name] * float(moved @ np.array(load.direction))
-    return wanted
-
-
-def _add_load(system: System, name: str, load: AppliedLoad, place: Place) -> None:
-    """Press a point of a body, in a direction that stays; on a flexible one the faces carry it."""
-    x, y = load.direction
-    velocity = _height(system) if load.fade is not None or load.damping else None
-
-    def force(mbs: exu.MainSystem, t: float, _: Any) -> list[float]:
-        size = load.at(place(t)[0], velocity(t)[1] if velocity else 0.0)
-        return [size * x, size * y, 0.0]
-
-    _press(system, name, load, force)
-
-
-class Cutting:
-    """The penetration into a sheet, m, and its rate, m/s, in the current state."""
-
-    def __init__(self, cut: Cut, top: float, height: Place) -> None:
-        """Cut a sheet whose upper face is at a height, m."""
-        self.cut, self._top, self._height = cut, top, height
-
-    def __call__(self, time: float) -> tuple[float, float]:
-        """Return penetration and rate."""
+    def penetration(self, time: float) -> tuple[float, float]:
+        """Return the penetration into the sheet, m, and its rate, m/s."""
         height, velocity = self._height(time)
-        return self._top - height, -velocity
+        return self.applied.top - height, -velocity
+
+    def force(self, time: float) -> float:
+        """Return the force against the punch's way down, N."""
+        return self.cut.force(time, *self.penetration(time))
+
+    force_at_rest = force
+
+    def next_corner(self, time: float) -> float:
+        """Return the next instant at which the force has a corner, s, or infinity."""
+        now, rate = self.penetration(time)
+        close = FORESEEN * abs(rate) * 60.0 / self._scene.speed_rpm
+        return self.cut.next(time, now, rate, close)
 
 
-def _add_sheet(system: System, name: str, load: AppliedLoad) -> Cutting:
-    """Let a sheet resist the punch, by its state."""
-    assert load.sheet is not None
-    place = Cutting(Cut(load.sheet), load.top, _height(system))
-    cut, (x, y) = place.cut, load.direction
-    system.clocks.append((cut, place))
+def add_loads(system: System) -> dict[str, ActingLoad]:
+    """Let every load press its body."""
+    height = _height(system)
+    return {name: _add_load(system, name, load, height) for name, load in system.loads.items()}
+
+
+def _add_load(system: System, name: str, applied: AppliedLoad, height: Place) -> ActingLoad:
+    """Press a point of a body, in a direction that stays; on a flexible one the faces carry it."""
+    load: ActingLoad
+    if applied.sheet is None:
+        load = ActingLoad(applied, system.scene, _place(system, applied, height), height)
+    else:
+        load = cutting = CuttingLoad(applied, applied.sheet, system.scene, height)
+        system.clocks.append((cutting.cut, cutting.penetration))
+    x, y = applied.direction
 
     def force(mbs: exu.MainSystem, t: float, _: Any) -> list[float]:
-        size = cut.force(t, *place(t))
+        size = load.force(t)
         return [size * x, size * y, 0.0]
 
-    _press(system, name, load, force)
-    return place
+    _press(system, name, applied, force)
+    return load
 
 
 def _press(system: System, name: str, load: AppliedLoad, function: Any) -> None:
@@ -147,7 +127,7 @@ def _press(system: System, name: str, load: AppliedLoad, function: Any) -> None:
     system.mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVectorUserFunction=function))
 
 
-def _place(system: System, load: AppliedLoad) -> Place:
+def _place(system: System, load: AppliedLoad, height: Place) -> Place:
     """Return where on its curve a load is."""
     scene = system.scene
     if load.over == "time":
@@ -160,7 +140,7 @@ def _place(system: System, load: AppliedLoad) -> Place:
             return lambda time: angle()
         start, speed, ahead = scene.start_angle, scene.angular_speed, system.ahead
         return lambda time: (start + speed * time + ahead[0], speed)
-    return _height(system)
+    return height
 
 
 def _since_the_beginning(system: System, clock: Callable[[float, float], PulseClock]) -> Place:

@@ -9,20 +9,19 @@ from typing import TYPE_CHECKING, Any
 import exudyn as exu
 
 from exu_press.integrate import ARRIVED, Outcome, SolverTuning
-from exu_press.joints.guide_friction import GuideFriction
-from exu_press.laws.sheet import Clock
-from exu_press.mechanism.section import Section
 from exu_press.model.drive import CrankAngle
-from exu_press.model.loads import Place, force_at, next_corner, torque_wanted
 from exu_press.model.rigid_body import RigidBody
-from exu_press.model.stall import Stall, stalled
-from exu_press.model.start_stop import StartStop
-from exu_press.model.warm_film import WarmFilm
-from exu_press.scene.applied import AppliedLoad
+from exu_press.model.stall import Stall, holding_torque, stalled
 from exu_press.solving import DEFAULTS, Assembled, solve
 
 if TYPE_CHECKING:
+    from exu_press.joints.guide_friction import GuideFriction
+    from exu_press.laws.sheet import Clock
+    from exu_press.mechanism.section import Section
+    from exu_press.model.loads import ActingLoad, Place
     from exu_press.model.placed_part import PlacedPart
+    from exu_press.model.start_stop import StartStop
+    from exu_press.model.warm_film import WarmFilm
 
 __all__ = ["Model", "count_items"]
 
@@ -42,7 +41,7 @@ class Model(Assembled):
         crank_angle: tells the crank's angle and angular velocity.
         start_stop: clutch, brake and their schedule, if there is a clutch.
         stall: tells whether the press has stalled.
-        loads: name -> load that acts, and the function of its place on its curve.
+        loads: name -> load that acts.
         clocks: of pulses and sheets of loads, and the readers of their state.
         ahead: angle, rad, by which a crank at constant speed had turned further at time 0, alone.
         remembered: by those, where the run goes on from another one.
@@ -59,15 +58,15 @@ class Model(Assembled):
     rigid: Mapping[str, RigidBody]
     drive: int
     crank_angle: CrankAngle
-    start_stop: StartStop | None
+    start_stop: "StartStop | None"
     stall: Stall
-    loads: Mapping[str, tuple[AppliedLoad, Place]]
-    clocks: list[tuple[Clock, Place]]
+    loads: Mapping[str, "ActingLoad"]
+    clocks: "list[tuple[Clock, Place]]"
     ahead: list[float]
-    guide_friction: Mapping[str, GuideFriction]
+    guide_friction: Mapping[str, "GuideFriction"]
     parts: Mapping[str, "PlacedPart"]
     made: int
-    warm: Mapping[str, WarmFilm] = field(default_factory=dict, kw_only=True)
+    warm: Mapping[str, "WarmFilm"] = field(default_factory=dict, kw_only=True)
     remembered: tuple[tuple[float, float | None], ...] = field(default=(), kw_only=True)
     until: float | None = field(default=None, kw_only=True)
 
@@ -93,7 +92,8 @@ class Model(Assembled):
 
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a load has a corner or a sample lies, s, or infinity."""
-        soonest = next_corner(self.loads, self.scene, time)
+        corners = (load.next_corner(time) for load in self.loads.values())
+        soonest = min(corners, default=math.inf)
         if self.start_stop is not None:
             soonest = min(soonest, self.start_stop.next_corner(time))
         if self._sampled is None:
@@ -102,7 +102,7 @@ class Model(Assembled):
         return min(soonest, (self._sampled.after(speed * time + ahead, CLOSE) - ahead) / speed)
 
     @cached_property
-    def _sampled(self) -> Section | None:
+    def _sampled(self) -> "Section | None":
         output = self.scene.output
         if output is None or not output.samples or self.scene.drive is not None:
             return None
@@ -119,6 +119,8 @@ class Model(Assembled):
             angles.append(self.until)
         if not angles:
             return None
+        from exu_press.mechanism.section import Section
+
         section = Section(angles, self.scene.start_angle)
         return lambda mbs, time: section.side(self.crank_angle()[0])
 
@@ -151,8 +153,8 @@ class Model(Assembled):
         driven = start_stop is None or start_stop.schedule.engaged(time, angle)
         if not self.stall(time, speed, driven=driven):
             return ""
-        forces = {name: force_at(load, place, time) for name, (load, place) in self.loads.items()}
-        wanted = torque_wanted(self.mechanism, self.scene, forces, angle)
+        forces = {name: load.force_at_rest(time) for name, load in self.loads.items()}
+        wanted = holding_torque(self.mechanism, self.scene, forces, angle)
         slips = start_stop is not None and start_stop.slips
         there = motor.law(self.scene.speed_rpm)(speed)[0]
         if slips and motor.clutch_torque is not None:

@@ -1,8 +1,15 @@
 """The instant at which a press has stalled, and the reason."""
 
 import math
+from collections.abc import Mapping
 
-__all__ = ["Stall", "stalled"]
+import numpy as np
+
+from exu_press.mechanism import Mechanism
+from exu_press.scene import Scene
+from exu_press.scene.applied import applied_loads
+
+__all__ = ["Stall", "holding_torque", "stalled"]
 
 SLOW = 0.01
 """Speed over that at the start, or without load: a crank that ran and is slower has stalled.
@@ -73,3 +80,26 @@ def stalled(time: float, angle: float, wanted: float, there: float, *, slips: bo
         f"the press stalled at {place}: loads and weights, without friction, want {wanted:.4g} N m "
         f"there, and {has} has {there:.4g} N m{rubs}; try {cure}"
     )
+
+
+def holding_torque(
+    mechanism: Mechanism, scene: Scene, forces: Mapping[str, float], angle: float
+) -> float:
+    """Return the crank's torque that holds loads and weights, N m, by virtual work.
+
+    Args:
+        mechanism: ideal, and without friction.
+        scene: with the loads.
+        forces: of the loads, as they were before the output came to rest, N.
+        angle: of the crank, rad.
+    """
+    per_angle = mechanism.motion(np.array([angle]), 1.0)
+    torque = 0.0
+    for body in mechanism.bodies:
+        torque += body.mass * scene.gravity * float(per_angle[body.name].velocity[0, 1])
+    closes = float(mechanism.along(per_angle[mechanism.slider].velocity)[0]) < 0.0
+    for name, load in applied_loads(scene).items():
+        if load.fade is None or closes:
+            moved = per_angle[load.body].at(load.point).velocity[0, :2]
+            torque -= forces[name] * float(moved @ np.array(load.direction))
+    return torque

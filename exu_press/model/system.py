@@ -15,13 +15,11 @@ from exudyn.itemInterface import (
     ObjectGround,
 )
 
-from exu_press.laws.sheet import Clock
 from exu_press.mechanism import GROUND, Joint, Mechanism, Point, Spring
 from exu_press.mechanism.holding import by_constraints, holding_of
 from exu_press.model.rigid_body import RigidBody
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
-from exu_press.scene.elastic import with_elastic_guides
 
 if TYPE_CHECKING:
     from exu_press.model.placed_part import PlacedPart
@@ -60,7 +58,11 @@ class System:
     def __init__(self, scene: Scene, parts: Mapping[str, "PlacedPart"]) -> None:
         self.scene, self.parts = scene, parts
         solids = {name: (part.reduced.mass, part.inertia) for name, part in parts.items()}
-        self.mechanism = with_elastic_guides(mechanism_of(scene), scene.guide, solids)
+        self.mechanism = mechanism_of(scene)
+        if scene.guide is not None:
+            from exu_press.scene.elastic import with_elastic_guides
+
+            self.mechanism = with_elastic_guides(self.mechanism, scene.guide, solids)
         guided = frozenset(guide.body for guide in self.mechanism.guides)
         if scene.guide is None or not scene.guide.rubs:
             guided &= scene.bodies.keys()
@@ -75,7 +77,7 @@ class System:
             else load
             for name, load in applied_loads(scene).items()
         }
-        self.clocks: list[tuple[Clock, Callable[[float], tuple[float, float]]]] = []
+        self.clocks: list[tuple[Any, Callable[[float], tuple[float, float]]]] = []
         self.ahead = [0.0]
         self.SC = exu.SystemContainer()
         self.mbs = self.SC.AddSystem()

@@ -6,9 +6,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from exu_press.joints import ClearanceJoint, JointHistory
+from exu_press.joints.history import JointHistory
 from exu_press.joints.interface import FilmInterface, InterfaceJoint
-from exu_press.laws.film import FILM_LAWS, film_scale
+from exu_press.joints.joint import ClearanceJoint
+from exu_press.laws.catalogue import FILM_LAWS
+from exu_press.laws.film.contract import film_scale
 from exu_press.laws.film.oil import HOTTEST, STEADY, film_temperature
 from exu_press.laws.film.side_flow import SideFlow
 from exu_press.numerics.arrays import Array, lengths

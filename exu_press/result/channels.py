@@ -5,17 +5,17 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import writing
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
-from exu_press.result.classic import checksum
-from fe_models.temporary import TemporaryFolder
+
+if TYPE_CHECKING:
+    from fe_models.temporary import TemporaryFolder
 
 __all__ = ["Changed", "OnDisk", "at_rows", "described", "on_disk", "part_of"]
 
@@ -36,7 +36,7 @@ class OnDisk(Mapping[str, Channel]):
     def __init__(self, directory: Path | None = None) -> None:
         """Start without a channel, in an empty directory, or in one that goes with this object."""
         self.count = 0
-        self._temporary = TemporaryFolder() if directory is None else None
+        self._temporary = None if directory is not None else _temporary_folder()
         self._directory = directory or (self._temporary.path if self._temporary else Path())
         self.begun: dict[str, Channel] = {}
         self.checksums: dict[str, int] = {}
@@ -65,6 +65,9 @@ class OnDisk(Mapping[str, Channel]):
 
         Energies there count from it; here they count on.
         """
+        from exu_press.files.output_directory import writing
+        from exu_press.result.classic import checksum
+
         first = 1 if self.count else 0
         for name, channel in channels.items():
             values = channel.values[first:]
@@ -95,6 +98,8 @@ class OnDisk(Mapping[str, Channel]):
 
     def _check(self, name: str, values: Array) -> None:
         """Raise InputError unless the values of a channel have its checksum."""
+        from exu_press.result.classic import checksum
+
         made_of = 0
         for first in range(0, self.count, AT_ONCE):
             made_of = checksum(values[first : first + AT_ONCE], made_of)
@@ -129,6 +134,13 @@ class OnDisk(Mapping[str, Channel]):
 
     def _file(self, name: str) -> Path:
         return self._directory / name
+
+
+def _temporary_folder() -> "TemporaryFolder":
+    """Return a folder that goes with the channels, which a run in memory does not need."""
+    from fe_models.temporary import TemporaryFolder
+
+    return TemporaryFolder()
 
 
 class Changed(Mapping[str, Channel]):

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,10 +13,11 @@ from exu_press.result.channel import Channel
 from exu_press.result.channels import described
 from exu_press.result.info import Info
 from exu_press.result.recorders import expected
-from exu_press.result.surface import Surface
 from exu_press.scene import Scene, mechanism_of
-from exu_press.scene.output import ALWAYS
 from exu_press.schema.stored import shown
+
+if TYPE_CHECKING:
+    from exu_press.result.surface import Surface
 
 __all__ = ["Contents"]
 
@@ -31,7 +33,7 @@ class Contents:
     channels: Mapping[str, Channel]
     info: Info
     bodies: tuple[str, ...] = field(default=())
-    surfaces: Mapping[str, Surface] = field(default_factory=dict)
+    surfaces: Mapping[str, "Surface"] = field(default_factory=dict)
     sampled: Mapping[str, Channel] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -67,7 +69,7 @@ def _check_channels(
 ) -> None:
     """Check the channels and their columns."""
     required = [name for name, (_, always) in known.items() if always]
-    for name in required if whole else ALWAYS:
+    for name in required if whole else ("time", "crank_angle"):
         if name not in channels:
             raise InputError(f"channel {name}: missing; this scene's results have it")
     count = len(channels["time"].values)

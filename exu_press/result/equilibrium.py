@@ -5,10 +5,10 @@ force.
 """
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exu_press.joints import JointHistory
 from exu_press.mechanism import Point
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
@@ -16,6 +16,9 @@ from exu_press.result.channel import Channel
 from exu_press.result.guide_channels import guide_channels
 from exu_press.result.ideal_joints import FORCE, vectors
 from exu_press.result.recording import Record, Recording
+
+if TYPE_CHECKING:
+    from exu_press.joints.history import JointHistory
 
 __all__ = ["record"]
 
@@ -66,7 +69,8 @@ def _force(
     force = np.zeros((len(channels["time"].values), 2))
     for joint, sign, _ in joints:
         force += sign * channels[f"{joint}_force"].values[:, :2]
-    for key, (load, _) in model.loads.items():
+    for key, acting in model.loads.items():
+        load = acting.applied
         if load.body == name:
             force += np.outer(channels[f"load_{key}_force"].values, load.direction)
     return force
@@ -78,7 +82,7 @@ def _moment(
     joints: Sequence[Held],
     angle: Array,
     channels: Mapping[str, Channel],
-    histories: Mapping[str, JointHistory],
+    histories: "Mapping[str, JointHistory]",
 ) -> Array:
     """Return the moment about its centre, (n,), of joints and loads on a body at an angle (n,)."""
     cos, sin = np.cos(angle), np.sin(angle)
@@ -88,7 +92,8 @@ def _moment(
         moment += (x * cos - y * sin) * on_body[:, 1] - (x * sin + y * cos) * on_body[:, 0]
         if joint in histories:
             moment += histories[joint].moments_in_plane[:, 0 if sign > 0.0 else 1]
-    for key, (load, _) in model.loads.items():
+    for key, acting in model.loads.items():
+        load = acting.applied
         if load.body == name:
             moment += load.moment(channels[f"load_{key}_force"].values, angle)
     return moment

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from exu_press.joints import history
+from exu_press.joints.history import history
 from exu_press.result.channel import Channel
 from exu_press.result.guide_channels import guide_channels
 from exu_press.result.joints import stored_and_lost

@@ -1,16 +1,20 @@
 """Channels of clearance joints: eccentricity, force, moments, losses."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from exu_press.joints import JointHistory, history
+from exu_press.joints.history import JointHistory, history
 from exu_press.model import Model
-from exu_press.model.warm_film import WarmFilm
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral
 from exu_press.result.channel import Channel
 from exu_press.result.declared import VECTOR, Declared
 from exu_press.result.ideal_joints import vectors
 from exu_press.result.recording import Record, Recording
+
+if TYPE_CHECKING:
+    from exu_press.model.warm_film import WarmFilm
 
 __all__ = ["CHANNELS", "joint_histories", "record", "stored_and_lost"]
 
@@ -84,7 +88,7 @@ def record(run: Recording) -> Record:
     return Record(channels, all_stored, all_lost)
 
 
-def _heat(film: WarmFilm, states: JointHistory, time: Array, name: str) -> dict[str, Channel]:
+def _heat(film: "WarmFilm", states: JointHistory, time: Array, name: str) -> dict[str, Channel]:
     """Return the channels of a film whose oil warms."""
     flow = film.side_flow(states)
     return (

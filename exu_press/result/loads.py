@@ -27,7 +27,8 @@ def record(run: Recording) -> Record:
     model, time, scene = run.model, run.time, run.model.scene
     channels: dict[str, Channel] = {}
     all_work = np.zeros_like(time)
-    lasting = [name for name, (load, _) in model.loads.items() if load.clock or load.sheet]
+    loads = {name: acting.applied for name, acting in model.loads.items()}
+    lasting = [name for name, load in loads.items() if load.clock or load.sheet]
     memory = dict(zip(lasting, model.remembered, strict=False))  # empty in a run of its own
     angle = scene.start_angle + scene.angular_speed * time + model.ahead[0]
     if scene.drive is not None:
@@ -35,7 +36,7 @@ def record(run: Recording) -> Record:
         angle = run.turned.position[:, 2] - drawn
     crank = angle, run.turned.velocity[:, 2]
     height = run["slider_position"] - model.mechanism.bottom, run["slider_velocity"]
-    for name, (load, _) in model.loads.items():
+    for name, load in loads.items():
         force = load.force(time, crank, height, memory.get(name))
         if load.body in model.parts:
             from exu_press.result.flexible import carried_motion

@@ -4,18 +4,22 @@ import functools
 import importlib.metadata
 import platform
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from exu_press.integrate import Outcome
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model import Model
 from exu_press.model.state import state_of
+from exu_press.numerics.arrays import Array
 from exu_press.result.info import Info
-from exu_press.result.joints import joint_histories
 from exu_press.result.motion import body_motion, sensor
 from exu_press.result.recorders import recorders
 from exu_press.result.recording import Record, Recording
 from exu_press.result.result import Result
-from exu_press.result.surface import surfaces_of
+
+if TYPE_CHECKING:
+    from exu_press.joints.history import JointHistory
+    from exu_press.result.surface import Surface
 
 __all__ = ["record"]
 
@@ -26,8 +30,8 @@ def record(model: Model, outcome: Outcome) -> Result:
     time = sensor(model, mechanism.slider, "position", with_time=True)[:, 0]
     motions = {body.name: body_motion(model, body.name) for body in mechanism.bodies}
     turned = body_motion(model, DRIVE) if DRIVE in model.nodes else motions[mechanism.crank]
-    histories, total = joint_histories(model, time), Record({})
-    for recorder in recorders(flexible=bool(model.parts)):
+    histories, total = _histories(model, time), Record({})
+    for recorder in recorders(model.scene):
         total += recorder.record(Recording(model, time, motions, turned, histories, total))
     info: Info = {**_info(model, outcome), **total.info}  # type: ignore[typeddict-item]
     return Result(
@@ -35,8 +39,26 @@ def record(model: Model, outcome: Outcome) -> Result:
         channels=total.channels,
         info=info,
         bodies=tuple(motions),
-        surfaces=surfaces_of(model.parts),
+        surfaces=_surfaces(model),
     )
+
+
+def _histories(model: Model, time: Array) -> "Mapping[str, JointHistory]":
+    """Return the states of the joints with clearance at the recorded instants."""
+    if not model.clearance_joints:
+        return {}
+    from exu_press.result.joints import joint_histories
+
+    return joint_histories(model, time)
+
+
+def _surfaces(model: Model) -> "Mapping[str, Surface]":
+    """Return the surfaces of the flexible bodies, by body."""
+    if not model.parts:
+        return {}
+    from exu_press.result.surface import surfaces_of
+
+    return surfaces_of(model.parts)
 
 
 def _info(model: Model, outcome: Outcome) -> Info:

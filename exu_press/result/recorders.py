@@ -1,52 +1,70 @@
 """The recorders of a run in their order, and the channels that they declare."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from importlib import import_module
 from typing import Any
 
 from exu_press.result.channel import guide_channel
 from exu_press.result.declared import NO_BRAKE, NO_CLUTCH, OWN, UNBALANCED, Declared
 from exu_press.scene import Scene, mechanism_of
-from exu_press.scene.applied import applied_loads
 from exu_press.scene.joint import oil_of
-from exu_press.scene.wearing import wearing_joints
 
 __all__ = ["all_declared", "expected", "recorders"]
 
-RECORDERS = (
-    "slider",
-    "ideal_joints",
-    "joints",
-    "loads",
-    "guideways",
-    "equilibrium",
-    "guides",
-    "forces",
-    "flexible",
-    "stress",
-    "drive",
-    "energy",
-)
-"""Modules of `exu_press.result` with `record(run)`, and with CHANNELS that they declare. Each reads
-what those before it have recorded."""
 
-OF_FLEXIBLE_BODIES = ("flexible", "stress")
+def _always(scene: Scene) -> bool:
+    """Return True: every run has it."""
+    return True
 
 
-def recorders(*, flexible: bool) -> Iterator[Any]:
-    """Yield the modules that record a run, with or without flexible bodies."""
-    for name in RECORDERS:
-        if flexible or name not in OF_FLEXIBLE_BODIES:
+RECORDERS: dict[str, Callable[[Scene], object]] = {
+    "slider": _always,
+    "ideal_joints": _always,
+    "joints": lambda scene: scene.joints.with_clearance,
+    "loads": lambda scene: scene.load,
+    "guideways": lambda scene: any(guide.guideway for guide in mechanism_of(scene).guides),
+    "equilibrium": _always,
+    "guides": _always,
+    "forces": _always,
+    "flexible": lambda scene: scene.bodies,
+    "stress": lambda scene: scene.bodies,
+    "drive": _always,
+    "energy": _always,
+}
+"""Modules of `exu_press.result` -> whether a scene has what they record. They have `record(run)`,
+which reads what those before have recorded, and CHANNELS that they declare."""
+
+
+def recorders(scene: Scene | None = None) -> Iterator[Any]:
+    """Yield the modules that record the runs of a scene, or of any."""
+    for name, records in RECORDERS.items():
+        if scene is None or records(scene):
             yield import_module(f"exu_press.result.{name}")
 
 
-def all_declared(*, flexible: bool = True) -> list[Declared]:
-    """Return every channel that a run, with or without flexible bodies, may have."""
+def all_declared(scene: Scene | None = None) -> list[Declared]:
+    """Return every channel that the runs of a scene, or of any, may have."""
     return [
-        declared
-        for recorder in recorders(flexible=flexible)
-        for declared in getattr(recorder, "CHANNELS", ())
+        declared for recorder in recorders(scene) for declared in getattr(recorder, "CHANNELS", ())
     ]
+
+
+def _loads(scene: Scene) -> list[str]:
+    """Return the names of the loads that act."""
+    if not scene.load:
+        return []
+    from exu_press.scene.applied import applied_loads
+
+    return list(applied_loads(scene))
+
+
+def _wearing(scene: Scene) -> list[str]:
+    """Return the names of the joints whose wear is asked for."""
+    if scene.wear is None:
+        return []
+    from exu_press.scene.wearing import wearing_joints
+
+    return list(wearing_joints(scene))
 
 
 def expected(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
@@ -65,9 +83,9 @@ def expected(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
         "loose": [name for name in joints if scene.joints[name].kind != "ideal"],
         "warm": [name for name in joints if oil_of(scene.joints[name]) is not None],
         "worn": [name for name in joints if scene.joints[name].worn is not None],
-        "wearing": list(wearing_joints(scene)),
+        "wearing": _wearing(scene),
         "guide": [guide_channel(mechanism, guide.body) for guide in mechanism.guides],
-        "load": list(applied_loads(scene)),
+        "load": _loads(scene),
         "body": [body.name for body in mechanism.bodies],
         "faced": joints,
     }
@@ -80,7 +98,7 @@ def expected(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
     }
     return {
         channel.at(place): (channel.axis_at(place, spherical=place in spherical), channel.always)
-        for channel in all_declared(flexible=bool(scene.bodies))
+        for channel in all_declared(scene)
         for place in places[channel.of]
         if not missing.get(channel.unless, False)
     }

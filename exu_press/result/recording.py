@@ -2,13 +2,15 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from exu_press.joints import JointHistory
 from exu_press.mechanism import Motion
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
+
+if TYPE_CHECKING:
+    from exu_press.joints.history import JointHistory
 
 __all__ = ["Record", "Recording"]
 
@@ -60,7 +62,7 @@ class Recording:
     time: Array
     motions: Mapping[str, Motion]
     turned: Motion
-    histories: Mapping[str, JointHistory]
+    histories: "Mapping[str, JointHistory]"
     so_far: Record
 
     def __getitem__(self, channel: str) -> Array:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,10 +15,12 @@ from exu_press.numerics.arrays import Array
 from exu_press.result.channels import Changed, described, on_disk, part_of
 from exu_press.result.contents import Contents
 from exu_press.result.joint import JointRecord
-from exu_press.result.samples import Samples, samples_of
 from exu_press.scene import IdealJoint
 from exu_press.scene.joint import DryJoint, Joint, LubricatedJoint, unworn
 from exu_press.schema.checks import nearest
+
+if TYPE_CHECKING:
+    from exu_press.result.samples import Samples
 
 __all__ = ["Result"]
 
@@ -108,12 +110,14 @@ class Result(Contents):
         return tuple(name for name, joint in self.joints.items() if joint.kind != "ideal")
 
     @cached_property
-    def samples(self) -> Samples:
+    def samples(self) -> "Samples":
         """The record at the crank angles of [output] samples, revolution by revolution.
 
         Raises:
             InputError: the scene asks for none.
         """
+        from exu_press.result.samples import samples_of
+
         return samples_of(self.scene, self.sampled or self.channels)
 
     @cached_property

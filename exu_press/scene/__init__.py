@@ -1,16 +1,20 @@
-"""Scene: the task, validated once."""
+"""Scene: the task, validated once. Names are loaded on first access."""
 
-from exu_press.mechanism import Press, SliderCrank
-from exu_press.scene.bodies import Face, Flexible, flexible_press
-from exu_press.scene.custom import CustomJoint
-from exu_press.scene.file import parse_assignment
-from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
-from exu_press.scene.joints import Joints
-from exu_press.scene.load import BlankingLoad, CustomLoad, SheetLoad, SpringLoad, TableLoad
-from exu_press.scene.motor import Motor
-from exu_press.scene.scene import Scene, mechanism_of
-from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Solver
+from typing import TYPE_CHECKING
+
+from exu_press.lazy import lazy_names
 from exu_press.schema.checks import key
+
+if TYPE_CHECKING:
+    from exu_press.scene.bodies import Face, Flexible, flexible_press
+    from exu_press.scene.custom import CustomJoint
+    from exu_press.scene.file import parse_assignment
+    from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
+    from exu_press.scene.joints import Joints
+    from exu_press.scene.load import BlankingLoad, CustomLoad, SheetLoad, SpringLoad, TableLoad
+    from exu_press.scene.motor import Motor
+    from exu_press.scene.scene import Scene, mechanism_of
+    from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Solver
 
 __all__ = [
     "BlankingLoad",
@@ -27,10 +31,8 @@ __all__ = [
     "Joints",
     "LubricatedJoint",
     "Motor",
-    "Press",
     "Scene",
     "SheetLoad",
-    "SliderCrank",
     "Solver",
     "SpringLoad",
     "TableLoad",
@@ -39,3 +41,18 @@ __all__ = [
     "mechanism_of",
     "parse_assignment",
 ]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "bodies": "Face Flexible flexible_press",
+        "custom": "CustomJoint",
+        "file": "parse_assignment",
+        "joint": "DryJoint IdealJoint LubricatedJoint",
+        "joints": "Joints",
+        "load": "BlankingLoad CustomLoad SheetLoad SpringLoad TableLoad",
+        "motor": "Motor",
+        "scene": "Scene mechanism_of",
+        "tables": "Contact ElasticGuide Film Friction Solver",
+    },
+)

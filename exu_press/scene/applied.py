@@ -1,193 +1,21 @@
-"""The loads of a scene on their mechanism: where they act, which way, and how much when."""
+"""The loads of a scene on their mechanism, none of which is loaded where there are none."""
 
-import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-import numpy as np
+from exu_press.scene.scene import Scene
 
-from exu_press.laws.load_curve import LoadCurve, PulseClock, closing
-from exu_press.laws.sheet import Cut, Sheet
-from exu_press.mechanism import Mechanism, Point
-from exu_press.numerics.arrays import Array
-from exu_press.scene.load import BlankingLoad, SheetLoad, SpringLoad
-from exu_press.scene.scene import Scene, mechanism_of
+if TYPE_CHECKING:
+    from exu_press.scene.applied_load import AppliedLoad
 
-__all__ = ["AppliedLoad", "applied_loads"]
-
-FADE = 1e-3
-"""Speed over the ideal output's largest one: below it, a forming force fades. A crank at constant
-speed passes through it within 0.06 degrees of dead centre, where the output moves by 3e-7 of its
-stroke. A press that stalls creeps at no more than that."""
+__all__ = ["applied_loads"]
 
 
-@dataclass(frozen=True)
-class AppliedLoad:
-    """One load.
-
-    Attributes:
-        kind: "blanking", "table", "sheet" or "spring".
-        body: on which it acts.
-        point: where, in the body's frame, m.
-        direction: unit vector, in the frame, in which a positive force acts.
-        over: "time", "crank_angle_deg", "height", "penetration" or "pulse".
-        curve: the force over time, s, crank angle, rad, the output's height, m, or the time since
-            the beginning of a pulse, s.
-        clock: of a pulse, with the crank's angle and speed at the start -> the clock of its
-            beginning.
-        fade: of a force that acts while the output closes, the speed from which it acts in full,
-            m/s; None where it acts both ways.
-        damping: of the force per speed over the force, s/m.
-        sheet: that is cut.
-        top: height of its upper face, m.
-    """
-
-    kind: str
-    body: str
-    point: Point
-    direction: Point
-    over: str
-    curve: LoadCurve
-    fade: float | None
-    clock: Callable[[float, float], PulseClock] | None = None
-    damping: float = 0.0
-    sheet: Sheet | None = None
-    top: float = 0.0
-
-    def at(self, place: float, velocity: float) -> float:
-        """Return the force, N, at a place on its curve and a velocity of the output, m/s."""
-        force = self.curve(place)
-        if self.damping:
-            force *= max(0.0, 1.0 - self.damping * velocity)
-        return force if self.fade is None else force * closing(velocity, self.fade)
-
-    def force(
-        self,
-        time: Array,
-        crank: tuple[Array, Array],
-        slider: tuple[Array, Array],
-        memory: tuple[float, float | None] | None = None,
-    ) -> Array:
-        """Return the force in its direction, (n,), N, at instants (n,), s.
-
-        Args:
-            time: of the instants, from the start of the run for a pulse.
-            crank: its angle, rad, and angular velocity, rad/s.
-            slider: its height, m, and velocity, m/s.
-            memory: of the load's clock or sheet before the first instant.
-        """
-        if self.sheet is not None:
-            depths = self.top - slider[0], -slider[1]
-            return _cutting(self.sheet, time, *depths, memory)
-        if self.clock is not None:
-            place = _since(self.clock, time, *crank, memory)
-        else:
-            place = {"time": time, "crank_angle_deg": crank[0], "height": slider[0]}[self.over]
-        pairs = zip(place.tolist(), slider[1].tolist(), strict=True)
-        return np.array([self.at(*pair) for pair in pairs])
-
-    def moment(self, force: Array, angle: Array) -> Array:
-        """Return the moment about the body's centre of mass, (n,), N m.
-
-        Args:
-            force: (n,), N.
-            angle: of the body, (n,), rad.
-        """
-        (x, y), (u, v) = self.point, self.direction
-        c, s = np.cos(angle), np.sin(angle)
-        return np.asarray(force * ((c * x - s * y) * v - (s * x + c * y) * u))
-
-    def shortest_edge(self, scene: Scene) -> float:
-        """Return how long the steepest part of the curve would take from zero to the peak, s."""
-        if self.sheet is not None:
-            return min(self.sheet.crack_time, self._rise(fastest_of(scene)))
-        if self.curve.steepest == 0.0:
-            return math.inf
-        rate = 1.0
-        if self.over == "crank_angle_deg":
-            rate = scene.angular_speed
-        elif self.over == "height":
-            rate = fastest_of(scene)
-        return self._rise(rate)
-
-    def _rise(self, rate: float) -> float:
-        return self.curve.peak / (self.curve.steepest * rate)
-
-
-def _since(
-    clock: Callable[[float, float], PulseClock],
-    time: Array,
-    angle: Array,
-    speed: Array,
-    memory: tuple[float, float | None] | None,
-) -> Array:
-    """Return the times since the beginning of a pulse, (n,), s."""
-    running, places = clock(float(angle[0]), float(speed[0])), []
-    if memory is not None:
-        running.recall(memory)
-    for state in zip(time.tolist(), angle.tolist(), speed.tolist(), strict=True):
-        places.append(running.place(*state))
-        running.accept(*state)
-    return np.array(places)
-
-
-def _cutting(
-    sheet: Sheet,
-    time: Array,
-    penetration: Array,
-    rate: Array,
-    memory: tuple[float, float | None] | None,
-) -> Array:
-    running = Cut(sheet)
-    forces: list[float] = []
-    if memory is not None:
-        running.recall(memory)
-    for state in zip(time.tolist(), penetration.tolist(), rate.tolist(), strict=True):
-        if not forces:
-            running.accept(*state)
-        forces.append(running.force(*state))
-        running.accept(*state)
-    return np.array(forces)
-
-
-def fastest(mechanism: Mechanism, angular_speed: float) -> float:
-    """Return the largest speed of the ideal output, m/s."""
-    angle = np.linspace(0.0, 2.0 * math.pi, 361)
-    return float(np.abs(mechanism.ideal_slider(angle, angular_speed)[1]).max())
-
-
-def fastest_of(scene: Scene) -> float:
-    """Return the largest speed of a scene's ideal output, m/s."""
-    return fastest(mechanism_of(scene), scene.angular_speed)
-
-
-def applied_loads(scene: Scene) -> dict[str, AppliedLoad]:
+def applied_loads(scene: Scene) -> dict[str, "AppliedLoad"]:
     """Return the loads of a scene that are not zero throughout, by name."""
-    mechanism = mechanism_of(scene)
-    found = {}
-    for name, load in scene.load.items():
-        body = mechanism.body(load.body or mechanism.slider)
-        x, y = load.direction or mechanism.output.direction
-        length = math.hypot(x, y)
-        (u, v), (dx, dy) = body.centre_of_mass, load.offset or (0.0, 0.0)
-        place = (u + dx, v + dy)
-        if load.joint is not None:
-            place = next(joint.at for joint in mechanism.joints if joint.name == load.joint)
-        pulse = load if isinstance(load, BlankingLoad) and scene.drive is not None else None
-        fade = FADE * fastest(mechanism, scene.angular_speed) if load.closing else None
-        applied = AppliedLoad(
-            kind=load.kind,
-            body=body.name,
-            point=body.local(place),
-            direction=(x / length, y / length),
-            over="pulse" if pulse else load.over,
-            curve=pulse.timed() if pulse else load.curve(scene.angular_speed),
-            fade=fade,
-            clock=pulse.clock if pulse else None,
-            damping=load.damping if isinstance(load, SpringLoad) else 0.0,
-            sheet=load.sheet(fade) if isinstance(load, SheetLoad) and fade else None,
-            top=load.height if isinstance(load, SheetLoad) else 0.0,
-        )
-        if not applied.curve.peak <= 0.0:  # that of a result's load may be unknown
-            found[name] = applied
-    return found
+    if not scene.load:
+        return {}
+    from exu_press.scene.applied_load import applied_load
+
+    loads = {name: applied_load(load, scene) for name, load in scene.load.items()}
+    # the peak of a load of a result may be unknown
+    return {name: load for name, load in loads.items() if not load.curve.peak <= 0.0}

@@ -15,7 +15,6 @@ from exu_press.mechanism import (
 )
 from exu_press.scene.bodies import changed_bodies
 from exu_press.scene.joint_changes import changed_joints
-from exu_press.scene.loads import changed_loads
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import RENAMED, changed_table, given_in, nearest
 
@@ -62,6 +61,8 @@ def changed_keys(
     if bodies and isinstance(data.get("bodies", {}), Mapping):
         data["bodies"] = changed_bodies(data.get("bodies", {}), bodies)
     if loads:
+        from exu_press.scene.loads import changed_loads
+
         data["load"] = changed_loads(data.get("load", {}), loads)
     if "joints" not in changes:
         data["joints"] = changed_joints(data["joints"], groups, joints)

@@ -6,7 +6,6 @@ from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.scene.bodies import STEP_FILES
-from exu_press.scene.loads import with_files_beside
 from exu_press.schema.toml import parse_toml, read_toml
 
 __all__ = ["parse_assignment", "scene_tables"]
@@ -30,6 +29,8 @@ def scene_tables(path: Path) -> dict[str, Any]:
     if isinstance(bodies := data.get("bodies"), dict):
         data["bodies"] = {name: _beside(path, body) for name, body in bodies.items()}
     if "load" in data:
+        from exu_press.scene.loads import with_files_beside
+
         data["load"] = with_files_beside(data["load"], path.parent)
     return data
 

@@ -3,14 +3,16 @@
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal, cast
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, cast
 
 from exu_press.errors import InputError
 from exu_press.scene.custom import CustomJoint, UnresolvedJoint, custom_class
-from exu_press.scene.oil import Oil
 from exu_press.scene.tables import Contact, Film, Friction, asperity_onset
-from exu_press.scene.worn import Worn
 from exu_press.schema.checks import Table, demand_keys, key, plain
+
+if TYPE_CHECKING:
+    from exu_press.scene.oil import Oil
+    from exu_press.scene.worn import Worn
 
 __all__ = [
     "JOINT_KINDS",
@@ -57,7 +59,7 @@ class DryJoint(Table):
     radius: float = key(None, "of the journal or ball", "m", above=0, example=0.03)
     contact: Contact = dataclasses.field(default=cast(Any, None))
     friction: Friction = dataclasses.field(default=cast(Any, None))
-    worn: Worn | None = None
+    worn: "Worn | None" = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -83,7 +85,7 @@ class LubricatedJoint(Table):
     film: Film = dataclasses.field(default=cast(Any, None))
     contact: Contact | None = None
     friction: Friction | None = None
-    worn: Worn | None = None
+    worn: "Worn | None" = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -113,7 +115,7 @@ LAW_TABLES: dict[str, type[Table]] = {"contact": Contact, "friction": Friction, 
 """Tables of the scene that hold for a joint unless it has its own."""
 
 
-def oil_of(joint: Joint) -> Oil | None:
+def oil_of(joint: Joint) -> "Oil | None":
     """Return the oil of a joint whose film warms, or None."""
     return joint.film.oil if isinstance(joint, LubricatedJoint) else None
 
@@ -125,7 +127,7 @@ def keys_used(kind: Any, at_contact: Any) -> tuple[str, ...]:
         return (*SIZES, *touching, "worn")
     if kind == "lubricated":
         return (*SIZES, "film", *(touching if at_contact == "mixed" else ()), "worn")
-    own = custom_class(kind, CustomJoint)
+    own = None if kind == "ideal" else custom_class(kind, CustomJoint)
     return () if own is None else tuple(field.name for field in dataclasses.fields(own))
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from exu_press.errors import InputError, UnusedKeyError, prefixed
-from exu_press.laws.film import FILM_LAWS
+from exu_press.laws.catalogue import FILM_LAWS
 from exu_press.scene.custom import CustomJoint, UnresolvedJoint, custom_class
 from exu_press.scene.joint import (
     JOINT_KINDS,
@@ -18,9 +18,7 @@ from exu_press.scene.joint import (
     keys_used,
     refuse_missing,
 )
-from exu_press.scene.laws import contact_law, film_law, friction_law
 from exu_press.scene.tables import Contact, Film
-from exu_press.scene.worn import Worn
 from exu_press.schema.checks import Table, given_in, nearest, refuse_unknown, table_from, table_with
 
 __all__ = ["Joints", "joints_of", "keys_given"]
@@ -217,7 +215,7 @@ def _joint(
     place = f"joints.{name}"
     kind = given.get("kind")
     with prefixed(f"{place}."):
-        own_class = custom_class(kind, CustomJoint)
+        own_class = None if kind in [*JOINT_KINDS] else custom_class(kind, CustomJoint)
     if kind not in [*JOINT_KINDS] and own_class is None:
         what = f"{place}.kind = {kind!r}" if "kind" in given else f"{place} has no kind"
         raise InputError(f"{what}: allowed is one of {', '.join(map(repr, JOINT_KINDS))}")
@@ -243,6 +241,8 @@ def _joint(
         if spherical:
             raise UnusedKeyError(f"{place}.worn", f"{place}.worn", f"{place} is a ball")
         with prefixed(f"{place}."):
+            from exu_press.scene.worn import Worn
+
             values["worn"] = table_from(Worn, "worn", given["worn"])
     chosen: type[Any] = own_class or JOINT_KINDS[str(kind)]
     with prefixed(f"{place}."):
@@ -271,6 +271,8 @@ def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
     """Make every law once, so that values outside its range are refused before anything is run."""
     if isinstance(joint, IdealJoint | UnresolvedJoint):
         return
+    from exu_press.scene.laws import contact_law, film_law, friction_law
+
     try:
         if isinstance(joint, CustomJoint):
             laws = joint.interfaces()

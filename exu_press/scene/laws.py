@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 
 from exu_press.errors import InputError, prefixed
+from exu_press.laws.catalogue import FILM_LAWS
 from exu_press.laws.contact import (
     DAMPING_LAWS,
     NormalContact,
@@ -12,7 +13,9 @@ from exu_press.laws.contact import (
     hertz,
     hertz_stiffness,
 )
-from exu_press.laws.film import FILM_LAWS, BallFilm, FilmLaw, ball, film_scale, with_asperities
+from exu_press.laws.film.asperities import with_asperities
+from exu_press.laws.film.ball import BallFilm, ball
+from exu_press.laws.film.contract import FilmLaw, film_scale
 from exu_press.laws.friction import Friction as FrictionLaw
 from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
 from exu_press.scene.joint import DryJoint, LubricatedJoint

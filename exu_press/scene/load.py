@@ -7,9 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Self
 
+import numpy as np
+
 from exu_press.errors import InputError
 from exu_press.laws.load_curve import REVOLUTION, LoadCurve, PulseClock, blanking_pulse
 from exu_press.laws.sheet import SHAPE, Sheet, shear_force
+from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import Face, patch_given
 from exu_press.scene.custom import CustomKind
 from exu_press.schema.checks import Table, check_columns, check_increasing, key
@@ -34,7 +37,7 @@ LOWEST = 180.0
 
 
 @dataclass(frozen=True)
-class _Placed(Table):
+class _Placed(Table, ABC):
     """The place of a load; its direction stays in the frame however the body turns.
 
     `over` is the variable of its curve; `closing` says whether it depends on the way that the
@@ -45,6 +48,7 @@ class _Placed(Table):
     """
 
     instead: ClassVar[Mapping[str, str]] = {"offset": "joint", "face": "joint"}
+    over: ClassVar[Any] = ""
     body: str | None = key(None, "body that it acts on; the mechanism's output unless given")
     offset: tuple[float, float] | None = key(
         None,
@@ -67,6 +71,23 @@ class _Placed(Table):
         super().__post_init__()
         if self.direction is not None and math.hypot(*self.direction) == 0.0:
             raise InputError("direction = [0, 0]: allowed is a direction, such as [0, 1]")
+
+    def check(self, mechanism: Mechanism, revolution: float) -> None:
+        """Raise InputError where it does not suit a mechanism and the time of a revolution, s."""
+
+    def law(self, angular_speed: float, fade: float | None, *, motor: bool) -> dict[str, Any]:
+        """Return what an `AppliedLoad` has by its kind.
+
+        Args:
+            angular_speed: of the crank, rad/s.
+            fade: speed of the output from which a forming force acts in full, m/s, or None.
+            motor: whether the crank's speed varies.
+        """
+        return {"over": self.over, "curve": self.curve(angular_speed)}
+
+    @abstractmethod
+    def curve(self, angular_speed: float) -> LoadCurve:
+        """Return the force over its variable at a speed of the crank, rad/s."""
 
 
 @dataclass(frozen=True)
@@ -101,11 +122,22 @@ class BlankingLoad(_Placed):
             begin = math.radians(self.end_angle_deg) - angular_speed * times[-1]
         return LoadCurve([begin + angular_speed * time for time in times], forces, REVOLUTION)
 
-    def timed(self) -> LoadCurve:
-        """Return the force over the time since the pulse's beginning, s."""
-        return LoadCurve(*blanking_pulse(self.force, self.rise, self.fall))
+    def check(self, mechanism: Mechanism, revolution: float) -> None:
+        """Raise InputError for a pulse longer than a revolution, s."""
+        if self.rise + self.fall > revolution:
+            raise InputError(
+                f"rise + fall = {self.rise + self.fall!r}: allowed is at most one revolution, "
+                f"{revolution:g} s"
+            )
 
-    def clock(self, now: float, speed: float) -> PulseClock:
+    def law(self, angular_speed: float, fade: float | None, *, motor: bool) -> dict[str, Any]:
+        """Return force over the time since the pulse's beginning, s, and its clock, or `curve`."""
+        if not motor:
+            return super().law(angular_speed, fade, motor=motor)
+        curve = LoadCurve(*blanking_pulse(self.force, self.rise, self.fall))
+        return {"over": "pulse", "curve": curve, "clock": self._clock}
+
+    def _clock(self, now: float, speed: float) -> PulseClock:
         """Return when it begins at a crank whose speed varies; its angle and speed at the start."""
         begins = self.start_angle_deg
         angle = math.radians(self.end_angle_deg if begins is None else begins)
@@ -232,10 +264,23 @@ class SheetLoad(_Placed):
             [depth * x for x in self.over_fracture], [peak * y for y in self.over_peak]
         )
 
-    def sheet(self, fade: float) -> Sheet:
-        """Return the sheet, with the speed from which stripping acts in full, m/s."""
-        curve = self.curve(0.0)
-        return Sheet(curve, self.thickness, self.crack_time, self.stripping * curve.peak, fade)
+    def check(self, mechanism: Mechanism, revolution: float) -> None:
+        """Raise InputError unless the output leaves the sheet, and cuts it through."""
+        _check_height(self.height, mechanism)
+        depth = self.thickness * self.penetration
+        if depth >= self.height:
+            raise InputError(
+                f"thickness = {self.thickness!r}: it fractures {depth:.4g} m deep, and the output "
+                f"goes {self.height!r} m into it; allowed is a larger height, or a thinner sheet"
+            )
+
+    def law(self, angular_speed: float, fade: float | None, *, motor: bool) -> dict[str, Any]:
+        """Return the sheet as well, and the height of its upper face."""
+        assert fade is not None
+        curve = self.curve(angular_speed)
+        stripping = self.stripping * curve.peak
+        sheet = Sheet(curve, self.thickness, self.crack_time, stripping, fade)
+        return {"over": self.over, "curve": curve, "sheet": sheet, "top": self.height}
 
 
 @dataclass(frozen=True)
@@ -265,6 +310,19 @@ class SpringLoad(_Placed):
                 "and 0, and pushing; let a preload rise over a short travel, as its seat gives way"
             )
         check_increasing("travel", self.travel)
+
+    def check(self, mechanism: Mechanism, revolution: float) -> None:
+        """Raise InputError unless the output leaves the spring, and its travel is long enough."""
+        _check_height(self.height, mechanism)
+        if self.travel[-1] < self.height:
+            raise InputError(
+                f"travel to {self.travel[-1]!r}: the output compresses it by {self.height!r} m; "
+                "allowed is a travel as long as that"
+            )
+
+    def law(self, angular_speed: float, fade: float | None, *, motor: bool) -> dict[str, Any]:
+        """Return the damping as well."""
+        return super().law(angular_speed, fade, motor=motor) | {"damping": self.damping}
 
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return the force over the output's height, m."""
@@ -316,6 +374,17 @@ class UnresolvedLoad(CustomLoad):
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return forces that are no numbers: they are unknown."""
         return LoadCurve([0.0, 1.0], [math.nan, math.nan])
+
+
+def _check_height(height: float, mechanism: Mechanism) -> None:
+    """Check that the output leaves a sheet or spring."""
+    angle = np.linspace(0.0, 2.0 * math.pi, 721)
+    stroke = float(mechanism.ideal_slider(angle, 1.0)[0].max()) - mechanism.bottom
+    if height >= stroke:
+        raise InputError(
+            f"height = {height!r}: the output rises {stroke:.4g} m above bottom dead centre and "
+            "never leaves it; allowed is less than that"
+        )
 
 
 Load = BlankingLoad | TableLoad | SheetLoad | SpringLoad | CustomLoad

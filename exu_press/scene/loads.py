@@ -1,12 +1,9 @@
 """Every load of a scene by its name."""
 
 import dataclasses
-import math
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from exu_press.errors import InputError, prefixed
 from exu_press.laws.load_curve import LoadCurve
@@ -16,11 +13,8 @@ from exu_press.scene.custom import custom_class
 from exu_press.scene.load import (
     COLUMNS,
     LOAD_KINDS,
-    BlankingLoad,
     CustomLoad,
     Load,
-    SheetLoad,
-    SpringLoad,
     UnresolvedLoad,
 )
 from exu_press.scene.tables import RPM
@@ -60,13 +54,8 @@ def loads_of(
         _check_body(where, load, mechanism, flexible)
         if isinstance(load, CustomLoad):
             _check_curve(where, load, speed_rpm)
-        if isinstance(load, SheetLoad | SpringLoad):
-            _check_height(where, load, mechanism)
-        if isinstance(load, BlankingLoad) and load.rise + load.fall > 60.0 / speed_rpm:
-            raise InputError(
-                f"{where}.rise + fall = {load.rise + load.fall!r}: allowed is at most one "
-                f"revolution, {60.0 / speed_rpm:g} s"
-            )
+        with prefixed(f"{where}."):
+            load.check(mechanism, 60.0 / speed_rpm)
     return found
 
 
@@ -175,30 +164,6 @@ def _check_curve(where: str, load: CustomLoad, speed_rpm: float) -> None:
     if not isinstance(curve, LoadCurve):
         raise InputError(
             f"{where}: {load.kind}.curve() returns {curve!r:.80}: allowed is a LoadCurve"
-        )
-
-
-def _check_height(where: str, load: SheetLoad | SpringLoad, mechanism: Mechanism) -> None:
-    """Check that the output leaves sheet or spring, and that it cuts a sheet through."""
-    angle = np.linspace(0.0, 2.0 * math.pi, 721)
-    stroke = float(mechanism.ideal_slider(angle, 1.0)[0].max()) - mechanism.bottom
-    if load.height >= stroke:
-        raise InputError(
-            f"{where}.height = {load.height!r}: the output rises {stroke:.4g} m above bottom dead "
-            "centre and never leaves it; allowed is less than that"
-        )
-    if isinstance(load, SheetLoad):
-        depth = load.thickness * load.penetration
-        if depth >= load.height:
-            raise InputError(
-                f"{where}.thickness = {load.thickness!r}: it fractures {depth:.4g} m deep, and the "
-                f"output goes {load.height!r} m into it; allowed is a larger height, or a thinner "
-                "sheet"
-            )
-    elif load.travel[-1] < load.height:
-        raise InputError(
-            f"{where}.travel to {load.travel[-1]!r}: the output compresses it by {load.height!r} "
-            "m; allowed is a travel as long as that"
         )
 
 

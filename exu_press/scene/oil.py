@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from exu_press.errors import InputError
-from exu_press.laws.film.oil import roelands, walther
 from exu_press.schema.checks import Table, key
 
 __all__ = ["Oil"]
@@ -92,6 +91,8 @@ class Oil(Table):
     def viscosity(self, temperature: float, pressure: float = 0.0) -> float:
         """Return the dynamic viscosity, Pa s, at a temperature, deg C, and a pressure, Pa."""
         cold, warm = zip(self.at_celsius, self.viscosity_cst, strict=True)
+        from exu_press.laws.film.oil import roelands, walther
+
         thin = walther(temperature, cold, warm)[0] * MM2 * self.density
         if self.pressure_viscosity is None:
             return thin

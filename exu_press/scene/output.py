@@ -4,11 +4,13 @@ import fnmatch
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from exu_press.errors import InputError
-from exu_press.mechanism.section import Section
 from exu_press.schema.checks import Table, check_increasing, key, nearest
+
+if TYPE_CHECKING:
+    from exu_press.mechanism.section import Section
 
 __all__ = ["Output"]
 
@@ -80,6 +82,8 @@ class Output(Table):
             found.update(matching)
         return [name for name in known if name in found]
 
-    def section(self, start: float) -> Section:
+    def section(self, start: float) -> "Section":
         """Return the samples of a run that starts at a crank angle, rad."""
+        from exu_press.mechanism.section import Section
+
         return Section([math.radians(angle) for angle in self.samples], start)

@@ -18,13 +18,10 @@ from exu_press.mechanism import (
     slider_crank,
 )
 from exu_press.mechanism import Joint as Drawn
-from exu_press.mechanism.examine import require_turning
+from exu_press.mechanism.kinematics import MotionError
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
-from exu_press.scene.built import Built
 from exu_press.scene.changes import asked_mechanism, changed_keys, drop, named
 from exu_press.scene.custom import UnresolvedJoint, import_kinds, refusal, with_unresolved
-from exu_press.scene.elastic import with_elastic_guides
-from exu_press.scene.file import parse_assignment, scene_tables
 from exu_press.scene.joint import (
     JOINT_KINDS,
     LAW_TABLES,
@@ -35,14 +32,8 @@ from exu_press.scene.joint import (
 )
 from exu_press.scene.joint_changes import by_group, unused_laws
 from exu_press.scene.joints import Joints, joints_of
-from exu_press.scene.load import LOAD_KINDS, Load, UnresolvedLoad
-from exu_press.scene.loads import load_dict, loads_of
-from exu_press.scene.motor import Motor
-from exu_press.scene.output import Output
-from exu_press.scene.save import save_scene
 from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Solver
 from exu_press.scene.usage import TABLES, unused_tables
-from exu_press.scene.wear import Wear
 from exu_press.schema.checks import Table, given_in, key, names_in, plain, table_from, table_with
 
 __all__ = ["STARTS", "Scene", "mechanism_of"]
@@ -59,17 +50,16 @@ WARM = 3.0
 STARTS = ("loaded", "centred")
 """The first one is that of a mechanism without a default of its own."""
 
-UNRESOLVED = {
-    "joints": (frozenset(JOINT_KINDS), UnresolvedJoint),
-    "load": (frozenset(LOAD_KINDS), UnresolvedLoad),
-}
-"""Tables whose kinds may be users' -> the kinds that are not, and what stands for unloaded ones."""
-
 ONLY_WHERE_GIVEN = ("drive", "guide", "output", "wear")
 """Tables that a scene without them does not have: constant speed, ideal guides, no samples."""
 
 
 if TYPE_CHECKING:
+    from exu_press.scene.built import Built
+    from exu_press.scene.load import Load
+    from exu_press.scene.motor import Motor
+    from exu_press.scene.output import Output
+    from exu_press.scene.wear import Wear
 
     class LoadTables:
         """`load`: of the class it reads a file, of a scene it is its [load] tables."""
@@ -131,10 +121,10 @@ class Scene(Table):
     friction: Friction | None = None
     film: Film | None = None
     load: "LoadTables" = dataclasses.field(default_factory=cast(Any, dict), hash=False)
-    drive: Motor | None = None
+    drive: "Motor | None" = None
     guide: ElasticGuide | None = None
-    output: Output | None = None
-    wear: Wear | None = None
+    output: "Output | None" = None
+    wear: "Wear | None" = None
     solver: Solver | None = None
     press: Press | None = None
     slider_crank: SliderCrank | None = None
@@ -155,14 +145,14 @@ class Scene(Table):
                 f"{self.revolutions:g}, or nothing is left to read"
             )
         unused = unused_tables(self.mechanism)
-        for name, table in TABLES.items():
+        for name in TABLES:
             given = getattr(self, name)
             if name in LAW_TABLES:  # their defaults are the mechanism's
                 continue
             self._refuse(unused, name, given)
             if given is None and (name in unused or name in ONLY_WHERE_GIVEN):
                 continue
-            checked: Table = table_from(table, name, {} if given is None else given)
+            checked: Table = table_from(TABLES[name], name, {} if given is None else given)
             idle = checked.unused()
             for inner, value in checked.given.items():
                 self._refuse(idle, inner, value, name)
@@ -202,7 +192,7 @@ class Scene(Table):
         if given is None:
             given = usual.get("joints", {})
         object.__setattr__(self, "joints", None)
-        require_turning(mechanism)
+        _require_turning(mechanism)
         complete = {
             name: table_with(
                 LAW_TABLES[name], name, {} if law is None else law, usual.get(name, {})
@@ -282,6 +272,11 @@ class Scene(Table):
 
     def _settle_loads(self) -> None:
         """Complete the loads; tables of forces are read."""
+        if not self.load:
+            object.__setattr__(self, "load", {})
+            return
+        from exu_press.scene.loads import loads_of
+
         loads = loads_of(self.load, mechanism_of(self), self.bodies, self.speed_rpm)
         object.__setattr__(self, "load", loads)
 
@@ -297,7 +292,7 @@ class Scene(Table):
             resolve: False takes kinds whose code is not loaded as `UnresolvedJoint` and
                 `UnresolvedLoad`.
         """
-        scene = table_from(cls, "", data if resolve else with_unresolved(data, UNRESOLVED))
+        scene = table_from(cls, "", data if resolve else _with_unresolved(data))
         object.__setattr__(scene, "asked", frozenset(asked))
         return scene
 
@@ -309,7 +304,7 @@ class Scene(Table):
             if isinstance(value, Joints):
                 complete[field.name] = value.to_dict(self.laws)
             elif field.name in ("load", "bodies"):
-                to_dict = load_dict if field.name == "load" else body_dict
+                to_dict = _load_dict if field.name == "load" else body_dict
                 tables = {name: to_dict(table) for name, table in value.items()}
                 complete |= {field.name: tables} if tables else {}
             elif isinstance(value, Table):
@@ -331,6 +326,8 @@ class Scene(Table):
         Raises:
             InputError: the file exists, or cannot be written.
         """
+        from exu_press.scene.save import save_scene
+
         save_scene(self, self.laws, path, comments=comments, overwrite=overwrite)
 
     def replace(self, changes: Mapping[str, Any]) -> "Scene":
@@ -378,7 +375,7 @@ class Scene(Table):
 
         return cell(self)
 
-    def build(self) -> Built:
+    def build(self) -> "Built":
         """Return the assembled `exu_press.model.Model`; its mbs and SC are the real Exudyn objects.
 
         Every body has graphics for Exudyn's own renderer and SolutionViewer.
@@ -399,10 +396,14 @@ class Scene(Table):
 
     def _unresolved(self) -> Iterator[tuple[str, str]]:
         """Yield dotted name and kind of what has a kind whose code is not loaded."""
-        for table in ("joints", "load"):
-            for name, one in getattr(self, table).items():
-                if isinstance(one, UnresolvedJoint | UnresolvedLoad):
-                    yield f"{table}.{name}", one.kind
+        for name, joint in self.joints.items():
+            if isinstance(joint, UnresolvedJoint):
+                yield f"joints.{name}", joint.kind
+        for name, load in self.load.items():
+            from exu_press.scene.load import UnresolvedLoad
+
+            if isinstance(load, UnresolvedLoad):
+                yield f"load.{name}", load.kind
 
     @property
     def shipped(self) -> str:
@@ -476,6 +477,8 @@ def _load(path: str | Path, assignments: Iterable[str] = (), *, allow_code: bool
     Raises:
         InputError: the file cannot be read or parsed, or the scene is not allowed.
     """
+    from exu_press.scene.file import parse_assignment, scene_tables
+
     path = Path(path)
     data = scene_tables(path)
     changes = dict(map(parse_assignment, assignments))
@@ -484,6 +487,34 @@ def _load(path: str | Path, assignments: Iterable[str] = (), *, allow_code: bool
             import_kinds({**data, **changes})
         scene = Scene.from_dict(data, names_in(data))
     return scene.replace(changes) if changes else scene
+
+
+def _with_unresolved(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a result's tables, with what has a kind whose code is not loaded as unresolved."""
+    from exu_press.scene.load import LOAD_KINDS, UnresolvedLoad
+
+    kinds = {
+        "joints": (frozenset(JOINT_KINDS), UnresolvedJoint),
+        "load": (frozenset(LOAD_KINDS), UnresolvedLoad),
+    }
+    return with_unresolved(data, kinds)
+
+
+def _load_dict(load: "Load") -> dict[str, Any]:
+    """Return a load as a mapping."""
+    from exu_press.scene.loads import load_dict
+
+    return load_dict(load)
+
+
+def _require_turning(mechanism: Mechanism) -> None:
+    """Refuse a mechanism whose crank does not turn, with all that its examination finds."""
+    try:
+        mechanism.require_turning()
+    except MotionError as refusal:
+        from exu_press.mechanism.examine import complete_refusal
+
+        raise complete_refusal(mechanism, refusal) from None
 
 
 type.__setattr__(Scene, "load", staticmethod(_load))  # of a scene `load` has its [load] tables
@@ -501,6 +532,10 @@ def mechanism_of(scene: Scene) -> Mechanism:
         drawn = shipped_mechanism(scene.mechanism)
     if scene.drive is not None:
         drawn = _with_flywheel(drawn, scene.drive.on_crank)
+    if scene.guide is None:
+        return drawn
+    from exu_press.scene.elastic import with_elastic_guides
+
     return with_elastic_guides(drawn, scene.guide)
 
 

@@ -9,14 +9,15 @@ Every key says its meaning, unit and range once, here; messages and documentatio
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from exu_press.errors import InputError
-from exu_press.laws.contact import DAMPING_LAWS
-from exu_press.laws.film import FILM_LAWS
-from exu_press.laws.film.plane_pad import WIDTHS
-from exu_press.scene.oil import Oil
+from exu_press.laws.catalogue import FILM_LAWS
+from exu_press.laws.contact_damping import DAMPING_LAWS
 from exu_press.schema.checks import Table, Uses, demand_keys, inner, key
+
+if TYPE_CHECKING:
+    from exu_press.scene.oil import Oil
 
 __all__ = [
     "DEFAULT_TOLERANCE",
@@ -189,7 +190,7 @@ class Film(Table):
     asperity_onset: float = key(
         3.0, "gap at which asperities touch, in roughnesses", above=0, at_most=10
     )
-    oil: Oil | None = inner(Oil)
+    oil: "Oil | None" = inner("exu_press.scene.oil:Oil")
 
     def unused(self, **instead: str) -> dict[str, str]:
         """Return the keys that are not used; of a joint's film those of other joints' shapes.
@@ -300,6 +301,8 @@ class ElasticGuide(Table):
                 f"guide.contact_gap = {self.contact_gap!r}: allowed is a number < "
                 f"guide.clearance = {clearance!r}"
             )
+        from exu_press.laws.film.plane_pad import WIDTHS
+
         narrowest, widest = WIDTHS
         if not narrowest * self.length <= self.face_width <= widest * self.length:
             raise InputError(

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from exu_press.laws.film import FILM_LAWS
+from exu_press.laws.catalogue import FILM_LAWS
 from exu_press.mechanism.doubtful import doubtful_drawing
 from exu_press.scene.applied import applied_loads
 from exu_press.scene.custom import CustomJoint

@@ -4,6 +4,7 @@ import copy
 import dataclasses
 import difflib
 import functools
+import importlib
 import itertools
 import math
 import numbers
@@ -175,7 +176,7 @@ class Table:
         for field in _fields(type(self)):
             if "inner" in field.metadata and (given := getattr(self, field.name)) is not None:
                 name = f"{self.table}.{field.name}"
-                object.__setattr__(self, field.name, _inner(field.metadata["inner"], name, given))
+                object.__setattr__(self, field.name, _inner(_inner_table(field), name, given))
             if "meaning" in field.metadata:
                 name = f"{self.table}.{field.name}" if self.table else field.name
                 value = _checked(field, name, getattr(self, field.name))
@@ -198,9 +199,15 @@ def _inner(kind: type[Any], name: str, given: Any) -> Any:
     return table
 
 
-def inner(kind: type["Table"]) -> Any:
-    """Declare a table within a table; None where it is not given."""
-    return dataclasses.field(default=None, metadata={"inner": kind})
+def inner(home: str) -> Any:
+    """Declare a table within a table, "module:Class", loaded where it is given; None elsewhere."""
+    return dataclasses.field(default=None, metadata={"inner": home})
+
+
+def _inner_table(field: dataclasses.Field[Any]) -> type[Any]:
+    module, _, name = field.metadata["inner"].partition(":")
+    table: type[Any] = getattr(importlib.import_module(module), name)
+    return table
 
 
 def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
@@ -371,13 +378,14 @@ def changed_table(
             key has a table for each of several places.
     """
     found = dict(before)
-    inners = {f.name: f.metadata["inner"] for f in _fields(kind) if "inner" in f.metadata}
+    inners = {f.name: f for f in _fields(kind) if "inner" in f.metadata}
     by_place = {f.name for f in _fields(kind) if f.metadata.get("by_place")}
     for path, value in changes.items():
         name, dot, rest = path.partition(".")
         change: Any = {rest: value} if dot else value
         if name in inners and isinstance(change, Mapping | Table):
-            found[name] = changed_table(inners[name], given_in(found.get(name)), given_in(change))
+            table = _inner_table(inners[name])
+            found[name] = changed_table(table, given_in(found.get(name)), given_in(change))
         elif dot and name in by_place:
             at, _, key_there = rest.partition(".")
             there = given_in(found.get(name))

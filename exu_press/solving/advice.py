@@ -10,9 +10,7 @@ from exu_press.integrate.task import Task
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.scene import LubricatedJoint, mechanism_of
 from exu_press.scene.applied import applied_loads
-from exu_press.scene.warnings import doubtful_sizes
 from exu_press.solving.assembled import Assembled
-from exu_press.solving.impact_steps import impact_steps
 
 __all__ = ["SceneAdvice", "leapt_over_load"]
 
@@ -109,11 +107,15 @@ class SceneAdvice(Advice):
         assert solver is not None
         if solver.tolerance is not None:
             return f"solver.tolerance = {0.1 * solver.tolerance:.0e}"
+        from exu_press.solving.impact_steps import impact_steps
+
         needed = min([0.5 * worst.step, *impact_steps(self._model)])
         return f"solver.step = {_rounded_down(needed):.0e}"
 
     def _slips_or(self, cure: str) -> str:
         """Return that another size is the cure where one is hardly meant, or the usual cure."""
+        from exu_press.scene.warnings import doubtful_sizes
+
         slips = "; ".join(slip.partition(". ")[0] for slip in doubtful_sizes(self._scene))
         return f"another value, as this one is hardly meant: {slips}" if slips else cure
 

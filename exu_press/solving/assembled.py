@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 
 import exudyn as exu
 
-from exu_press.joints import ClearanceJoint, States
+from exu_press.joints.joint import ClearanceJoint
+from exu_press.joints.states import States
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.holding import Holding
 from exu_press.scene import Scene

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from exu_press.joints import history
+from exu_press.joints.history import history
 from exu_press.laws.contact import NormalContact
 from exu_press.mechanism import GROUND
 from exu_press.numerics.arrays import Array, lengths

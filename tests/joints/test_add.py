@@ -21,7 +21,8 @@ from exu_press import (
     add_lubricated_spherical,
     solve_dynamic,
 )
-from exu_press.laws.film import ball, with_asperities
+from exu_press.laws.film import with_asperities
+from exu_press.laws.film.ball import ball
 from exu_press.laws.friction import no_friction
 from exu_press.scene import Scene
 from exu_press.scene.laws import contact_law, film_law

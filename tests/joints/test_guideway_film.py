@@ -16,7 +16,8 @@ from exu_press.joints import add_guideway_contact, add_guideway_film, add_joint_
 from exu_press.joints.ends import BodyEnd
 from exu_press.joints.guideway_film import GuidewayFilm
 from exu_press.laws.contact import hertz, step_damping
-from exu_press.laws.film import pad_with_asperities, plane_pad
+from exu_press.laws.film import pad_with_asperities
+from exu_press.laws.film.plane_pad import plane_pad
 from exu_press.laws.friction import no_friction
 
 MASS, LENGTH, WIDTH, HALF, VISCOSITY = 20.0, 0.3, 0.05, 0.04, 0.1

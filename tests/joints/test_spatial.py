@@ -24,7 +24,8 @@ from exu_press import (
 )
 from exu_press.joints import user_force_of
 from exu_press.laws.contact import hertz, step_damping
-from exu_press.laws.film import ball, pi_film
+from exu_press.laws.film import pi_film
+from exu_press.laws.film.ball import ball
 from exu_press.laws.friction import LuGre, lugre_steady
 
 NODES = {"EP": NodeRigidBodyEP, "Rxyz": NodeRigidBodyRxyz, "RotVecLG": NodeRigidBodyRotVecLG}

@@ -14,7 +14,8 @@ from exudyn.itemInterface import (
 from solving import planar_body, recorded, solve
 
 from exu_press import InputError, add_dry_revolute, add_dry_spherical, add_lubricated_revolute
-from exu_press.joints import States, history, user_force_of
+from exu_press.joints import States, user_force_of
+from exu_press.joints.history import history
 from exu_press.laws.contact import hertz, step_damping
 from exu_press.laws.film import pi_film
 from exu_press.laws.friction import LuGre, lugre_steady

@@ -6,7 +6,7 @@ import scipy.sparse as sp
 from independent.solid import displaced
 
 from exu_press import InputError, Scene, simulate
-from exu_press.joints import history
+from exu_press.joints.history import history
 from exu_press.model import build
 from exu_press.model.placed_part import placed_parts
 from exu_press.model.start import quasi_static_motion

@@ -146,7 +146,7 @@ def test_stiff_the_drive_takes_out_what_the_load_puts_in(rocker, place):
 
 def point_of(asked):
     model = build(asked)
-    point = model.loads["one"][0].point
+    point = model.loads["one"].applied.point
     model.SC.Reset()
     return point
 

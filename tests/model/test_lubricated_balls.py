@@ -16,7 +16,8 @@ from scipy.integrate import quad
 
 from exu_press import Scene, add_joint_sensor, add_lubricated_spherical, simulate
 from exu_press.joints import user_force_of
-from exu_press.laws.film import ball, film_scale
+from exu_press.laws.film import film_scale
+from exu_press.laws.film.ball import ball
 
 RADIUS, CLEARANCE, VISCOSITY = 0.07, 1e-4, 0.4
 SCALE = film_scale(VISCOSITY, RADIUS, RADIUS, CLEARANCE)

@@ -6,15 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from exu_press.laws.film import (
-    ball,
-    dissipated_power,
-    finite,
-    pi_film,
-    pinkus,
-    short,
-    with_asperities,
-)
+from exu_press.laws.film import dissipated_power, finite, pi_film, pinkus, short, with_asperities
+from exu_press.laws.film.ball import ball
 
 FILMS = {
     "pinkus": pinkus(),

@@ -9,8 +9,9 @@ import math
 
 import pytest
 
+from exu_press.laws.catalogue import FILM_LAWS
 from exu_press.laws.contact import DAMPING_LAWS, cylindrical, hertz
-from exu_press.laws.film import FILM_LAWS, with_asperities
+from exu_press.laws.film import with_asperities
 from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
 from exu_press.laws.load_curve import LoadCurve, blanking_pulse, closing
 from exu_press.laws.motor import kloss, torque_table

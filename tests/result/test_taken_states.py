@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from exu_press import Scene
-from exu_press.joints import history, user_force_of
+from exu_press.joints import user_force_of
+from exu_press.joints.history import history
 from exu_press.joints.joint import GROUND
 from exu_press.model import build
 from exu_press.result.motion import sensor

@@ -53,7 +53,7 @@ def with_asperities(law: FilmLaw, onset_ratio: float) -> FilmLaw:
 
     Examples
     --------
-    >>> from exu_press.laws.film import pi_film
+    >>> from exu_press.laws.film.long_bearing import pi_film
     >>> smooth, rough = pi_film(), with_asperities(pi_film(), 0.02)
     >>> smooth(0.98, 1.0, 2.0) == rough(0.98, 1.0, 2.0)
     True

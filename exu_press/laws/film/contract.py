@@ -72,7 +72,7 @@ def dissipated_power(force: FilmForce, eps_dot: float, eps_w: float) -> float:
 
     Examples
     --------
-    >>> from exu_press.laws.film import pi_film
+    >>> from exu_press.laws.film.long_bearing import pi_film
     >>> round(dissipated_power(pi_film()(0.0, 1.0, 0.0), 1.0, 0.0) / math.pi, 12)
     6.0
     """

@@ -9,7 +9,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
 from exu_press import InputError
-from exu_press.laws.film import ball, dissipated_power, socket_drag
+from exu_press.laws.film import dissipated_power, socket_drag
+from exu_press.laws.film.ball import ball
 from tabulation.reynolds_sphere import solve_cap
 
 CAPS = [math.pi / 4, 1.2, math.pi / 2]

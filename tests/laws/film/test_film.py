@@ -6,14 +6,8 @@ import random
 import numpy as np
 import pytest
 
-from exu_press.laws.film import (
-    FILM_LAWS,
-    film_scale,
-    finite,
-    pi_film,
-    short,
-    with_asperities,
-)
+from exu_press.laws.catalogue import FILM_LAWS
+from exu_press.laws.film import film_scale, finite, pi_film, short, with_asperities
 
 LAWS = {name: entry.factory(0.4) for name, entry in FILM_LAWS.items()} | {
     "finite_1": finite(1.0),

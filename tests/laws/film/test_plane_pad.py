@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from independent.pad_pressure import end_forces
 
 from exu_press import InputError
-from exu_press.laws.film import pad_with_asperities, plane_pad
+from exu_press.laws.film import pad_with_asperities
+from exu_press.laws.film.plane_pad import plane_pad
 
 LENGTH, GAP, SPEED, ONSET = 0.3, 2e-5, 1e-3, 2e-6
 gaps = st.floats(1e-6, 1e-4)

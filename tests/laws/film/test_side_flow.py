@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from exu_press.laws.film import FILM_LAWS, finite
+from exu_press.laws.catalogue import FILM_LAWS
+from exu_press.laws.film import finite
 from exu_press.laws.film.reynolds import solve_reynolds, supply_line
 from exu_press.laws.film.side_flow import finite_flow, no_flow, short_flow
 

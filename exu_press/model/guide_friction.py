@@ -1,0 +1,43 @@
+"""Friction of guides without clearance."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from exu_press.joints.guide_friction import GuideFriction, HeldSide, SideForce, SpringSide
+from exu_press.mechanism import Guide
+from exu_press.model.system import System
+from exu_press.scene.laws import guide_friction_law
+
+__all__ = ["add_guide_friction"]
+
+
+def add_guide_friction(system: System, guide: Guide, held: Mapping[str, int]) -> GuideFriction:
+    """Add the friction of a guide without clearance.
+
+    Args:
+        system: with the guide in it.
+        guide: ideal or elastic.
+        held: as `add_guide` returns it.
+    """
+    table, mbs = system.scene.guide, system.mbs
+    assert table is not None
+    missed = np.zeros(3)
+    if guide.body in system.flexible:
+        from exu_press.model.flexible_body import guided_motion
+
+        body = system.flexible[guide.body]
+        values, rows = guided_motion(mbs, body, system.parts[guide.body])
+        missed = values - system.ideal[guide.body].position[0]
+        nodes = [body.node_rigid, *([] if body.node_modes is None else [body.node_modes])]
+    else:
+        nodes, rows = [system.rigid[guide.body].node], np.eye(3)
+    side: SideForce
+    if guide.lateral is None:
+        side = HeldSide(mbs, held["force"])
+    else:
+        across, spring = np.array(guide.across), guide.lateral
+        moved = float(across @ missed[:2])
+        side = SpringSide(spring.stiffness, spring.damping, across @ rows[:2], moved)
+    law = guide_friction_law(table, system.scene.friction)
+    return GuideFriction(mbs, nodes, np.array(guide.direction) @ rows[:2], side, law)

@@ -1,0 +1,66 @@
+"""Guideways with clearance: contacts of both ends of a body, and a film between."""
+
+from typing import Any
+
+import numpy as np
+
+from exu_press.joints.add import add_guideway_contact, add_guideway_film
+from exu_press.joints.joint import ClearanceJoint
+from exu_press.mechanism import Guide, Guideway, Point
+from exu_press.model.system import System
+from exu_press.scene.laws import guide_contact_law, guide_friction_law
+
+__all__ = ["add_guideways"]
+
+
+def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[ClearanceJoint, ...]:
+    """Let both ends of a body touch its guideways with clearance, and oil be between them."""
+    table, damped = system.scene.guide, system.scene.contact
+    assert table is not None
+    assert damped is not None
+    body = system.mechanism.body(guide.body)
+    along = np.array(guide.direction)
+    drawn = [
+        np.array(body.centre_of_mass) + 0.5 * side * guideway.length * along for side in (-1.0, 1.0)
+    ]
+    ends = [_end(system, guide.body, body.local((float(at[0]), float(at[1])))) for at in drawn]
+    onset = 0.0 if table.contact_gap is None else table.contact_gap
+    contacts = [
+        add_guideway_contact(
+            system.mbs,
+            end,
+            middle=body.centre_of_mass,
+            direction=guide.direction,
+            clearance=guideway.clearance - onset,
+            contact=guide_contact_law(
+                damped, guideway.stiffness, guideway.clearance, system.scene.angular_speed
+            ),
+            friction=guide_friction_law(table, system.scene.friction),
+            half_width=guideway.half_width,
+        )
+        for end in ends
+    ]
+    if table.viscosity is None:
+        return tuple(contacts)
+    assert table.face_width is not None
+    film = add_guideway_film(
+        system.mbs,
+        *ends,
+        middle=body.centre_of_mass,
+        direction=guide.direction,
+        clearance=guideway.clearance,
+        length=guideway.length,
+        face_width=table.face_width,
+        viscosity=table.viscosity,
+        asperity_onset=onset,
+        half_width=guideway.half_width,
+    )
+    return (*contacts, film)
+
+
+def _end(system: System, body: str, point: Point) -> Any:
+    if body not in system.flexible:
+        return system.bodies[body], system.rigid[body].local(point)
+    from exu_press.model.flexible_body import guide_end
+
+    return guide_end(system.flexible[body], system.parts[body], point)

@@ -19,7 +19,6 @@ from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from exu_press.integrate.criteria.eccentricity import EccentricityError
-from exu_press.integrate.criteria.film_force import FilmForceError
 from exu_press.integrate.criteria.prescribed_velocity import PrescribedVelocityError
 from exu_press.integrate.criteria.velocity import VelocityError
 from exu_press.integrate.newton_filter import NewtonFilter
@@ -58,6 +57,8 @@ def default_criteria(task: Task) -> list[Criterion]:
     newton_filter, share = NewtonFilter(task), math.pow(tolerance, 1.5)
     if system.joints is None:
         return [VelocityError(task, newton_filter, share), PrescribedVelocityError(task)]
+    from exu_press.integrate.criteria.film_force import FilmForceError
+
     share = max(share, tuning.least_share * tolerance)
     of_bodies, penetration = tuning.beside_joints * share, tuning.penetration
     if system.modes and tuning.modal_mass > 0.0:

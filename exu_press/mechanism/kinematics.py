@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
+from exu_press.mechanism.groups import groups_of
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import PRECISION, Point
 from exu_press.mechanism.planar_constraints import PlanarConstraints, null_space
@@ -52,9 +53,8 @@ ITERATIONS = 12
 FREE, CRANK = slice(None, -3), slice(-3, None)
 """Coordinates that follow from those of the crank, which are the last."""
 
-TAKES_PART = 1e-2
-"""Part of the largest gap, or of the largest product of motion and force in a singular position,
-with which a body has its share in it."""
+OPEN = 1e-2
+"""Part of the largest gap with which a constraint does not agree with the others."""
 
 
 class MotionError(InputError):
@@ -239,22 +239,16 @@ class Kinematics:
         fast = float(np.abs(last[1]).max()) > FAST
         where = f"at crank angle {math.degrees(angle) % 360.0:.4g} deg"
         if lost.gaps is not None and not fast:
-            open_rows = lost.gaps > TAKES_PART * lost.gaps.max()
+            open_rows = lost.gaps > OPEN * lost.gaps.max()
             bodies = constraints.moving(jacobian[open_rows])
             text = (
                 f"joints and guides hold {_listed(bodies)} more than once and do not agree {where}."
                 " Remove the redundant one, or draw parts that move alike exactly alike"
             )
-        else:  # what moves freely in the singular position, and is under stress there
-            forces, _, motions = np.linalg.svd(jacobian[:, FREE])
-            motion = np.append(motions[-1], np.zeros(3))
-            stress = forces[:, len(motions) - 1, None] * jacobian
-            motion, stress = (
-                np.abs(values).reshape(-1, len(constraints.bodies), 3).max(axis=(0, 2))
-                for values in (motion, stress)
-            )
-            both = motion * stress
-            bodies = tuple(np.array(constraints.bodies)[both > TAKES_PART * both.max()])
+        else:
+            groups = list(groups_of(constraints, constraints.bodies[-1]))
+            least = [np.linalg.svd(group.block(jacobian))[1][-1] for group in groups]
+            bodies = groups[int(np.argmin(least))].bodies
             does = "lock: they reach no further" if fast else "lock or branch"
             text = f"{_listed(bodies)} {does} {where}"
         poses = last[0].reshape(-1, 3) * (constraints.size, constraints.size, 1.0)

@@ -11,21 +11,16 @@ References
    Oxford University Press 2017, sections 1.10 and 3.18.
 """
 
-from collections.abc import Iterator, Mapping
-from itertools import combinations
+from collections.abc import Mapping
 
 import numpy as np
 
+from exu_press.mechanism.groups import groups_of
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Joint
-from exu_press.mechanism.planar_constraints import null_space
 from exu_press.numerics.arrays import Array
 
 __all__ = ["alike", "transmission_angles"]
-
-
-LARGEST_GROUP = 4
-"""Bodies; where none so small is held, all that are left are one group."""
 
 
 def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
@@ -48,13 +43,14 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
         return motion[body].at(point).position[:, :2]
 
     transmission: dict[str, Array] = {}
-    for dyad, before in _groups(mechanism):
+    for group in groups_of(mechanism.constraints, mechanism.crank):
+        dyad = group.bodies
         if len(dyad) != 2:
             continue
         joints = {body: mechanism.joints_of(body) for body in dyad}
         inner = [joint for joint in joints[dyad[0]] if joint in joints[dyad[1]]]
         outer = [
-            [j for j in joints[body] if {j.journal, j.bearing} & before]
+            [j for j in joints[body] if {j.journal, j.bearing} & group.before]
             for body in dyad
             if body not in guides
         ]
@@ -69,34 +65,6 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
         along = np.abs((lines[0] * lines[1]).sum(axis=1))
         transmission[inner[0].name] = np.arctan2(across, along)
     return transmission
-
-
-def _groups(mechanism: Mechanism) -> Iterator[tuple[tuple[str, ...], set[str]]]:
-    """Yield the smallest sets of bodies that are held, each by all bodies before it: Assur groups.
-
-    The bodies before it come with each.
-    """
-    constraints = mechanism.constraints
-    jacobian = constraints.jacobian(np.array(constraints.drawn))
-    ends = {f"guides.{guide.body}": {guide.body} for guide in mechanism.guides}
-    ends |= {f"joints.{j.name}": {j.journal, j.bearing} for j in mechanism.joints}
-    before = {GROUND, mechanism.crank}
-    left = [body for body in constraints.bodies if body != mechanism.crank]
-
-    def is_held(bodies: tuple[str, ...]) -> bool:
-        known = {*bodies, *before}
-        names = [name for name, of in ends.items() if of & {*bodies} and of <= known]
-        columns = [3 * constraints.bodies.index(body) + k for body in bodies for k in range(3)]
-        rows = [row for name in names for row in constraints.rows[name]]
-        return len(rows) >= len(columns) and not len(null_space(jacobian[rows][:, columns]))
-
-    while left:
-        sizes = range(1, min(LARGEST_GROUP, len(left)) + 1)
-        sets = (chosen for size in sizes for chosen in combinations(left, size))
-        group = next(filter(is_held, sets), tuple(left))
-        yield group, {*before}
-        before.update(group)
-        left = [body for body in left if body not in group]
 
 
 def alike(transmission: Mapping[str, Array]) -> list[tuple[str, Array]]:

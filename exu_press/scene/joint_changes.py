@@ -4,14 +4,19 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.scene.joint import LAW_TABLES, IdealJoint, Joint
+from exu_press.scene.joint import IdealJoint, Joint
 from exu_press.scene.joints import keys_given
-from exu_press.scene.worn import Worn
-from exu_press.schema.checks import Table, changed_table, nearest
+from exu_press.scene.usage import Tables
+from exu_press.schema.checks import changed_table, nearest
 
 __all__ = ["by_group", "changed_joints", "unused_laws"]
 
-TABLES_OF_JOINTS: dict[str, type[Table]] = {**LAW_TABLES, Worn.table: Worn}
+TABLES_OF_JOINTS = Tables(
+    contact="scene.tables:Contact",
+    friction="scene.tables:Friction",
+    film="scene.tables:Film",
+    worn="scene.worn:Worn",
+)
 
 
 def unused_laws(joints: Collection[Joint]) -> dict[str, str]:

@@ -4,10 +4,10 @@ from collections.abc import Iterator, Mapping
 from importlib import import_module
 from typing import Any
 
-__all__ = ["TABLES", "unused_tables"]
+__all__ = ["TABLES", "Tables", "unused_tables"]
 
 
-class _Tables(Mapping[str, type[Any]]):
+class Tables(Mapping[str, type[Any]]):
     """Name of a table -> its dataclass, which is loaded when a scene has it."""
 
     def __init__(self, **homes: str) -> None:
@@ -29,7 +29,7 @@ class _Tables(Mapping[str, type[Any]]):
         return len(self._homes)
 
 
-TABLES = _Tables(
+TABLES = Tables(
     contact="scene.tables:Contact",
     friction="scene.tables:Friction",
     film="scene.tables:Film",

@@ -56,7 +56,7 @@ def test_empty_file_is_the_default_scene(tmp_path):
         ("[clearance]\ncrank_pin = 1e-4", "clearance = {'crank_pin': 0.0001}: is joints.NAME.cl"),
         ("[contact]\nradius = 0.1", "contact.radius = 0.1: is joints.NAME.radius now"),
         ("[[film]]\nviscosity = 1", "film = "),
-        ("[press]\nlinkage_length = 0.01", "press: slide and linkage lock"),
+        ("[press]\nlinkage_length = 0.01", "press: linkage and slide lock"),
         (
             "[joints.crank_pin]\nkind = 'dry'\nclearance = 1.0",
             "joints.crank_pin.clearance = 1.0: allowed is a number < ",

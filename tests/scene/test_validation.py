@@ -172,8 +172,8 @@ def test_static_friction_is_at_least_kinetic_friction():
 @pytest.mark.parametrize(
     ("key", "value", "names"),
     [
-        ("linkage_length", 0.02, "slide and linkage"),
-        ("counter_linkage_length", 0.01, "counterweight and counter_linkage"),
+        ("linkage_length", 0.02, "linkage and slide lock"),
+        ("counter_linkage_length", 0.01, "counter_linkage and counterweight lock"),
         ("link_5_length", 0.1, "press.link_5_length"),
         ("link_5_length", 0.1655, "press.link_5_length"),
         ("link_6_length", 0.01, "link_6_length"),
@@ -190,7 +190,7 @@ def test_links_that_cannot_be_assembled(key, value, names):
 
 def test_slider_crank_that_cannot_be_assembled():
     message = refusal({**CRANK, "slider_crank": {"crank_radius": 0.5}})
-    assert message.startswith("slider_crank: slider and rod lock")
+    assert message.startswith("slider_crank: rod and slider lock")
     assert " deg" in message
 
 

@@ -18,9 +18,9 @@ SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions
 HELD = """
 import pathlib, sys, time
 from exu_press.cli import main
-from exu_press.result import run
+from exu_press.result import blocks, run
 run.BLOCK = 0.35
-keep, stop = run.keep, int(sys.argv[1])
+keep, stop = blocks.keep, int(sys.argv[1])
 kept = []
 def kept_and_held(*arguments):
     keep(*arguments)
@@ -29,7 +29,7 @@ def kept_and_held(*arguments):
         pathlib.Path("held").touch()
         while pathlib.Path("held").exists():
             time.sleep(0.01)
-run.keep = kept_and_held
+blocks.keep = kept_and_held
 sys.exit(main(sys.argv[2:]))
 """
 

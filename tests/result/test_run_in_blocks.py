@@ -104,16 +104,15 @@ def test_files_go_with_the_run(short_blocks):
 KILLED = """
 import os, sys
 from exu_press import Scene, simulate
-from exu_press.result import channels, run
-from exu_press.result.channel import Channel
+from exu_press.result import blocks, run
 run.BLOCK = 0.35
-kept, count = run.keep, []
+kept, count = blocks.keep, []
 def keep(*arguments):
     kept(*arguments)
     count.append(1)
     if len(count) == 2:
         os.kill(os.getpid(), 9)
-run.keep = keep
+blocks.keep = keep
 simulate(Scene.load(sys.argv[1]), unfinished=sys.argv[2])
 """
 

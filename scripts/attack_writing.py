@@ -2,7 +2,7 @@
 
 Run with: python scripts/attack_writing.py [--kills N] [--disks N] [--seed S]
 
-A command is killed at an instant by chance, from its start to the end that it usually has, and is
+A command is killed at an instant by chance, in the last two thirds of its usual time, and is
 then given again, twice at most: its results must be those of one that nobody disturbed, and none of
 its processes may live on. A disk is a file system in memory of 16 kB to 4 MB, which the system lets
 root alone make. A command on it must end with 0, or with 3 and one message that names a file on it;
@@ -192,7 +192,7 @@ def attack_by_kills(base: Path, seeds: Sequence[int]) -> int:
         folder = base / f"{seed}"
         prepare(folder)
         process = start(folder, *COMMANDS[name])
-        time.sleep(draw.uniform(0.0, lasts[name]))
+        time.sleep(draw.uniform(0.3, 1.0) * lasts[name])  # before, it loads packages
         children = descendants(process.pid)
         process.send_signal(draw.choice((signal.SIGKILL, signal.SIGKILL, signal.SIGTERM)))
         process.communicate()

@@ -1,11 +1,9 @@
 """Constraint violation of a system, and the smallest change that removes it (projection).
 
 Exudyn provides violations of positions, and of velocities where a constraint has a rate of its own.
-But where a user function prescribes an offset and none its rate, Exudyn takes that for zero; where
-another one gives the rate, it need not be exact (in Exudyn's contactCurveExample it is 4.4 for 1.4
-pi, and each change of a step shook the system); and at flexible bodies' rigid markers velocities
-are off the rates of the positions by a millionth of a metre a second. The rates of such systems are
-differenced from positions, a little ahead and behind.
+But where a user function prescribes an offset, its rate is zero or need not be exact, and at
+flexible bodies' rigid markers velocities are off the rates of the positions by a millionth of a
+metre a second. Such rates are differenced from positions, a little ahead and behind.
 """
 
 import math
@@ -33,7 +31,7 @@ position is meant is not known."""
 def normalised(directions: Array) -> tuple[Array, Array]:
     """Return constraints' directions of length 1, a row each, and what their lengths were.
 
-    Newton's matrix has those of velocities over the step. What is switched off keeps its zeros.
+    What is switched off keeps its zeros.
     """
     lengths = np.sqrt(np.square(directions).sum(axis=1))
     lengths[lengths == 0.0] = 1.0

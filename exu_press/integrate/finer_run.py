@@ -25,11 +25,8 @@ __all__ = ["Run", "Watch", "with_error"]
 FINER = 0.25
 """Tolerance of the finer run over the run's; errors of velocities go with it."""
 
-AMPLIFIED = 10.0
-"""Tolerances above which an error is more than that of steps alone."""
-
-INSTANTS = 100
-"""At so many the motions of two runs are compared."""
+AMPLIFIED, INSTANTS = 10.0, 100
+"""Tolerances above which a motion amplifies errors, and number of instants that are compared."""
 
 Watch = Callable[[float], str]
 """Time, s -> why the motion has come to its end there, or nothing."""

@@ -30,11 +30,9 @@ Exudyn's directions of joints are those of Euler parameters of length 1, which t
 class ConsistentInitialization:
     """Moves the start onto the constraints, as near to what it was as can be.
 
-    Exudyn computes accelerations at the start, but for constraints that stand still: where an
-    offset's user function prescribes a motion, what it asks of velocities and accelerations is not
-    in them. And a drawing with five digits is off its joints by micrometres, of which a first step
-    of microseconds would make metres a second. What is missing is differenced along the motion that
-    the start has: the constraints are evaluated at a few instants ahead.
+    Exudyn computes accelerations at the start for constraints that stand still. And a drawing with
+    five digits is off its joints by micrometres, of which a first step of microseconds would make
+    metres a second. What is missing is differenced along the motion that the start has.
 
     Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, VII.1 (consistent
     values of systems of index 3).

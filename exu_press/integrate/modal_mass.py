@@ -16,8 +16,7 @@ def follow_modes(mbs: exu.MainSystem) -> None:
     """Let `solve_dynamic` follow what impacts in clearance joints leave vibrating.
 
     To be called before `mbs.Assemble()`, when all ObjectFFRFreducedOrder are there. It adds one
-    item without mass over their modes, which `solve_dynamic` gives the mass that belongs to the
-    step, with clearance joints and with fixed steps. Other solvers are not concerned.
+    item without mass over their modes, which `solve_dynamic` gives the mass of the step.
     """
     nodes = [item["nodeNumbers"][1] for item in _bodies(mbs)]
     if nodes:
@@ -37,9 +36,8 @@ class ModalMass:
         M - kappa h^2 K,
 
     with which forces at rest stay what they are. Each mode of a body has m / (1 + kappa (h
-    omega)^2), which is the same to this order, and positive in steps of any size. For a spectral
-    radius of 1 it is the method of Fox and Goodwin for the modes alone, Newmark's with beta = 1/12.
-    The energies of a run are those of M.
+    omega)^2), which is the same to this order, and positive in steps of any size. The energies of a
+    run are those of M.
 
     Source: L. Fox and E. T. Goodwin, Some new methods for the numerical integration of ordinary
     differential equations, Mathematical Proceedings of the Cambridge Philosophical Society 45

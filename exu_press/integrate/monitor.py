@@ -29,19 +29,14 @@ __all__ = ["Monitor"]
 
 SECONDS_BETWEEN_UPDATES = 0.1
 
-SOON = 4.0
-"""s, after which a run says that it will be long."""
-
-LONG = 40.0
-"""s left, from which on it does: less than a minute, as the estimate is rough."""
+SOON, LONG = 4.0, 40.0
+"""s, after which a run says that it will be long, where so many are left."""
 
 ACCEPTED = [0.0, -1.0]
 
 
 class Monitor:
-    """Hands Exudyn's calls on to the parts of an integration, and to the user's own functions.
-
-    Also counts, shows progress, and stops when asked to.
+    """Hands Exudyn's calls on to the parts of an integration; counts, and stops when asked to.
 
     Attributes:
         tries: number of steps tried.
@@ -53,8 +48,7 @@ class Monitor:
         resolution: of the impacts, in clearance joints or fixed steps.
         constraints: of the system.
         go_on: False once a function of the user's own asked to stop.
-        stalled: why the motion that was watched came to its end, or nothing.
-        refusal: what of the start allows no run by tolerance, or nothing.
+        stalled, refusal: why the motion came to its end, or the start allows no run, or nothing.
         start_changes: by how much the start was moved, m, and its speeds changed, m/s.
     """
 

@@ -7,8 +7,7 @@ from exu_press.numerics.linear import Equations
 
 __all__ = ["NewtonFilter"]
 
-EPSILON = 1.1e-16
-"""Last digit of a number, over it."""
+EPSILON = 1.1e-16  # last digit of a number, over it
 
 
 class NewtonFilter:

@@ -43,11 +43,8 @@ class RunError:
             finer run stopped early.
         since: the first of these instants with more than ten tolerances, s, or infinity.
         sensors: of each sensor with `storeInternal` (of others an empty array): of each of its
-            values the largest one in a row, (values,). Where rows are those of steps, the finer run
-            is read on the line between two of its own. Empty where the finer run stopped early.
-        peaks: likewise, of the largest magnitude of each of its values in all rows. Two runs with
-            the same peak by chance state less than it is off by, and no peak is off by more than a
-            row.
+            values the largest one in a row, (values,). Empty where the finer run stopped early.
+        peaks: likewise, of the largest magnitude of each of its values in all rows.
         reason: why the finer run stopped early, or nothing.
     """
 
@@ -63,12 +60,10 @@ class Outcome:
     """SolverStatus, reason and statistics of an integration.
 
     Attributes:
-        status: how it ended.
-        reason: when, where, why, and what to try; empty when completed.
+        status: how it ended; the reason says when, where, why, and what to try.
         end_time: the time reached, s.
         wall_time: the integration alone, s.
-        steps: accepted steps.
-        rejected_steps: steps that were repeated with half the size.
+        steps: accepted ones; rejected_steps were repeated.
         newton_iterations: of all steps.
         law_evaluations: how often the clearance joints' forces were asked for.
         error: of the run, where it was asked for and the run got to its end.

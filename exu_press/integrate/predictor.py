@@ -14,9 +14,7 @@ class Predictor:
     """Extrapolates accelerations to the end of a step, and asks for no more than rounding allows.
 
     Exudyn starts every step from accelerations of zero, which costs an iteration a step in
-    lubricated motion and several where contact lasts. Here they go on as they did in the last step,
-    and lasting contacts start from the force that held them. So do constraints.
-
+    lubricated motion and several where contact lasts. Here they go on as they did in the last step.
     A thin film answers the last digit of a speed with newtons: no iteration balances forces better.
 
     The constraints' directions that Exudyn gives Newton's method are right for Euler parameters of

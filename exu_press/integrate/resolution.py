@@ -28,12 +28,10 @@ class Unresolved:
 class ImpactResolution:
     """Follows the inertia forces of all bodies: do the steps resolve the impacts?
 
-    A step of any size gets through an impact, and the run's peaks have the height that the step
-    gives them. Resolved, a force rises over several steps. So the figure is the largest change of
-    an inertia force m |a| within one step, of any body, against the largest one of the run.
-    Measured against a tolerance of 1e-5 on dry, lubricated and mixed presses and slider-cranks of
-    many clearances, speeds and dampings, steps of 1e-3 to 1e-5 s: above 0.8 the joints' peak forces
-    were off by 9 to 90 %, between 0.65 and 0.8 by 2 to 17 %.
+    A step of any size gets through an impact, and determines its peak. Resolved, a force rises over
+    several steps: the largest change of an inertia force m |a| within one counts, over the largest.
+    Against a tolerance of 1e-5 on presses and slider-cranks, steps of 1e-3 to 1e-5 s: above 0.8 the
+    joints' peak forces were off by 9 to 90 %, between 0.65 and 0.8 by 2 to 17 %.
 
     Loads may jump themselves: a jump that changes no speed by a tenth of the tolerance is none of
     the step's; with clearance joints, whose largest forces may be those of slight impacts, by a

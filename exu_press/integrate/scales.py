@@ -35,9 +35,8 @@ class RunningScales:
     """The scales of a run so far, and the kinetic norm.
 
     The kinetic norm of a body's displacements dx and rotations dphi is sqrt(|dx|^2 + (J/m) dphi^2),
-    of a system the largest one of its bodies. A system at rest has no speed yet: what its first
-    accelerations make of it within the longest step counts instead, or on their way through the
-    widest clearance.
+    of a system the largest one of its bodies. At rest the speed counts that first accelerations
+    make within the longest step, or on their way through the widest clearance.
 
     Attributes:
         speed: m/s.

@@ -93,9 +93,8 @@ def solve_dynamic(
         update_initial_values: whether the next run starts where this one ends, as Exudyn's
             `updateInitialValues`.
         errors: whether the outcome has the run's error: its difference from a run with a quarter of
-            the tolerance, which a copy of this process does meanwhile (on Linux). With a second
-            core it takes two times as long. A warning tells of errors above ten tolerances. The
-            copy writes no files; those that user functions write themselves are written twice.
+            the tolerance, which a copy of this process does meanwhile (on Linux). A warning tells
+            of errors above ten tolerances. Files that user functions write are written twice.
         quiet: False shows the progress on standard error.
 
     Returns:

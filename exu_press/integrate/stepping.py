@@ -65,8 +65,7 @@ class StepControl:
         """Return the step from a time on, s; it ends exactly on corners and the end.
 
         Two steps of one size lead to the next corner, where one would not get there. A corner
-        that only rounding tells from the end is the end: as a stop of its own it would be neared by
-        halves, down to the smallest step.
+        that only rounding tells from the end is the end.
         """
         self._step = step = min(self._step, self._largest)
         left, corner = self._end - time, self._next_corner(time)
@@ -81,8 +80,8 @@ class StepControl:
 class FixedSteps:
     """Keeps steps of one size on their grid t = n h.
 
-    The first one may be taken in pieces that double, so that a film takes up its load; and after a
-    step that Exudyn had to halve, steps double back to the grid.
+    The first one is taken in pieces that double where a film takes up its load; and so is what is
+    left of a step that Exudyn had to halve.
 
     Attributes:
         error: none that is known.

@@ -56,10 +56,8 @@ class Node:
     """Coordinates that count together in errors, and what they weigh.
 
     Attributes:
-        number: of the node in Exudyn.
-        name: in messages.
-        start: index of the first of its coordinates among the system's.
-        size: number of its coordinates.
+        number: of the node in Exudyn; its name is for messages.
+        start: index of the first of its coordinates among the system's; size is their number.
         mass: ratio of kinetic energy to the square of a speed, kg; None is read from the mass
             matrix, infinite is excluded from the norm.
         displacements: number of its first coordinates that are displacements.
@@ -89,9 +87,7 @@ class State:
     To ask for them costs as much as what is done with them, so that they are asked for once.
 
     Attributes:
-        positions: second-order coordinates, over those of the reference.
-        velocities: their rates.
-        accelerations: the rates of these.
+        positions: second-order coordinates, over those of the reference, and their rates.
         multipliers: forces of the constraints.
         first_order: first-order coordinates.
         data: what contacts and friction of Exudyn's remember.
@@ -114,8 +110,7 @@ class System:
     Attributes:
         mbs: Exudyn's system.
         data: of the system, `mbs.systemData`.
-        current: state at the end of the step that is tried.
-        start: state at its start.
+        current: state at the end of the step that is tried; start is that at its beginning.
         reference: positions that those of a state are added to.
         nodes: of the second-order coordinates, in their order.
         joints: the system's clearance joints, if it has any.
@@ -125,8 +120,7 @@ class System:
             iterates on these after Newton's method.
         rates_not_provided: whether Exudyn does not provide the rates of some constraints: where
             user functions prescribe offsets or whole constraints, where coordinates are squared
-            (Exudyn squares their velocities), and at rigid markers of flexible bodies, where
-            velocities are off the rates of the positions by a millionth of a metre a second.
+            (Exudyn squares their velocities), and at rigid markers of flexible bodies.
         length: largest displacement coordinate at the start, m; their last digits are rounded.
     """
 

@@ -56,7 +56,7 @@ class SolverTuning:
     All are ratios, unless a unit is named.
 
     Attributes:
-        safety: error at which a step is aimed, of what it may be. The reserve saves repeated steps.
+        safety: error at which a step is aimed, of what it may be: fewer steps are repeated.
         factor_max: by what a step is lengthened at most. Steps that grow by half swing about what
             their errors ask for, and are a third more with a film.
         factor_min: by what a repeated step is shortened at most.
@@ -67,8 +67,6 @@ class SolverTuning:
             acceleration: 0.083 to 0.077 for spectral radii at infinity of 1 to 0.8, doubled.
         rounding: of positions and speeds, over the largest one, in each step: times 1 / (1 -
             spectral radius)^2, over the step's square, it is what alternates in accelerations.
-            Measured at radii of 0.8 and 0.9 and steps of 2 and 10 us on a governor of rods and
-            springs.
         least_share: error of a step with clearance joints, at least, over the tolerance: below 1e-4
             impacts become no more.
         beside_joints: allowed error of a body's velocity in a step of a system with clearance
@@ -78,13 +76,12 @@ class SolverTuning:
             damped contact hands the error on a thousandfold.
         least_penetration: over the clearance, up to which a penetration counts as this.
         vibrating: of the tolerance, what a body's velocity may be off by in a step where impacts
-            leave flexible bodies vibrating at their own frequencies, which the estimate takes for
-            an error.
+            leave flexible bodies vibrating, which the estimate takes for an error.
         vibrating_penetration: instead of `penetration` there.
         modal_mass: change of the modes' mass, over that which keeps their frequencies
             (`exu_press.integrate.modal_mass`).
-        kept_steps: within so many of the usual longest steps, 45 degrees of the crank, errors that
-            a film keeps may add up to the tolerance.
+        kept_steps: number of the usual longest steps, 45 degrees of the crank, within which errors
+            that a film keeps may add up to the tolerance.
         taken_back: part of its last change that a film's force takes back if it oscillates with
             the method; the steps of a passage to the film's other side go one way.
         refit: a step shorter than this, over the one that constrained velocities fit, makes them
@@ -149,14 +146,10 @@ class Task:
         tuning: numbers.
         tolerance: of the run; with fixed steps, of Newton's method.
         fixed: whether steps are of one size.
-        start: of the run, s.
-        end: of the run, s.
-        largest: step, s.
-        usual: size of the longest steps of such a motion, s.
-        smallest: step, s.
+        start, end: of the run, s.
+        smallest, first, largest: step, s; usual is the size of the longest ones of such a motion.
         no_shorter: up to which a step cannot be shorter, s: it is the difference of two times,
             whose last digits are rounded.
-        first: step, s.
         spectral_radius: at infinity, of generalized-alpha.
         switching_iterations: that contacts and friction of Exudyn's are given in a step.
     """

@@ -1,7 +1,6 @@
 """How a run ended, in words: when, where, why, and what to try.
 
-The words of `Advice` are those for any Exudyn system. A scene's own (`exu_press.solving`) name its
-keys.
+The words of `Advice` are for any system; a scene's own (`exu_press.solving`) name its keys.
 """
 
 import math

@@ -16,9 +16,8 @@ NAMES = "PreStep", "PreNewtonResidual", "PostNewton", "PostStep"
 class UserFunctions:
     """Functions of the user's own that Exudyn calls before, in and after every step.
 
-    A pre-step function is called before every try of a step, with the step's end, as in fixed
-    steps. With a period it is called once for each of its intervals, with the interval's end, on
-    which steps end; what it sets is held.
+    A pre-step function is called before every try of a step, with the step's end; with a period
+    once for each of its intervals, with the interval's end, on which steps end.
 
     Attributes:
         before_step: pre-step function, or 0.

@@ -35,13 +35,11 @@ class VariableStepCorrection:
     the time, and to fit velocities costs as much as a step: it is done once steps have shrunk to a
     third. A longer step is left alone there: scaling up would blow up what an impact left ringing.
 
-    Exudyn's algorithmic acceleration can be read but not written, and when a step is repeated it
-    keeps the value of the failed try. But positions, velocities and accelerations at the step's
-    beginning can be shifted so that the step comes out as if it had been changed.
-
-    At rest a film carries nothing, and within a microsecond it takes up its load: the accelerations
-    with which Exudyn starts are wrong then, and ring. What the first step changes the velocities by
-    is right; so the step is repeated from that.
+    Exudyn's algorithmic acceleration can be read but not written, and keeps the value of a failed
+    try. But positions, velocities and accelerations at the step's beginning can be shifted so that
+    the step comes out as if it had been changed. At rest a film carries nothing, and takes up its
+    load within a microsecond: Exudyn's accelerations are wrong then. What the first step changes
+    the velocities by is right; so the step is repeated from that.
 
     Source: M. Arnold and O. Bruels, Convergence of the generalized-alpha scheme for constrained
     mechanical systems, Multibody System Dynamics 18 (2007), Eqs. 2 and 3, and its remarks on the

@@ -17,11 +17,8 @@ class FilmForceError:
         (|F_0| |F_1| - F_0 . F_1) / (4 sqrt(|F_0| |F_1|))    over tol max |F|
 
     A film whose load is reversed passes it to its other side within microseconds. Its force turns
-    by half a turn then, and need not go through zero; no eccentricity and no speed feels it, so
-    that no other criterion sees this peak.
-
-    A force that comes back after a step does not pass to another side: stiff films ring with the
-    method, by a change of opposite sign in every step, however short the steps are.
+    by half a turn then, and no other criterion sees this peak. A force that comes back after a step
+    does not pass to another side: stiff films ring with the method, however short the steps are.
 
     Attributes:
         joint: whose force it is.

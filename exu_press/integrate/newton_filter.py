@@ -7,8 +7,6 @@ from exu_press.numerics.linear import Equations
 
 __all__ = ["NewtonFilter"]
 
-EPSILON = 1.1e-16  # last digit of a number, over it
-
 
 class NewtonFilter:
     """The last Jacobian of a task's solver: M (1 - alpha_m)/(1 - alpha_f) + ..., with constraints.
@@ -21,6 +19,7 @@ class NewtonFilter:
     def __init__(self, task: Task) -> None:
         """Take a task."""
         self._solver, self._scales = task.solver, task.scales
+        self._rounding = task.tuning.rounding
         self._size = len(task.system.current.accelerations)
         self._number = -1  # of the Jacobian at hand
         self._jacobian, self._equations = np.zeros((0, 0)), Equations(np.zeros((0, 0)))
@@ -35,9 +34,11 @@ class NewtonFilter:
             self._equations = Equations(self._jacobian)
 
     def roundoff_of_constraints(self) -> float:
-        """Return how far the last digits of constraints move a body, m.
+        """Return how far rounded positions in constraints move a body, m.
 
-        By far where a mechanism passes a position in which two of them are nearly redundant.
+        By far where a mechanism passes a position in which two of them are nearly redundant. As
+        parallel cranks pass their change points, the last digit alone, 1.1e-16, was too little:
+        steps took the rest for errors, and the shorter they became, the larger that was.
         """
         self.refresh()
         if self._roundoff < 0.0:
@@ -48,7 +49,9 @@ class NewtonFilter:
             except np.linalg.LinAlgError:  # redundant constraints
                 self._roundoff = 0.0
             else:
-                self._roundoff = EPSILON * self._scales.length * self._scales.norm(moved.tolist())
+                self._roundoff = (
+                    self._rounding * self._scales.length * self._scales.norm(moved.tolist())
+                )
         return self._roundoff
 
     def filtered(self, change: list[float]) -> list[float]:

@@ -1,7 +1,5 @@
 """The error of figures that change from revolution to revolution, as oil warms."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from exu_press.result import Result
@@ -22,7 +20,9 @@ def earlier(run: Result) -> Result:
         return run
     last = float(np.interp(angle[-1] - 2.0 * np.pi, angle, run.time))
     sooner = {"revolutions": scene.revolutions - 1.0, "settle": scene.settled - 1.0}
-    return replace(until(run, last), scene=scene.replace(sooner))
+    before = until(run, last)
+    object.__setattr__(before, "scene", scene.replace(sooner))  # a copy that nobody else has
+    return before
 
 
 def warmed_on(run: Result) -> Result:

@@ -4,6 +4,7 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.quantities.kind import COUNT, ENERGY, LOAD, MEASURE, MOTION, SHARE
+from exu_press.quantities.law_errors import of_eccentricity, of_film
 from exu_press.quantities.quantity import Extreme, Place, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import JointRecord
@@ -104,7 +105,7 @@ JOINTS = (
                  float(_record(run, joint).distance.max() / _record(run, joint).clearance),
              Place.JOINT, _loose,
              title="eccentricity ratio, max", extreme=Extreme.LARGEST, headline=True,
-             curve="ratio"),
+             of_laws=of_eccentricity, curve="ratio"),
     Quantity("peak_force", "N", "largest force between journal and bearing",
              LOAD, _peak_force, Place.JOINT,
              title="joint force, max", shown="kN", extreme=Extreme.LARGEST, headline=True,
@@ -117,7 +118,8 @@ JOINTS = (
     Quantity("min_film", "m", "least film thickness, 0 where surfaces touch",
              MOTION, lambda run, joint: float(max(0.0, _record(run, joint).gap.min())),
              Place.JOINT, _has_film,
-             title="film thickness, min", shown="um", extreme=Extreme.LEAST, curve="gap"),
+             title="film thickness, min", shown="um", extreme=Extreme.LEAST,
+             of_laws=of_film, curve="gap"),
     IMPACTS,
     Quantity("share_free_flight", "", "share of time in which the surfaces do not touch",
              SHARE, lambda run, joint: 1.0 - share_of_contact(run.time, _depth(run, joint)),
@@ -128,8 +130,8 @@ JOINTS = (
              title="share in contact"),
     Quantity("dissipated", "J", "energy that contact, friction and film have dissipated",
              ENERGY, lambda run, joint: float(run[f"{joint}_loss"][-1]), Place.JOINT, _loose,
-             cumulative=True),
+             cumulative=True, of_laws=of_film),
     Quantity("mean_power", "W", "mean power that the joint dissipates, over whole revolutions",
              LOAD, lambda run, joint: run.rate(run[f"{joint}_loss"]), Place.JOINT, _loose,
-             signed=True),
+             signed=True, of_laws=of_film),
 )  # fmt: skip

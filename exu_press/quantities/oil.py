@@ -5,6 +5,12 @@ from collections.abc import Iterator
 from exu_press.laws.film.oil import STEADY
 from exu_press.numerics.arrays import lengths
 from exu_press.quantities.kind import LOAD, MEASURE
+from exu_press.quantities.law_errors import (
+    of_film,
+    of_side_flow,
+    of_temperature,
+    of_viscosity,
+)
 from exu_press.quantities.quantity import Place, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import Result
@@ -102,17 +108,18 @@ def film_change(run: Reading, joint: str) -> float | None:
 OIL = (
     Quantity("film.temperature", "deg C", "temperature of the film in the last revolution",
              LOAD, lambda run, joint: float(run[f"{joint}_temperature"][-1]), Place.JOINT, _warm,
-             title="film temperature"),
+             title="film temperature", of_laws=of_temperature),
     Quantity("film.viscosity", "Pa s", "viscosity of the oil in the film in the last revolution",
              LOAD, lambda run, joint: float(run[f"{joint}_viscosity"][-1]), Place.JOINT, _warm,
-             title="viscosity there", shown="mPa s", under=True),
+             title="viscosity there", shown="mPa s", under=True, of_laws=of_viscosity),
     Quantity("film.side_flow", "m^3/s",
              "oil that leaves the bearing's ends, mean over whole revolutions",
-             LOAD, lambda run, joint: run.mean(run[f"{joint}_side_flow"]), Place.JOINT, _warm),
+             LOAD, lambda run, joint: run.mean(run[f"{joint}_side_flow"]), Place.JOINT, _warm,
+             of_laws=of_side_flow),
     Quantity("film.carried_off", "W",
              "heat that side flow and frame take off, mean over whole revolutions",
              LOAD, lambda run, joint: run.rate(run[f"{joint}_carried_off"]), Place.JOINT, _warm,
-             signed=True),
+             signed=True, of_laws=of_film),
     Quantity("film.residual", "",
              "share of the dissipated heat that is not carried off, over whole revolutions",
              MEASURE, film_balance, Place.JOINT, _warm,

@@ -18,6 +18,7 @@ from exu_press.quantities.kind import (
     MOTION,
     RESULTANT,
 )
+from exu_press.quantities.law_errors import of_pads
 from exu_press.quantities.quantity import Extreme, Place, Quantity, always
 from exu_press.quantities.reading import Reading
 from exu_press.result.channel import guide_channel
@@ -220,7 +221,8 @@ GUIDES = (
     Quantity("min_film", "m",
              "least film thickness of the guide, 0 where surfaces lie in each other",
              MOTION, _thinnest, Place.GUIDE, _has_oiled_guides,
-             title="guide film thickness, min", shown="um", extreme=Extreme.LEAST, curve="gap"),
+             title="guide film thickness, min", shown="um", extreme=Extreme.LEAST,
+             of_laws=of_pads, curve="gap"),
     Quantity("peak_moment", "N m", "largest moment of the guide on its body",
              MOMENT, _guide_peak("moment"), Place.GUIDE,
              extreme=Extreme.LARGEST, curve="moment"),

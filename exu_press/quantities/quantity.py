@@ -39,6 +39,11 @@ SMALL = 1e-3
 """In the unit that is usually shown: a line whose values are all below it has another one."""
 
 
+def exact_laws(scene: Scene, owner: str, value: float) -> float:
+    """Return 0.0: no law that decides the value is a table."""
+    return 0.0
+
+
 def always(scene: Scene, place: str) -> bool:
     """Say that every scene with such a place has the quantity."""
     return True
@@ -66,6 +71,7 @@ class Quantity:
         at_most: name of the quantity at the same place that is never below it, or "".
         headline: whether it is among those that everybody looks at first.
         cumulative: whether it adds up over a run.
+        of_laws: a scene, the place and the value -> what errors of tabulated laws make of it.
         curve: whose extreme it is: a channel, CHANNEL:x of one of its columns, or, at a place, what
             the place's channel ends in; "ratio" and "gap" follow from a joint's eccentricity.
     """
@@ -86,6 +92,7 @@ class Quantity:
     at_most: str = ""
     headline: bool = False
     cumulative: bool = False
+    of_laws: Callable[[Scene, str, float], float] = exact_laws
     curve: str = ""
 
     def __post_init__(self) -> None:

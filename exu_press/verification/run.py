@@ -178,6 +178,7 @@ def errors_of(
         least = _least(
             quantity, [found[name] for found in by_end[end].values() if name in found], sizes, arm
         )
+        left_open += quantity.of_laws(result.scene, told[name].at, value)
         told_values = by_end[end], [before, *late] if name in swings else [before], after
         error = _error(name, quantity.extreme, *told_values, least + left_open, diverged)
         if value >= 0.0 and not quantity.signed:

@@ -56,7 +56,8 @@ def default_criteria(task: Task) -> list[Criterion]:
     system, tuning, tolerance = task.system, task.tuning, task.tolerance
     newton_filter, share = NewtonFilter(task), math.pow(tolerance, 1.5)
     if system.joints is None:
-        return [VelocityError(task, newton_filter, share), PrescribedVelocityError(task)]
+        bodies = VelocityError(task, newton_filter, tuning.beside_joints * share)
+        return [bodies, PrescribedVelocityError(task)]
     from exu_press.integrate.criteria.film_force import FilmForceError
 
     share = max(share, tuning.least_share * tolerance)

@@ -69,8 +69,8 @@ class SolverTuning:
             spectral radius)^2, over the step's square, it is what alternates in accelerations.
         least_share: error of a step with clearance joints, at least, over the tolerance: below 1e-4
             impacts become no more.
-        beside_joints: allowed error of a body's velocity in a step of a system with clearance
-            joints, over what an eccentricity may.
+        beside_joints: allowed error of a body's velocity in a step, over the share of a step, which
+            an eccentricity may have. Springs of guides need it without clearance joints, too.
         penetration: allowed error of a penetration, over itself, as a part of what an
             eccentricity in free flight may be off by over the clearance. The impact that ends a
             damped contact hands the error on a thousandfold.

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from patched import PATCHED
 
-from exu_press.integrate.newton_filter import EPSILON, NewtonFilter
+from exu_press.integrate.newton_filter import NewtonFilter
 
 pytestmark = PATCHED
+
+ROUNDING = 4e-15
 
 
 def filter_of(constraints):
@@ -25,7 +27,9 @@ def filter_of(constraints):
     )
     scales = SimpleNamespace(length=3.0, norm=max)
     system = SimpleNamespace(current=SimpleNamespace(accelerations=np.zeros(2)))
-    return NewtonFilter(SimpleNamespace(solver=solver, scales=scales, system=system))
+    tuning = SimpleNamespace(rounding=ROUNDING)
+    task = SimpleNamespace(solver=solver, scales=scales, system=system, tuning=tuning)
+    return NewtonFilter(task)
 
 
 @pytest.mark.parametrize("count", [1, 2])
@@ -39,7 +43,7 @@ def test_a_redundant_constraint_filters_like_one(count):
 @pytest.mark.parametrize(("angle", "moved"), [(0.5 * np.pi, 1.0), (1e-3, 2e3)])
 def test_nearly_redundant_constraints_move_bodies_far_by_their_last_digits(angle, moved):
     newton_filter = filter_of(np.array([[1.0, 0.0], [np.cos(angle), np.sin(angle)]]))
-    expected = EPSILON * 3.0 * moved
+    expected = ROUNDING * 3.0 * moved
     assert newton_filter.roundoff_of_constraints() == pytest.approx(expected, rel=1e-3)
 
 

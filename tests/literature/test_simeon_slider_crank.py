@@ -130,7 +130,7 @@ def run(scene, rod, start=None):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("exu_press.model.placed_part.placed_parts", lambda *_, **__: {"rod": rod})
         if start is not None:
-            patch.setattr("exu_press.model.assemble.deformed_start", lambda *_: start)
+            patch.setattr("exu_press.model.start.deformed_start", lambda *_: start)
         return simulate(scene)
 
 

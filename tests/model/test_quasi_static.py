@@ -45,7 +45,7 @@ def test_the_first_30_degrees_are_those_of_the_second_revolution(result, channel
 
 
 def test_undeformed_bodies_would_ring(monkeypatch):
-    monkeypatch.setattr("exu_press.model.assemble.deformed_start", lambda *_: ({}, {}))
+    monkeypatch.setattr("exu_press.model.start.deformed_start", lambda *_: ({}, {}))
     scene = Scene(**IDEAL, revolutions=0.02, bodies=flexible_press(modes=4))
     rung = np.linalg.norm(simulate(scene)["crank_pin_force"], axis=1)
     monkeypatch.undo()

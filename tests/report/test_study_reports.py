@@ -21,7 +21,9 @@ TRIALS = """speed_rpm,drive.peak_torque,peak_velocity,front
 @pytest.fixture
 def optimum(tmp_path):
     front = [{"keys": {"speed_rpm": rpm}, "quantities": {}} for rpm in (100.0, 200.0)]
-    (tmp_path / "optimise.json").write_text(json.dumps({"front": front, "chosen": 1}))
+    (tmp_path / "optimise.json").write_text(
+        json.dumps({"front": front, "chosen": 1, "at_ends": []})
+    )
     (tmp_path / "trials.csv").write_text(TRIALS)
     SCENE.save(tmp_path / "chosen.toml")
     return tmp_path

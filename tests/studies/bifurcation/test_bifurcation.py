@@ -83,7 +83,7 @@ def test_whole_numbers_stay_whole():
 
 
 def test_a_run_from_the_start_is_the_attractor():
-    scene = FILM.replace({"solver.tolerance": 1e-2})
+    scene = FILM.replace({"solver.tolerance": 1e-3})
     row = run_point({"scene": scene.to_dict(), "start": None, **SHORT})
     assert len(row["points"]) == 20
     assert (row["period"], row["motion"]) == (1, "regular")

@@ -10,6 +10,7 @@ from exu_press.result import Result
 from exu_press.result.run import run_once
 from exu_press.scene import Scene
 from fe_models.processes import Child, ChildError, may_copy
+from fe_models.temporary import remove_abandoned
 
 __all__ = ["RefinementRuns", "plan", "refine"]
 
@@ -118,6 +119,7 @@ class RefinementRuns(AbstractContextManager["RefinementRuns", None]):
             child.kill()
         for child, _ in self._children:
             child.end()
+        remove_abandoned()  # of children that were killed as they wrote
 
     def __exit__(self, *_: object) -> None:
         self.end()

@@ -7,6 +7,9 @@ from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["FilmForceError"]
 
+SHORTEST = 10.0
+"""Over the smallest step: in shorter ones rounding turns the forces of films."""
+
 
 class FilmForceError:
     """Deviation of a film's force F from the line between a step's ends, over its limit.
@@ -27,7 +30,7 @@ class FilmForceError:
     def __init__(self, task: Task, joint: ClearanceJoint) -> None:
         """Follow the force of a lubricated joint."""
         self.joint, self._tolerance = joint, task.tolerance
-        self._no_shorter, self._taken_back = task.no_shorter, task.tuning.taken_back
+        self._shortest, self._taken_back = SHORTEST * task.smallest, task.tuning.taken_back
         self._before: tuple[float, ...] = ()
         self._now: tuple[float, ...] = ()
         self._change: tuple[float, ...] = ()  # in the step before
@@ -40,7 +43,7 @@ class FilmForceError:
     def error(self, step: float) -> float:
         """Return the error of a step (s) that ends where the joint was last asked for its force."""
         self._now = now = self.joint.force
-        if not self._before or step <= self._no_shorter:
+        if not self._before or step < self._shortest:
             return 0.0
         here = there = along = 0.0
         for a, b in zip(self._before, now, strict=True):

@@ -12,7 +12,7 @@ from exu_press.integrate.task import SolverTuning
 
 TOLERANCE = 1e-3
 SMALLEST = 1e-8
-TASK = SimpleNamespace(tolerance=TOLERANCE, no_shorter=SMALLEST, tuning=SolverTuning())
+TASK = SimpleNamespace(tolerance=TOLERANCE, smallest=SMALLEST, tuning=SolverTuning())
 
 
 def error_of(before, after, step=1e-4):
@@ -56,7 +56,7 @@ def test_a_force_is_held_against_the_largest_so_far():
 
 def test_steps_that_rounding_turns_forces_in_are_taken():
     assert error_of((500.0, 0.0), (-500.0, 0.0)) > 1.0
-    assert error_of((500.0, 0.0), (-500.0, 0.0), step=0.5 * SMALLEST) == 0.0
+    assert error_of((500.0, 0.0), (-500.0, 0.0), step=5.0 * SMALLEST) == 0.0
 
 
 def test_a_force_that_rings_from_step_to_step_is_taken():

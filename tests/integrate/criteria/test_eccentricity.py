@@ -4,10 +4,13 @@ import math
 from types import SimpleNamespace
 
 import pytest
+from patched import PATCHED
 
 from exu_press.integrate.criteria.eccentricity import EccentricityError
 from exu_press.integrate.task import SolverTuning
 from exu_press.joints.path import Path
+
+pytestmark = PATCHED
 
 CLEARANCE, ALLOWED = 1e-4, 1e-5
 TUNING = SolverTuning(kept_steps=1.0)

@@ -10,6 +10,8 @@ from exu_press import Scene, simulate
 from exu_press.integrate.criteria.film_force import FilmForceError
 from exu_press.integrate.task import SolverTuning
 
+pytestmark = PATCHED
+
 TOLERANCE = 1e-3
 SMALLEST = 1e-8
 TASK = SimpleNamespace(tolerance=TOLERANCE, smallest=SMALLEST, tuning=SolverTuning())
@@ -77,7 +79,6 @@ def test_stiff_films_take_no_more_steps():
     assert run.info["steps"] < 600  # without looking at turning forces: 266
 
 
-@PATCHED
 @pytest.mark.parametrize(("joint", "most"), [("crank_pin", 1.0), ("wrist_pin", 2.0)])
 def test_a_film_that_turns_with_its_load_takes_no_more_steps(joint, most, monkeypatch):
     """A wrist pin's load is reversed twice a revolution; these passages are resolved."""

@@ -1,0 +1,86 @@
+"""Refuse names that do not say what they hold: python scripts/check_names.py [FOLDER ...]
+
+CONTRIBUTING.md has the rules. Idle words (`found`, `part`) are refused as names of anything, bare
+participles and prepositions (`filtered`, `_over`) as names of functions and classes.
+"""
+
+import ast
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+IDLE = (
+    "found told given wanted got each one other others said shown kept left way place part things"
+    " thing before"
+)
+BARE = (
+    "shaken beyond between apart never over at put on off under within without beside after behind"
+    " along across into onto from of by to with as like held met gone begun drawn known seen taken"
+    " thrown worn made sent set cut let heard felt built bent spent lost won"
+)
+NOUNS = {"speed", "seed", "feed", "need", "bed", "shed"}
+ALLOWED = {"fe_models": {"part", "Part"}}  # by folder; a part is the body that is meshed
+NOT_YET: tuple[str, ...] = (  # names there still have to be mended
+    "exu_press/cli/",
+    "exu_press/errors.py",
+    "exu_press/exudyn_systems/",
+    "exu_press/files/",
+    "exu_press/installation/",
+    "exu_press/integrate/",
+    "exu_press/joints/",
+    "exu_press/laws/",
+    "exu_press/mechanism/",
+    "exu_press/model/",
+    "exu_press/numerics/",
+    "exu_press/page/",
+    "exu_press/parallel/",
+    "exu_press/plots/",
+    "exu_press/quantities/",
+    "exu_press/report/",
+    "exu_press/result/",
+    "exu_press/scene/",
+    "exu_press/schema/",
+    "exu_press/signals/",
+    "exu_press/solving/",
+    "exu_press/studies/",
+    "exu_press/terminal/",
+    "exu_press/verification/",
+    "exu_press/view/",
+    "fe_models/",
+)
+
+
+def names(tree: ast.AST) -> Iterator[tuple[int, str, bool]]:
+    """Return line and name of all that is bound, and whether it is a function or a class."""
+    compared = set()  # the second argument of a comparison is `other`
+    for node in ast.walk(tree):
+        match node:
+            case ast.FunctionDef(name=name) if name.startswith(("__", "compare")):
+                compared |= {id(argument) for argument in node.args.args}
+            case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
+                yield node.lineno, name, True
+            case ast.Name(id=name, ctx=ast.Store()) | ast.Attribute(attr=name, ctx=ast.Store()):
+                yield node.lineno, name, False
+            case ast.arg(arg=name) if name != "other" or id(node) not in compared:
+                yield node.lineno, name, False
+
+
+def refused_names(folder: str) -> Iterator[str]:
+    """Return a line of text for each name of a folder that is refused."""
+    for path in sorted((ROOT / folder).rglob("*.py")):
+        file = path.relative_to(ROOT).as_posix()
+        if file.startswith(NOT_YET):
+            continue
+        for line, name, is_definition in names(ast.parse(path.read_text(encoding="utf-8"))):
+            word = name.strip("_").lower()
+            is_participle = name.strip("_")[1:].islower() and word.endswith("ed")
+            is_bare = word in BARE.split() or (is_participle and word not in NOUNS)
+            is_refused = word in IDLE.split() or (is_definition and is_bare and "_" not in word)
+            if is_refused and name not in ALLOWED.get(folder, ()):
+                yield f"{file}:{line}: `{name}` does not say what it is (CONTRIBUTING.md, Names)"
+
+
+if __name__ == "__main__":
+    folders = sys.argv[1:] or ("exu_press", "fe_models")
+    sys.exit("\n".join(line for folder in folders for line in refused_names(folder)) or None)

@@ -1,16 +1,31 @@
 """The documentation as a site: sphinx-build -W docs out/docs."""
 
 import sys
+import tomllib
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from sphinx_parts.scripts import NUMBERS, SavedPictures, gallery_sources
+from sphinx_parts.scripts import NUMBERS, ROOT, SavedPictures, gallery_sources
+
+metadata = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+release_table = metadata["tool"]["exu_press"]["release"]
 
 project = "exu_press"
-author = "the authors of exu_press"
+author = ", ".join(writer["name"] for writer in metadata["project"]["authors"])
 project_copyright = author
+html_baseurl = release_table["documentation"]
+exclude_patterns = ["joss"]
 html_theme = "furo"
+html_theme_options = (
+    {
+        "source_repository": release_table["repository"],
+        "source_branch": "main",
+        "source_directory": "docs/",
+    }
+    if release_table["repository"]
+    else {}
+)
 html_title = "exu_press"
 html_show_sphinx = False
 html_static_path = ["sphinx_parts/site.css"]

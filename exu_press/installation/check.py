@@ -3,9 +3,10 @@
 import importlib.metadata
 import os
 import platform
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
+
+from packaging.requirements import Requirement
 
 from exu_press.installation.versions import version_of
 
@@ -148,12 +149,16 @@ def _lubricated() -> Run:
 
 
 def _requirements() -> dict[str, list[str]]:
-    """Return the names of the packages needed, by extra; "" has those that are always needed."""
-    found: dict[str, list[str]] = {"": []}
-    for line in importlib.metadata.requires(PACKAGE) or []:
-        requirement, _, marker = line.partition(";")
-        name = re.split(r"[^A-Za-z0-9._-]", requirement, maxsplit=1)[0]
-        extra = re.search(r"""extra\s*==\s*["']([^"']+)["']""", marker)
-        if name != PACKAGE:
-            found.setdefault(extra[1] if extra else "", []).append(name)
-    return found
+    """Return the names of the packages that this system needs, by extra; "" is always needed."""
+    metadata = importlib.metadata.metadata(PACKAGE)
+    required = [Requirement(line) for line in metadata.get_all("Requires-Dist", [])]
+    names: dict[str, list[str]] = {}
+    for extra in ("", *metadata.get_all("Provides-Extra", [])):
+        always = set(names.get("", []))
+        names[extra] = [
+            requirement.name
+            for requirement in required
+            if requirement.name not in {PACKAGE, *always}
+            and (requirement.marker is None or requirement.marker.evaluate({"extra": extra}))
+        ]
+    return names

@@ -130,8 +130,8 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
     """
     if find_spec("ngsolve") is None:
         raise InputError(
-            f"bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not installed; install "
-            "exu-press[flexible] (there are no wheels for Linux on ARM)"
+            f"bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not installed; where "
+            "pip has no wheels of it (Linux on ARM), build it from its sources"
         )
     mechanism = mechanism_of(scene)
     placed = {}

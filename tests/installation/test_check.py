@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from independent.reduced_slider_crank import ReducedSliderCrank
+from packaging.markers import default_environment
 
 from exu_press import Scene
 from exu_press.cli import main
@@ -14,7 +15,7 @@ from exu_press.installation import check
 def test_a_sound_installation(capsys):
     assert main(["doctor"]) == 0
     text = capsys.readouterr().out
-    for name in ("Python", "exudyn", "numpy", "flexible", "benchmark", "joints:"):
+    for name in ("Python", "exudyn", "numpy", "fatigue", "benchmark", "joints:"):
         assert name in text
     assert text.count("ok: ") == 2
     assert text.rstrip().endswith("this installation works")
@@ -61,4 +62,17 @@ def test_a_missing_package_is_status_1(monkeypatch, capsys):
 def test_requirements_are_those_declared():
     assert {"exu-press", "exudyn", "numpy", "scipy", "matplotlib"} <= set(check.versions())
     assert "pytest" in check.extras()["test"]
-    assert check.extras()["flexible"].keys() == {"ngsolve"}
+    assert check.extras()["fatigue"].keys() == {"rainflow"}
+
+
+def test_ngsolve_is_needed_where_it_has_wheels(monkeypatch):
+    systems = {
+        ("linux", "x86_64"): True,
+        ("linux", "aarch64"): False,
+        ("darwin", "arm64"): True,
+        ("win32", "AMD64"): True,
+    }
+    for (system, processor), has_wheels in systems.items():
+        here = {**default_environment(), "sys_platform": system, "platform_machine": processor}
+        monkeypatch.setattr("packaging.markers.default_environment", lambda here=here: here)
+        assert ("ngsolve" in check.versions()) == has_wheels, system

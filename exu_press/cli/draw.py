@@ -23,16 +23,16 @@ from exu_press.mechanism import (
     Mechanism,
     Press,
     SliderCrank,
-    mechanism_changed,
-    mechanism_from,
+    change_mechanism,
+    mechanism_from_dict,
     mechanism_to_dict,
     press,
     shipped_mechanism,
     slider_crank,
 )
-from exu_press.mechanism.doubtful import doubtful_drawing
+from exu_press.mechanism.drawing_warnings import drawing_warnings
 from exu_press.mechanism.examine import Examination, examine
-from exu_press.mechanism.transmission import alike
+from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.scene.file import parse_assignment
 from exu_press.schema.checks import demand_known, table_from
 from exu_press.schema.toml import read_toml
@@ -99,10 +99,10 @@ def execute(options: argparse.Namespace) -> int:
         if not options.quiet:
             print(f"written: {target}")
     stroke = math.inf if examined.stroke is None else examined.stroke.length
-    show_warnings(doubtful_drawing(mechanism, stroke))
-    for complaint in examined.complaints:
-        print(f"exu-press: {complaint}", file=sys.stderr)
-    return 2 if examined.complaints else 0
+    show_warnings(drawing_warnings(mechanism, stroke))
+    for fault in examined.faults:
+        print(f"exu-press: {fault}", file=sys.stderr)
+    return 2 if examined.faults else 0
 
 
 def _names() -> list[str]:
@@ -125,9 +125,9 @@ def _asked(given: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | N
         path = SHIPPED / f"{given}.toml"
     data = read_toml(path)
     if "bodies" in data and "joints" in data and "crank" in data:
-        data = mechanism_changed(data, changes)
+        data = change_mechanism(data, changes)
         with prefixed(f"{path}: "):
-            return mechanism_from(data), None
+            return mechanism_from_dict(data), None
     return _of_scene(data, path, changes)
 
 
@@ -148,12 +148,12 @@ def _of_scene(
     with prefixed(f"{path}: " if path.name else ""):
         speed = _speed(scene)
         if isinstance(mechanism, Mapping):
-            return mechanism_from(mechanism_changed(mechanism, further)), speed
+            return mechanism_from_dict(change_mechanism(mechanism, further)), speed
         if isinstance(mechanism, str) and mechanism.lower().endswith(".toml"):
             file = path.parent / mechanism
-            drawing = mechanism_changed(read_toml(file), further)
+            drawing = change_mechanism(read_toml(file), further)
             with prefixed(f"{file}: "):
-                return mechanism_from(drawing), speed
+                return mechanism_from_dict(drawing), speed
         return _named(mechanism, scene, further), speed
 
 
@@ -165,12 +165,14 @@ def _named(name: Any, scene: Mapping[str, Any], changes: Mapping[str, Any]) -> M
                 allowed = ", ".join([*DRAWN, f"{name}.KEY"])
                 raise InputError(f"{change} = {value!r}: is not drawn; allowed are {allowed}")
         table, build = BY_DIMENSIONS[name]
-        sizes = mechanism_changed({name: scene.get(name, {})}, changes)[name]
+        sizes = change_mechanism({name: scene.get(name, {})}, changes)[name]
         drawn: Mechanism = build(table_from(table, name, sizes))
         return drawn
     known = "the path of a mechanism file, .toml", *BY_DIMENSIONS, *MECHANISMS
     demand_known(f"mechanism = {name!r}: unknown", name, known)
-    return mechanism_from(mechanism_changed(mechanism_to_dict(shipped_mechanism(name)), changes))
+    return mechanism_from_dict(
+        change_mechanism(mechanism_to_dict(shipped_mechanism(name)), changes)
+    )
 
 
 def _speed(data: Mapping[str, Any]) -> float | None:
@@ -197,8 +199,8 @@ def _parts(mechanism: Mechanism) -> list[str]:
 def _summary(examined: Examination) -> list[tuple[str, str]]:
     mobility = examined.mobility
     counted = (
-        f"{mobility.degrees} (3 x {mobility.bodies} bodies - 2 x {mobility.joints} joints "
-        f"- 2 x {mobility.guides} guides = {mobility.counted}"
+        f"{mobility.degrees_of_freedom} (3 x {mobility.bodies} bodies - 2 x {mobility.joints} "
+        f"joints - 2 x {mobility.guides} guides = {mobility.gruebler_count}"
     )
     spare = f"; redundant constraints: {mobility.redundant}" if mobility.redundant else ""
     rows = [("mobility", f"{counted}{spare})")]
@@ -215,7 +217,7 @@ def _summary(examined: Examination) -> list[tuple[str, str]]:
     if most > 0.0:
         rows.append(("velocity, max", f"{1e3 * most:.3f} mm/rad at {fastest} deg"))
         rows.append(("mechanical advantage, min", f"{1 / most:.3f} N per N m at {fastest} deg"))
-    for name, values in alike(examined.transmission):
+    for name, values in group_equal_angles(examined.transmission):
         degrees = np.degrees(values)
         low = f"{degrees.min():.2f} deg at {degrees.argmin()} deg"
         rows.append(("transmission angle, min", f"{name}: {low}"))

@@ -2,9 +2,9 @@
 
 from exu_press.mechanism.file import (
     SHIPPED,
+    change_mechanism,
     load_mechanism,
-    mechanism_changed,
-    mechanism_from,
+    mechanism_from_dict,
     mechanism_lines,
     mechanism_to_dict,
     shipped_mechanism,
@@ -30,9 +30,9 @@ __all__ = [
     "Press",
     "SliderCrank",
     "Spring",
+    "change_mechanism",
     "load_mechanism",
-    "mechanism_changed",
-    "mechanism_from",
+    "mechanism_from_dict",
     "mechanism_lines",
     "mechanism_to_dict",
     "press",

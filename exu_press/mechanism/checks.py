@@ -14,11 +14,11 @@ from exu_press.mechanism.parts import (
     Joint,
     Output,
     distinct_points,
-    size_of,
+    drawing_size,
 )
 from exu_press.schema.checks import demand_known, demand_name, demand_number, refuse_unknown
 
-__all__ = ["all_of", "check", "check_defaults"]
+__all__ = ["check_defaults", "check_drawing", "require_kind"]
 
 Kind = TypeVar("Kind")
 
@@ -28,47 +28,47 @@ DEFAULTS = {
     **dict.fromkeys(("clearance", "radius"), (int, float)),
     **dict.fromkeys(("joints", "contact", "friction", "film"), (Mapping,)),
 }
-"""Tables that a mechanism may give its scenes; their values are checked as a scene's own."""
+"""Defaults that a mechanism may have for its scenes, and their types."""
 
 SHAPES = ("revolute", "spherical")
 
-TAKEN = {
+RESERVED = {
     GROUND: "the frame",
     DRIVE: "the disc that turns a flexible crank",
     FLYWHEEL: "that of a clutch",
 }
-"""Names of further bodies of a system."""
+"""Names of further bodies of a system, which no body of a drawing may have."""
 
-RECORDED = ("drive", "frame", "guide", "shaking")
-OF_BODIES = ("guide", "modes")
-OF_LOADS = "load_"
-"""Beginnings of channels that are no joint's; a body's follow its name."""
+CHANNEL_NAMES = ("drive", "frame", "guide", "shaking")
+BODY_CHANNELS = ("guide", "modes")
+LOAD_CHANNELS = "load_"
+"""Prefixes of channels that belong to no joint; those of a body follow its name."""
 
-ACROSS = 1e-9
+PERPENDICULAR = 1e-9
 """Cosine of two directions that counts as a right angle."""
 
 
-def all_of(kind: type[Kind], where: str, given: Any) -> tuple[Kind, ...]:
-    """Return the given parts as a tuple; raise InputError for the first of another kind."""
-    found = tuple(given) if isinstance(given, Iterable) else (given,)
-    for each in found:
-        if not isinstance(each, kind):
-            raise InputError(f"{where}: {each!r:.80} is no {kind.__name__}, which alone is allowed")
-    return found
+def require_kind(kind: type[Kind], where: str, values: Any) -> tuple[Kind, ...]:
+    """Return values as a tuple; raise InputError for the first of another kind."""
+    items = tuple(values) if isinstance(values, Iterable) else (values,)
+    for item in items:
+        if not isinstance(item, kind):
+            raise InputError(f"{where}: {item!r:.80} is no {kind.__name__}, which alone is allowed")
+    return items
 
 
 def check_defaults(defaults: Any) -> None:
-    """Raise InputError for the first default that no scene has."""
+    """Raise InputError for the first default that no scene may have."""
     if not isinstance(defaults, Mapping):
         raise InputError(f"defaults = {defaults!r}: allowed is a table of keys")
     refuse_unknown("defaults", defaults, DEFAULTS)
     for key, value in defaults.items():
         if not isinstance(value, DEFAULTS[key]):
-            words = {str: "a text", float: "a number"}
-            kind = words.get(DEFAULTS[key][-1], "a table of keys")
+            types = {str: "a text", float: "a number"}
+            kind = types.get(DEFAULTS[key][-1], "a table of keys")
             raise InputError(f"defaults.{key} = {value!r}: allowed is {kind}")
         if key in ("clearance", "radius"):
-            _positive(f"defaults.{key}", value, "m")
+            _check_positive(f"defaults.{key}", value, "m")
         elif key == "settle":
             demand_number("defaults.settle", value)
             if isinstance(value, int | float) and value < 0.0:
@@ -89,7 +89,7 @@ def _check_numbers(where: str, value: Any) -> None:
         demand_number(where, value)
 
 
-def check(
+def check_drawing(
     name: str,
     bodies: Sequence[Body],
     joints: Sequence[Joint],
@@ -99,64 +99,69 @@ def check(
     groups: Mapping[str, Sequence[str]],
     counterweight: Sequence[str],
 ) -> None:
-    """Raise InputError for the first thing that no mechanism can be made of."""
+    """Raise InputError for the first fault of a mechanism's data."""
     if not isinstance(name, str) or not name:
         raise InputError(f"name = {name!r}: allowed is a text")
     names = [body.name for body in bodies]
     if not bodies:
         raise InputError("bodies: none; allowed is at least the crank")
-    _once("bodies", names)
-    _once("joints", [joint.name for joint in joints])
-    _once("guides", [guide.body for guide in guides])
-    for taken, what in TAKEN.items():
-        if taken in names:
-            raise InputError(f"bodies.{taken}: this name means {what}; allowed is another one")
+    _check_unique("bodies", names)
+    _check_unique("joints", [joint.name for joint in joints])
+    _check_unique("guides", [guide.body for guide in guides])
+    for name, what in RESERVED.items():
+        if name in names:
+            raise InputError(f"bodies.{name}: this name means {what}; allowed is another one")
     for body in bodies:
         where = f"bodies.{body.name}"
-        _positive(f"{where}.mass", body.mass, "kg")
-        _point(f"{where}.centre_of_mass", body.centre_of_mass)
+        _check_positive(f"{where}.mass", body.mass, "kg")
+        _check_point(f"{where}.centre_of_mass", body.centre_of_mass)
         demand_number(f"{where}.angle", body.angle)
         if not _is_rod(body):
-            _positive(f"{where}.inertia", body.inertia, "kg m^2")
+            _check_positive(f"{where}.inertia", body.inertia, "kg m^2")
     for joint in joints:
         _check_joint(joint, names)
         _check_channels(joint.name, names)
     for guide in guides:
-        _known(f"guides.{guide.body}", guide.body, names)
-        _direction(f"guides.{guide.body}.direction", guide.direction)
-    _known("crank", crank, names)
-    _known("output.body", output.body, names)
-    _direction("output.direction", output.direction)
-    _point("output.origin", output.origin)
+        _check_known(f"guides.{guide.body}", guide.body, names)
+        _check_direction(f"guides.{guide.body}.direction", guide.direction)
+    _check_known("crank", crank, names)
+    _check_known("output.body", output.body, names)
+    _check_direction("output.direction", output.direction)
+    _check_point("output.origin", output.origin)
     for guide in guides:
-        if guide.body == output.body and abs(_cosine(guide.direction, output.direction)) < ACROSS:
+        if (
+            guide.body == output.body
+            and abs(_cosine(guide.direction, output.direction)) < PERPENDICULAR
+        ):
             raise InputError(
                 f"output.direction = {output.direction!r}: across the guide of {output.body}, "
                 "which holds it; allowed is a direction in which it moves"
             )
     _check_groups(groups, [joint.name for joint in joints])
-    _names("counterweight", counterweight, "bodies")
+    _check_list("counterweight", counterweight, "bodies")
     for body_name in counterweight:
-        _known("counterweight", body_name, [n for n in names if n not in (crank, output.body)])
+        _check_known(
+            "counterweight", body_name, [n for n in names if n not in (crank, output.body)]
+        )
     _check_connections(bodies, joints, guides, crank)
 
 
 def _check_joint(joint: Joint, names: Collection[str]) -> None:
     where = f"joints.{joint.name}"
-    _point(f"{where}.at", joint.at)
-    _known(f"{where}.journal", joint.journal, [*names, GROUND])
-    _known(f"{where}.bearing", joint.bearing, [*names, GROUND])
+    _check_point(f"{where}.at", joint.at)
+    _check_known(f"{where}.journal", joint.journal, [*names, GROUND])
+    _check_known(f"{where}.bearing", joint.bearing, [*names, GROUND])
     if joint.journal == joint.bearing:
         raise InputError(f"{where}: joins {joint.journal!r} to itself; allowed are two bodies")
-    _known(f"{where}.shape", joint.shape, SHAPES)
+    _check_known(f"{where}.shape", joint.shape, SHAPES)
 
 
 def _check_channels(joint: str, bodies: Sequence[str]) -> None:
     """Refuse a joint whose channels, such as NAME_force, would be those of something else."""
     if joint in bodies:
         raise InputError(f"joints.{joint}: is a body's name too; allowed is another one")
-    taken = {*RECORDED, *(f"{body}_{what}" for body in bodies for what in OF_BODIES)}
-    if joint in taken or joint.startswith(OF_LOADS):
+    reserved = {*CHANNEL_NAMES, *(f"{b}_{what}" for b in bodies for what in BODY_CHANNELS)}
+    if joint in reserved or joint.startswith(LOAD_CHANNELS):
         raise InputError(
             f"joints.{joint}: {joint}_force is recorded of something else; allowed is another name"
         )
@@ -166,12 +171,12 @@ def _check_groups(groups: Mapping[str, Sequence[str]], joints: Sequence[str]) ->
     for name, members in groups.items():
         if name in joints:
             raise InputError(f"groups.{name}: is a joint's name too; allowed is another one")
-        _names(f"groups.{name}", members, "joints")
+        _check_list(f"groups.{name}", members, "joints")
         if not members:
             raise InputError(f"groups.{name}: is empty; allowed are names of joints")
-        _once(f"groups.{name}", members)
+        _check_unique(f"groups.{name}", members)
         for member in members:
-            _known(f"groups.{name}", member, joints)
+            _check_known(f"groups.{name}", member, joints)
 
 
 def _check_connections(
@@ -179,7 +184,7 @@ def _check_connections(
 ) -> None:
     """Refuse bodies on nothing, rods without two ends, and a crank that is not in the frame."""
     guided = {guide.body for guide in guides}
-    size = size_of(joints)
+    size = drawing_size(joints)
     for body in bodies:
         ends = (joint.at for joint in joints if body.name in (joint.journal, joint.bearing))
         points = distinct_points(ends, size)
@@ -190,13 +195,13 @@ def _check_connections(
                 f"bodies.{body.name}.inertia: missing; allowed is a number > 0 (kg m^2): only a "
                 f"body with joints in two places is a uniform rod, this one has {len(points)}"
             )
-    own = [{joint.journal, joint.bearing} for joint in joints]
-    if not any(crank in ends and GROUND not in ends for ends in own):
+    pairs = [{joint.journal, joint.bearing} for joint in joints]
+    if not any(crank in pair and GROUND not in pair for pair in pairs):
         raise InputError(f"crank = {crank!r}: has no joint with another body, which it could move")
-    shafts = [joint for joint in joints if {joint.journal, joint.bearing} == {crank, GROUND}]
-    if len(shafts) != 1 or crank in guided:
+    shafts = pairs.count({crank, GROUND})
+    if shafts != 1 or crank in guided:
         raise InputError(
-            f"crank = {crank!r}: has {len(shafts)} joints with the {GROUND}"
+            f"crank = {crank!r}: has {shafts} joints with the {GROUND}"
             f"{' and a guide' if crank in guided else ''}; allowed is one joint, its shaft"
         )
     pins = (joint.at for joint in joints if crank in (joint.journal, joint.bearing))
@@ -207,16 +212,16 @@ def _check_connections(
         )
 
 
-def _known(where: str, name: Any, known: Iterable[str]) -> None:
+def _check_known(where: str, name: Any, known: Iterable[str]) -> None:
     demand_known(f"{where} = {name!r}: unknown", name, known)
 
 
-def _names(where: str, value: Any, what: str) -> None:
+def _check_list(where: str, value: Any, what: str) -> None:
     if not isinstance(value, list | tuple):
         raise InputError(f"{where} = {value!r}: allowed is a list of names of {what}")
 
 
-def _once(where: str, names: Iterable[str]) -> None:
+def _check_unique(where: str, names: Iterable[str]) -> None:
     seen: set[str] = set()
     for name in names:
         demand_name(where, name)
@@ -229,24 +234,24 @@ def _is_rod(body: Body) -> bool:
     return isinstance(body.inertia, float) and math.isnan(body.inertia)
 
 
-def _positive(where: str, value: Any, unit: str) -> None:
+def _check_positive(where: str, value: Any, unit: str) -> None:
     demand_number(where, value)
     if not value > 0.0:
         raise InputError(f"{where} = {value!r}: allowed is a number > 0 ({unit})")
 
 
-def _point(where: str, value: Any) -> None:
+def _check_point(where: str, value: Any) -> None:
     if not isinstance(value, tuple) or len(value) != 2:
         raise InputError(f"{where} = {value!r}: allowed are two numbers, x and y (m)")
     for number in value:
         demand_number(where, number)
 
 
-def _cosine(one: Sequence[float], other: Sequence[float]) -> float:
-    return (one[0] * other[0] + one[1] * other[1]) / (math.hypot(*one) * math.hypot(*other))
+def _cosine(a: Sequence[float], b: Sequence[float]) -> float:
+    return (a[0] * b[0] + a[1] * b[1]) / (math.hypot(*a) * math.hypot(*b))
 
 
-def _direction(where: str, value: Any) -> None:
-    _point(where, value)
+def _check_direction(where: str, value: Any) -> None:
+    _check_point(where, value)
     if math.hypot(*value) == 0.0:
         raise InputError(f"{where} = {value!r}: allowed is a direction, such as (0, 1)")

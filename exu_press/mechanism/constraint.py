@@ -1,12 +1,12 @@
 """Kinds of constraints between two bodies in the plane: residual, Jacobian and rate of their rows.
 
-A constraint is Phi(q) = 0, with q the coordinates x, y and angle of all bodies. Its rates are what
-its second derivative in time has without accelerations [1]_::
+A constraint is Phi(q) = 0, with q the coordinates x, y and angle of all bodies. Its rate gamma is
+the part of its second time derivative that has no accelerations [1]_::
 
     d^2 Phi / dt^2 = J q'' + gamma(q, q')
 
 Points are complex numbers x + i y, so that a rotation is a product. Fields of one kind may be
-numbers, or arrays (m,) of m constraints; a kind of its own is one more class with `rows`.
+numbers, or arrays (m,) of m constraints.
 
 References
 ----------
@@ -52,15 +52,19 @@ class Poses:
         return self.turn[..., body] * point
 
     def point(self, body: Number, point: Number) -> Number:
-        """Return where a point of a body is."""
+        """Return the position of a point of a body."""
         return self.z[..., body] + self.arm(body, point)
 
+    def gap(self, pair: "Coincidence | PointOnLine") -> Number:
+        """Return the vector from the base's point of a constraint to the body's."""
+        return self.point(pair.body, pair.point) - self.point(pair.base, pair.base_point)
+
     def velocity(self, body: Number, point: Number) -> Number:
-        """Return how fast it moves."""
+        """Return the velocity of a point of a body."""
         return self.z_t[..., body] + 1j * self.omega[..., body] * self.arm(body, point)
 
     def centripetal(self, body: Number, point: Number) -> Number:
-        """Return its acceleration where centre and rotation of the body have none."""
+        """Return a point's acceleration where centre and rotation of the body have none."""
         return -(self.omega[..., body] ** 2) * self.arm(body, point)
 
 
@@ -80,8 +84,8 @@ class Coincidence(NamedTuple):
 
     def residuals(self, poses: Poses) -> list[Number]:
         """Return Phi of both rows."""
-        apart = poses.point(self.body, self.point) - poses.point(self.base, self.base_point)
-        return [apart.real, apart.imag]
+        gap = poses.gap(self)
+        return [gap.real, gap.imag]
 
     def gradients(self, poses: Poses) -> list[list[Gradient]]:
         """Return the rows of J."""
@@ -109,8 +113,7 @@ class PointOnLine(NamedTuple):
 
     def residuals(self, poses: Poses) -> list[Number]:
         """Return Phi, the distance along the normal."""
-        apart = poses.point(self.body, self.point) - poses.point(self.base, self.base_point)
-        return [(self._normal(poses).conj() * apart).real]
+        return [(self._normal(poses).conj() * poses.gap(self)).real]
 
     def gradients(self, poses: Poses) -> list[list[Gradient]]:
         """Return the row of J."""
@@ -126,11 +129,10 @@ class PointOnLine(NamedTuple):
     def rates(self, poses: Poses) -> list[Number]:
         """Return gamma, with the second derivative of the turning normal."""
         omega = poses.omega[..., self.base]
-        apart = poses.point(self.body, self.point) - poses.point(self.base, self.base_point)
         rate = poses.velocity(self.body, self.point) - poses.velocity(self.base, self.base_point)
         gamma = poses.centripetal(self.body, self.point)
         gamma = gamma - poses.centripetal(self.base, self.base_point)
-        gamma = gamma - omega**2 * apart - 2j * omega * rate
+        gamma = gamma - omega**2 * poses.gap(self) - 2j * omega * rate
         return [(self._normal(poses).conj() * gamma).real]
 
     def _normal(self, poses: Poses) -> Number:
@@ -140,7 +142,7 @@ class PointOnLine(NamedTuple):
 class RotationRatio(NamedTuple):
     """A body turns a ratio times as far as another: on a guide with the frame, or as gears do.
 
-    `offset` is what angle - ratio (angle of the base) is in the drawing.
+    `offset` is angle - ratio * (angle of the base) in the drawing.
     """
 
     body: Number
@@ -159,5 +161,5 @@ class RotationRatio(NamedTuple):
         return [[(self.body, 0.0, 1.0), (self.base, 0.0, -self.ratio)]]
 
     def rates(self, poses: Poses) -> list[Number]:
-        """Return gamma, which is none."""
+        """Return gamma, which is zero."""
         return [np.zeros_like(poses.angle[..., self.body])]

@@ -12,7 +12,7 @@ from exu_press.mechanism.stroke import Stroke, stroke_of
 from exu_press.mechanism.transmission import transmission_angles
 from exu_press.numerics.arrays import Array
 
-__all__ = ["Examination", "complete_refusal", "examine"]
+__all__ = ["Examination", "examine", "explain_motion_error"]
 
 ANGLES = np.radians(np.arange(361.0))
 
@@ -24,88 +24,87 @@ class Examination:
     Attributes:
         mechanism: drawn.
         mobility: in the drawing.
-        refusal: why the crank does not turn through a revolution; None where it does.
+        error: why the crank does not turn through a revolution; None where it does.
         stroke: of the output over whole degrees; None where the crank does not turn.
         transmission: name of a joint -> the transmission angle there, (361,), rad.
     """
 
     mechanism: Mechanism
     mobility: Mobility
-    refusal: MotionError | None
+    error: MotionError | None
     stroke: Stroke | None
     transmission: Mapping[str, Array]
 
     @property
     def wrong_bodies(self) -> tuple[str, ...]:
         """Names of the bodies that lock, branch or are not held."""
-        if self.refusal is None:
+        if self.error is None:
             return ()
-        return tuple(dict.fromkeys([*self.refusal.bodies, *self.mobility.loose]))
+        return tuple(dict.fromkeys([*self.error.bodies, *self.mobility.loose_bodies]))
 
     @property
     def wrong_joints(self) -> tuple[str, ...]:
         """Names of joints of which one is too many, or else those between the wrong bodies."""
-        if self.refusal is None:
+        if self.error is None:
             return ()
-        found = [n.removeprefix("joints.") for n in self.mobility.too_many if n[:6] == "joints"]
         wrong = self.wrong_bodies
-        return tuple(found) or tuple(
+        return self._overconstraining("joints") or tuple(
             j.name for j in self.mechanism.joints if j.journal in wrong and j.bearing in wrong
         )
 
     @property
     def wrong_guides(self) -> tuple[str, ...]:
         """Names of the bodies whose guide is one constraint too many."""
-        return tuple(n.removeprefix("guides.") for n in self.mobility.too_many if n[:6] == "guides")
+        return self._overconstraining("guides")
 
     @property
-    def complaints(self) -> tuple[str, ...]:
+    def faults(self) -> tuple[str, ...]:
         """Faults, a sentence each; none where the crank turns through a revolution."""
-        if self.refusal is None:
+        if self.error is None:
             return ()
-        return str(self.refusal), *self.misfits
-
-    @property
-    def misfits(self) -> tuple[str, ...]:
-        """Degrees of freedom too many or too few, and which joints to look at, a sentence each."""
-        mobility, found = self.mobility, []
-        if mobility.loose:
-            spare = mobility.degrees - mobility.turns
-            near = {name: None for body in mobility.loose for name in self._holding(body)}
-            found.append(
-                f"{_degrees(spare)} too many: with the crank held, "
-                f"{', '.join(mobility.loose)} can still move, held by {', '.join(near)} alone"
+        mobility, faults = self.mobility, [str(self.error)]
+        if mobility.loose_bodies:
+            excess = mobility.degrees_of_freedom - mobility.crank_turns
+            holding = {name: None for body in mobility.loose_bodies for name in self._holding(body)}
+            faults.append(
+                f"{_degrees(excess)} too many: with the crank held, "
+                f"{', '.join(mobility.loose_bodies)} can still move, held by "
+                f"{', '.join(holding)} alone"
             )
-        if not mobility.turns:
-            cure = f"; it could without one of {', '.join(mobility.too_many)}"
-            found.append(
-                f"{_degrees(max(1, 1 - mobility.counted))} too few: the crank cannot turn in the "
-                f"drawing{cure if mobility.too_many else ''}"
+        if not mobility.crank_turns:
+            cure = f"; it could without one of {', '.join(mobility.overconstraining)}"
+            faults.append(
+                f"{_degrees(max(1, 1 - mobility.gruebler_count))} too few: the crank cannot turn "
+                f"in the drawing{cure if mobility.overconstraining else ''}"
             )
-        return tuple(found)
+        return tuple(faults)
 
-    def _holding(self, body: str) -> tuple[str, ...]:
-        joints = [
-            f"joints.{j.name}" for j in self.mechanism.joints if body in (j.journal, j.bearing)
-        ]
-        return (*joints, *(f"guides.{g.body}" for g in self.mechanism.guides if g.body == body))
+    def _overconstraining(self, kind: str) -> tuple[str, ...]:
+        """Return names of "joints" or "guides" without one of which the crank could turn."""
+        names = (name.split(".") for name in self.mobility.overconstraining)
+        return tuple(name for of_kind, name in names if of_kind == kind)
+
+    def _holding(self, body: str) -> list[str]:
+        """Return the names of the joints and guides of a body."""
+        joints = [f"joints.{joint.name}" for joint in self.mechanism.joints_of(body)]
+        return joints + [f"guides.{g.body}" for g in self.mechanism.guides if g.body == body]
 
 
 def examine(mechanism: Mechanism) -> Examination:
-    """Examine a drawing; one whose crank does not turn is examined as far as it goes."""
+    """Examine a drawing; one whose crank does not turn is examined as far as possible."""
     mobility = mobility_of(mechanism)
     try:
         stroke = stroke_of(mechanism, ANGLES)
         transmission = transmission_angles(mechanism, ANGLES)
-    except MotionError as refusal:
-        return Examination(mechanism, mobility, refusal, None, {})
+    except MotionError as error:
+        return Examination(mechanism, mobility, error, None, {})
     return Examination(mechanism, mobility, None, stroke, transmission)
 
 
-def complete_refusal(mechanism: Mechanism, refusal: MotionError) -> MotionError:
-    """Return a refusal with the degrees of freedom too many or too few, and joints to look at."""
-    text = ". ".join(examine(mechanism).complaints)
-    return MotionError(text, refusal.bodies, refusal.angle, refusal.poses)
+def explain_motion_error(mechanism: Mechanism, error: MotionError) -> MotionError:
+    """Return an error with the degrees of freedom too many or too few, and joints to look at."""
+    text = ". ".join(examine(mechanism).faults)
+    return MotionError(text, error.bodies, error.angle, error.poses)
 
 
 def _degrees(count: int) -> str:

@@ -36,9 +36,9 @@ from exu_press.schema.toml import read_toml, toml_text
 
 __all__ = [
     "SHIPPED",
+    "change_mechanism",
     "load_mechanism",
-    "mechanism_changed",
-    "mechanism_from",
+    "mechanism_from_dict",
     "mechanism_lines",
     "mechanism_to_dict",
     "shipped_mechanism",
@@ -50,12 +50,12 @@ FILES = Path(__file__).with_name("files")
 SHIPPED = tuple(sorted(path.stem for path in FILES.glob("*.toml")))
 """Names of the mechanisms that the package has as files."""
 
-PARTS: dict[str, tuple[type, tuple[str, ...], tuple[str, ...]]] = {
+SECTIONS: dict[str, tuple[type, tuple[str, ...], tuple[str, ...]]] = {
     "bodies": (Body, ("centre_of_mass", "mass"), ("inertia", "angle")),
     "joints": (Joint, ("at", "journal", "bearing"), ("shape",)),
     "guides": (Guide, ("direction",), ()),
 }
-"""Tables of tables -> what each is made of, the keys it needs, and those it may have."""
+"""Section of the file -> class of its tables, their required keys, their optional keys."""
 
 UNITS = {"mass": "kg", "inertia": "kg m^2", "angle": "rad", "at": "m", "centre_of_mass": "m"}
 COORDINATES = "x", "y"
@@ -65,49 +65,49 @@ TOP = (
     ("name", "crank", "output", "bodies", "joints"),
     ("guides", "groups", "counterweight", "defaults"),
 )
-"""The same of the output's table and of the whole file."""
+"""Required and optional keys of the output's table, and of the whole file."""
 
 
 def load_mechanism(path: str | Path) -> Mechanism:
     """Return the mechanism of a file.
 
     Raises:
-        InputError: the file cannot be read or parsed, or no mechanism can be made of it.
+        InputError: the file cannot be read or parsed, or its data have a fault.
     """
     path = Path(path)
     data = read_toml(path)
     with prefixed(f"{path}: "):
-        return mechanism_from(data)
+        return mechanism_from_dict(data)
 
 
 @lru_cache
 def shipped_mechanism(name: str) -> Mechanism:
-    """Return a mechanism that the package has as a file, by its name, one of `SHIPPED`."""
+    """Return a shipped mechanism by its name, one of `SHIPPED`."""
     return load_mechanism(FILES / f"{name}.toml")
 
 
-def mechanism_from(data: Mapping[str, Any]) -> Mechanism:
-    """Return the mechanism of a nested mapping, as a mechanism file holds it.
+def mechanism_from_dict(data: Mapping[str, Any]) -> Mechanism:
+    """Return the mechanism of a nested mapping with the keys of a mechanism file.
 
     Raises:
-        InputError: a key is unknown or missing or has a wrong type, or the data make no mechanism.
+        InputError: a key is unknown or missing or has a wrong type, or the data have a fault.
     """
-    top = _keys("", data, *TOP)
-    parts: dict[str, Any] = {
-        kind: tuple(
-            made(name, **_keys(f"{kind}.{name}", table, needed, others))
-            for name, table in _table(kind, top.pop(kind, {})).items()
+    top = _checked_keys("", data, *TOP)
+    elements: dict[str, Any] = {
+        section: tuple(
+            element(name, **_checked_keys(f"{section}.{name}", table, required, optional))
+            for name, table in _table(section, top.pop(section, {})).items()
         )
-        for kind, (made, needed, others) in PARTS.items()
+        for section, (element, required, optional) in SECTIONS.items()
     }
-    output = Output(**_keys("output", top.pop("output"), *OUTPUT))
+    output = Output(**_checked_keys("output", top.pop("output"), *OUTPUT))
     groups = _table("groups", top.pop("groups", {}))
     groups = {name: _value(members) for name, members in groups.items()}
-    return Mechanism(**top, **parts, output=output, groups=groups)
+    return Mechanism(**top, **elements, output=output, groups=groups)
 
 
 def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
-    """Return a mechanism with ideal guides as a nested mapping, for `mechanism_from`.
+    """Return a mechanism with ideal guides as a nested mapping, for `mechanism_from_dict`.
 
     Uniform rods have no inertia there: it follows from mass and length, and changes with them.
     """
@@ -115,10 +115,12 @@ def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
     if mechanism.counterweight:
         data["counterweight"] = [*mechanism.counterweight]
     data["output"] = _plain(mechanism.output, *OUTPUT)
-    for kind, (made, needed, others) in PARTS.items():
-        name = fields(made)[0].name
-        parts = getattr(mechanism, kind)
-        data[kind] = {getattr(part, name): _plain(part, needed, others) for part in parts}
+    for section, (element, required, optional) in SECTIONS.items():
+        name = fields(element)[0].name
+        data[section] = {
+            getattr(item, name): _plain(item, required, optional)
+            for item in getattr(mechanism, section)
+        }
     for body in mechanism.bodies:
         if body.inertia == mechanism.rod_inertia(body):
             del data["bodies"][body.name]["inertia"]
@@ -131,37 +133,35 @@ def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
     return data
 
 
-def mechanism_changed(data: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a mechanism's nested mapping with other values.
+def change_mechanism(data: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a mechanism's nested mapping with some values changed.
 
     Args:
         data: as of `mechanism_to_dict`, or of a file.
         changes: dotted name, as in "bodies.rod.mass", "joints.pin.at" or "joints.pin.at.x" -> its
-            value; None leaves it out.
+            value; None removes it.
 
     Raises:
-        InputError: a part has another name.
+        InputError: there is no such table.
     """
-    found = copy.deepcopy(dict(data))
+    changed = copy.deepcopy(dict(data))
     for name, value in changes.items():
         *tables, key = name.split(".")
-        inner: Any = found
-        for place, table in enumerate(tables):
+        inner: Any = changed
+        for depth, table in enumerate(tables, 1):
             outer, inner = inner, inner.get(table)
-            last = place == len(tables) - 1
-            of_point = last and key in COORDINATES and isinstance(inner, list) and len(inner) == 2
-            if not (of_point or isinstance(inner, dict)):
-                why = nearest(table, [part for part, one in outer.items() if isinstance(one, dict)])
-                raise InputError(
-                    f"{name} = {value!r}: no table {'.'.join(tables[: place + 1])}{why}"
-                )
+            is_point = depth == len(tables) and isinstance(inner, list) and len(inner) == 2
+            if not (isinstance(inner, dict) or (is_point and key in COORDINATES)):
+                known = [name for name, item in outer.items() if isinstance(item, dict)]
+                path = ".".join(tables[:depth])
+                raise InputError(f"{name} = {value!r}: no table {path}{nearest(table, known)}")
         if isinstance(inner, list):
             inner[COORDINATES.index(key)] = value
         elif value is None:
             inner.pop(key, None)
         else:
             inner[key] = value
-    return found
+    return changed
 
 
 def unit_in_mechanism(name: str) -> str:
@@ -170,8 +170,8 @@ def unit_in_mechanism(name: str) -> str:
     >>> unit_in_mechanism("bodies.rod.mass"), unit_in_mechanism("joints.pin.at.x")
     ('kg', 'm')
     """
-    parts = name.split(".")
-    return UNITS.get(parts[-2] if parts[-1] in COORDINATES else parts[-1], "")
+    *tables, key = name.split(".")
+    return UNITS.get(tables[-1] if key in COORDINATES else key, "")
 
 
 def mechanism_lines(mechanism: Mechanism, prefix: str = "") -> list[str]:
@@ -182,33 +182,33 @@ def mechanism_lines(mechanism: Mechanism, prefix: str = "") -> list[str]:
         prefix: of the tables' names, such as "mechanism." in a scene file.
     """
     data = mechanism_to_dict(mechanism)
-    tables = {kind: data.pop(kind) for kind in (*PARTS, "groups")}
-    defaults = data.pop("defaults", {})
+    tables = {
+        f"{section}.{name}": table
+        for section in SECTIONS
+        for name, table in data.pop(section).items()
+    }
+    groups, defaults = data.pop("groups"), data.pop("defaults", {})
+    values = {key: value for key, value in defaults.items() if not isinstance(value, Mapping)}
+    tables |= {"groups": groups, "defaults": values}
+    tables |= {f"defaults.{key}": value for key, value in defaults.items() if key not in values}
     lines = [f"[{prefix.removesuffix('.')}]"] if prefix else []
     lines += [f"{key} = {toml_text(value)}" for key, value in data.items()]
-    for kind in PARTS:
-        for name, table in tables[kind].items():
-            lines += ["", f"[{prefix}{kind}.{name}]"]
-            lines += [f"{key} = {toml_text(value)}" for key, value in table.items()]
-    sizes = {key: value for key, value in defaults.items() if not isinstance(value, Mapping)}
-    tables = {"groups": tables["groups"], "defaults": sizes}
-    tables |= {f"defaults.{key}": value for key, value in defaults.items() if key not in sizes}
     for name, table in tables.items():
         lines += ["", f"[{prefix}{name}]"] if table else []
         lines += [f"{key} = {toml_text(value)}" for key, value in table.items()]
     return lines
 
 
-def _keys(
-    where: str, given: Any, needed: Collection[str], others: Collection[str]
+def _checked_keys(
+    where: str, data: Any, required: Collection[str], optional: Collection[str]
 ) -> dict[str, Any]:
-    """Return the keys of a table; the mechanism checks their values itself."""
-    table, known = _table(where, given), (*needed, *others)
-    refuse_unknown(where, table, known)
+    """Return the keys and values of a table; `Mechanism` checks the values."""
+    table = _table(where, data)
+    refuse_unknown(where, table, (*required, *optional))
     for key, value in table.items():
-        if isinstance(value, float) and math.isnan(value):  # `ROD`, which is left out here
+        if isinstance(value, float) and math.isnan(value):  # `ROD`: in a file, omit the key
             raise InputError(f"{where}.{key} = {value!r}: allowed is a number")
-    for key in needed:
+    for key in required:
         if key not in table:
             raise InputError(f"{f'{where}.{key}' if where else key}: missing")
     return {key: _value(value) if where else value for key, value in table.items()}
@@ -221,13 +221,13 @@ def _table(where: str, value: Any) -> Mapping[str, Any]:
 
 
 def _value(value: Any) -> Any:
-    """Return lists as tuples, and whole numbers as the numbers that they stand for."""
+    """Return lists as tuples, and whole numbers as floats."""
     if isinstance(value, list | tuple):
         return tuple(map(_value, value))
     return as_float(value) if type(value) is int else value
 
 
-def _plain(part: Any, needed: tuple[str, ...], others: tuple[str, ...]) -> dict[str, Any]:
+def _plain(item: Any, required: tuple[str, ...], optional: tuple[str, ...]) -> dict[str, Any]:
     """Return the keys of a body, joint, guide or output, points as lists."""
-    values = {key: getattr(part, key) for key in needed + others}
+    values = {key: getattr(item, key) for key in required + optional}
     return {key: [*v] if isinstance(v, tuple) else v for key, v in values.items()}

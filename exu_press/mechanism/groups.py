@@ -1,4 +1,4 @@
-"""The smallest sets of bodies that are held together, each by the bodies before it: Assur groups.
+"""Assur groups: the smallest sets of bodies that the bodies of earlier groups determine.
 
 They name the bodies that lock, and the dyads that have a transmission angle.
 
@@ -20,52 +20,53 @@ from exu_press.numerics.arrays import Array
 __all__ = ["Group", "groups_of"]
 
 LARGEST = 4
-"""Bodies; where no set so small is held, all that are left are one group."""
+"""Bodies of a group; where no set so small is determined, all remaining bodies are one group."""
 
 
 @dataclass(frozen=True)
 class Group:
-    """Bodies that are held together.
+    """Bodies whose positions follow together from those of earlier groups.
 
     Attributes:
         bodies: names.
-        before: names of the bodies that are held without them.
+        predecessors: names of the bodies of earlier groups, the crank and the frame.
         rows: of the constraints' Jacobian, that hold them.
         columns: of their coordinates.
     """
 
     bodies: tuple[str, ...]
-    before: frozenset[str]
+    predecessors: frozenset[str]
     rows: tuple[int, ...]
     columns: tuple[int, ...]
 
     def block(self, jacobian: Array) -> Array:
-        """Return their part of the constraints' Jacobian."""
+        """Return the group's block of the constraints' Jacobian."""
         return np.asarray(jacobian[np.ix_(self.rows, self.columns)])
 
-    def is_held(self, jacobian: Array) -> bool:
-        """Return whether they are held where the Jacobian is."""
+    def is_determined(self, jacobian: Array) -> bool:
+        """Return whether the constraints with this Jacobian determine the group."""
         return len(self.rows) >= len(self.columns) and not len(null_space(self.block(jacobian)))
 
 
 def groups_of(constraints: PlanarConstraints, crank: str) -> Iterator[Group]:
-    """Yield a mechanism's groups, front to back."""
+    """Yield a mechanism's groups, each after those that it depends on."""
     names = (*constraints.bodies, GROUND)
     ends = {name: {names[c.body], names[c.base]} for name, c in constraints.constraints}
     jacobian = constraints.jacobian(np.array(constraints.drawn))
 
     def group_of(bodies: tuple[str, ...]) -> Group:
-        known = {*bodies, *before}
-        held_by = [name for name, of in ends.items() if of & {*bodies} and of <= known]
-        rows = [int(row) for name in held_by for row in constraints.rows[name]]
+        known = {*bodies, *determined}
+        holding = [n for n, joined in ends.items() if joined & {*bodies} and joined <= known]
+        rows = [int(row) for name in holding for row in constraints.rows[name]]
         columns = [3 * constraints.bodies.index(body) + k for body in bodies for k in range(3)]
-        return Group(bodies, frozenset(before), tuple(rows), tuple(columns))
+        return Group(bodies, frozenset(determined), tuple(rows), tuple(columns))
 
-    before, left = {GROUND, crank}, [body for body in constraints.bodies if body != crank]
-    while left:
-        sizes = range(1, min(LARGEST, len(left)) + 1)
-        sets = (group_of(bodies) for size in sizes for bodies in combinations(left, size))
-        group = next((g for g in sets if g.is_held(jacobian)), group_of(tuple(left)))
+    determined = {GROUND, crank}
+    remaining = [body for body in constraints.bodies if body != crank]
+    while remaining:
+        sizes = range(1, min(LARGEST, len(remaining)) + 1)
+        sets = (group_of(bodies) for size in sizes for bodies in combinations(remaining, size))
+        group = next((g for g in sets if g.is_determined(jacobian)), group_of(tuple(remaining)))
         yield group
-        before |= {*group.bodies}
-        left = [body for body in left if body not in group.bodies]
+        determined |= {*group.bodies}
+        remaining = [body for body in remaining if body not in group.bodies]

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.mechanism.checks import all_of, check, check_defaults
+from exu_press.mechanism.checks import check_defaults, check_drawing, require_kind
 from exu_press.mechanism.kinematics import Kinematics, kinematics_of
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import (
@@ -19,7 +19,7 @@ from exu_press.mechanism.parts import (
     Output,
     Point,
     distinct_points,
-    size_of,
+    drawing_size,
 )
 from exu_press.mechanism.planar_constraints import PlanarConstraints, planar_constraints
 from exu_press.numerics.arrays import Array
@@ -31,26 +31,24 @@ __all__ = ["Mechanism"]
 class Mechanism:
     """Bodies, joints and guides in the coordinates of one assembled drawing, y upwards.
 
-    A joint has one position, which both of its bodies have, so that the drawing closes by itself.
-    The crank's angle in the drawing is the mechanism's zero; it turns counter-clockwise.
+    A joint has one position, common to both of its bodies, so that the drawing closes by itself.
+    Crank angles count from the crank's angle in the drawing, counter-clockwise.
 
     Attributes:
         name: for messages and pictures.
         bodies: in the order of the result's body channels.
-        joints: a scene says which are ideal and which have clearance.
+        joints: ideal or with clearance, as a scene says.
         guides: in the frame.
         crank: name of the driven body.
         output: whose motion the result's slider channels record.
-        groups: names for several joints, which a scene gives clearance together.
-        counterweight: names of the bodies that balance the others, without which the shaking force
-            is recorded too.
-        defaults: of its scenes, in a scene's words: "start",
-            "clearance" and "radius" of a joint, "joints" with their kinds where no joint is named,
-            and keys of "contact", "friction" and "film".
+        groups: name -> joints that a scene can address together.
+        counterweight: names of balancing bodies; the shaking force is recorded without them, too.
+        defaults: keys of its scenes: "start", "settle", "clearance" and "radius" of a joint,
+            "joints" with their kinds where a scene names none, "contact", "friction" and "film".
 
     Raises:
         InputError: names are used twice or unknown, a body has no mass, or the like.
-            Whether the crank turns is found out by `motion`.
+            `motion` checks whether the crank turns.
     """
 
     name: str
@@ -65,13 +63,13 @@ class Mechanism:
 
     def __post_init__(self) -> None:
         """Check the drawing, fill in the inertia of uniform rods, make directions unit vectors."""
-        self._set(
-            bodies=all_of(Body, "bodies", self.bodies),
-            joints=all_of(Joint, "joints", self.joints),
-            guides=all_of(Guide, "guides", self.guides),
-            output=all_of(Output, "output", [self.output])[0],
+        self._assign(
+            bodies=require_kind(Body, "bodies", self.bodies),
+            joints=require_kind(Joint, "joints", self.joints),
+            guides=require_kind(Guide, "guides", self.guides),
+            output=require_kind(Output, "output", [self.output])[0],
         )
-        check(
+        check_drawing(
             self.name,
             self.bodies,
             self.joints,
@@ -82,7 +80,7 @@ class Mechanism:
             self.counterweight,
         )
         check_defaults(self.defaults)
-        self._set(
+        self._assign(
             counterweight=tuple(self.counterweight),
             bodies=tuple(
                 replace(body, inertia=self.rod_inertia(body)) if math.isnan(body.inertia) else body
@@ -92,7 +90,7 @@ class Mechanism:
             output=replace(self.output, direction=_unit(self.output.direction)),
         )
 
-    def _set(self, **values: Any) -> None:
+    def _assign(self, **values: Any) -> None:
         for name, value in values.items():
             object.__setattr__(self, name, value)
 
@@ -103,19 +101,19 @@ class Mechanism:
         return cell(self)
 
     def rod_inertia(self, body: Body) -> float:
-        """Return m l^2 / 12 of a uniform rod between a body's joints; nan if not in two places."""
+        """Return m l^2 / 12 of a uniform rod between a body's joints; nan unless at two points."""
         ends = distinct_points((joint.at for joint in self.joints_of(body.name)), self.size)
         return body.mass * math.dist(*ends) ** 2 / 12 if len(ends) == 2 else math.nan
 
     @property
     def slider(self) -> str:
-        """Name of the body whose motion is the result."""
+        """Name of the output's body."""
         return self.output.body
 
     @property
     def size(self) -> float:
         """Largest distance of two joints along x or y in the drawing, m."""
-        return size_of(self.joints)
+        return drawing_size(self.joints)
 
     @property
     def shaft(self) -> Joint:
@@ -142,7 +140,7 @@ class Mechanism:
         return [joint for joint in self.joints if body in (joint.journal, joint.bearing)]
 
     def ends(self, joint: Joint) -> tuple[tuple[str, Point], tuple[str, Point]]:
-        """Return journal and bearing of a joint, each with its body and the point in its frame."""
+        """Return (body, point in its frame) of a joint's journal and of its bearing."""
         journal, bearing = (
             (name, joint.at if name == GROUND else self.body(name).local(joint.at))
             for name in (joint.journal, joint.bearing)
@@ -150,7 +148,7 @@ class Mechanism:
         return journal, bearing
 
     def points(self, body: str) -> list[Point]:
-        """Return the points of a body's joints in its frame."""
+        """Return the positions of a body's joints in its frame, m."""
         return [point for joint in self.joints for name, point in self.ends(joint) if name == body]
 
     def require_turning(self) -> None:
@@ -158,14 +156,14 @@ class Mechanism:
         self._kinematics()
 
     def motion(self, angle: Array, speed: float) -> dict[str, Motion]:
-        """Return the motion (x, y, angle) of every body with ideal joints.
+        """Return the motion (x, y, angle) of every body with ideal joints, by its name.
 
         Args:
             angle: (n,) crank angles from the drawing's, rad.
             speed: of the crank, constant, rad/s.
 
         Raises:
-            InputError: the mechanism has another mobility than the crank's, locks or branches.
+            InputError: the mechanism has not one degree of freedom, locks or branches.
         """
         motions = self._kinematics().motion(angle, speed)
         return {body.name: motions[body.name] for body in self.bodies}
@@ -174,16 +172,16 @@ class Mechanism:
         """Return position (m), velocity and acceleration of the slider with ideal joints."""
         slider = self.motion(angle, speed)[self.slider]
         return (
-            self.travel(slider.position),
-            self.along(slider.velocity),
-            self.along(slider.acceleration),
+            self.output_position(slider.position),
+            self.output_component(slider.velocity),
+            self.output_component(slider.acceleration),
         )
 
     @cached_property
     def dead_centres(self) -> tuple[float, float] | None:
         """Crank angles of the ideal slider's top and bottom dead centre, rad, to 1e-4.
 
-        None where there are none: the output is in no guide, or turns more than twice a revolution.
+        None where there are none: the output is in no guide, or reverses more than twice.
         """
         if not any(guide.body == self.slider for guide in self.guides):
             return None
@@ -192,7 +190,7 @@ class Mechanism:
         up = velocity[np.abs(velocity) > 1e-9 * np.abs(velocity).max()] > 0.0
         if (up != np.roll(up, 1)).sum() != 2:
             return None
-        top, bottom = (self._turning(angle[at]) for at in (position.argmax(), position.argmin()))
+        top, bottom = (self._reversal(angle[at]) for at in (position.argmax(), position.argmin()))
         return top, bottom
 
     @cached_property
@@ -200,32 +198,34 @@ class Mechanism:
         """Lowest position of the ideal output, m: heights count from there."""
         angle = np.linspace(0.0, 2.0 * np.pi, 721)[:-1]
         lowest = angle[self.ideal_slider(angle, 1.0)[0].argmin()]
-        return float(self.ideal_slider(np.array([self._turning(lowest)]), 1.0)[0][0])
+        return float(self.ideal_slider(np.array([self._reversal(lowest)]), 1.0)[0][0])
 
-    def _turning(self, near: float) -> float:
-        """Return the crank angle, rad, close by at which the ideal output turns back."""
+    def _reversal(self, angle: float) -> float:
+        """Return the nearest crank angle, rad, at which the ideal output reverses."""
         for _ in range(3):
-            _, rate, bend = (part[0] for part in self.ideal_slider(np.array([near]), 1.0))
-            if abs(rate) < math.radians(0.5) * abs(bend):  # nor where both are rounding
-                near -= rate / bend
-        return round(float(near), 12) % (2.0 * math.pi)
+            _, rate, slope = (level[0] for level in self.ideal_slider(np.array([angle]), 1.0))
+            if abs(rate) < math.radians(0.5) * abs(slope):  # nor where both are rounding
+                angle -= rate / slope
+        return round(float(angle), 12) % (2.0 * math.pi)
 
-    def travel(self, position: Array) -> Array:
-        """Return the slider's positions (n,), m, of its centre's (n, 2 or 3)."""
-        return self.along(position) - float(np.dot(self.output.origin, self.output.direction))
+    def output_position(self, position: Array) -> Array:
+        """Return the output's position (n,), m, for its body's positions (n, 2 or 3)."""
+        return self.output_component(position) - float(
+            np.dot(self.output.origin, self.output.direction)
+        )
 
-    def beside(self, position: Array) -> Array:
-        """Return how far the slider's centre (n, 2 or 3) is to the right of the drawn one, m."""
+    def lateral_displacement(self, position: Array) -> Array:
+        """Return the displacement (n,), m, of the slider's centre (n, 2 or 3) to the right."""
         drawn = self.body(self.slider).centre_of_mass
-        return np.asarray((position[:, :2] - np.array(drawn)) @ np.array(self.output.across))
+        return np.asarray((position[:, :2] - np.array(drawn)) @ np.array(self.output.normal))
 
-    def along(self, vectors: Array) -> Array:
+    def output_component(self, vectors: Array) -> Array:
         """Return the components (n,) of vectors (n, 2 or 3) in the output's direction."""
         return np.asarray(vectors[:, :2] @ np.array(self.output.direction))
 
     @cached_property
     def constraints(self) -> PlanarConstraints:
-        """What joints and guides hold where they are ideal."""
+        """Constraints of all joints and guides as ideal ones."""
         return planar_constraints(self.bodies, self.joints, self.guides, self.size)
 
     def _kinematics(self) -> Kinematics:

@@ -1,8 +1,7 @@
-"""Degrees of freedom of a drawing: counted, and as its joints and guides leave them.
+"""Degrees of freedom of a drawing: counted, and by the rank of its constraints' Jacobian.
 
 The count of Chebyshev, Gruebler and Kutzbach takes every joint and guide for independent. The rank
-of the constraints' Jacobian tells how many are, so that parallel links and doubled guides are
-counted once [1]_.
+of the Jacobian counts constraints of parallel links and doubled guides once [1]_.
 
 References
 ----------
@@ -10,6 +9,7 @@ References
    chapter 3.
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,60 +29,60 @@ class Mobility:
         bodies: number of moving bodies, three degrees of freedom each.
         joints: number of joints, which hold two each.
         guides: number of guides, which hold two each.
-        degrees: degrees of freedom, at first order.
-        turns: whether the crank can turn, at first order.
-        loose: names of bodies that move although the crank is held.
-        too_many: names of joints and guides without any one of which the crank could turn, less
-            its shaft; none where it can.
+        degrees_of_freedom: at first order.
+        crank_turns: whether the crank can turn, at first order.
+        loose_bodies: names of bodies that move although the crank is fixed.
+        overconstraining: names of joints and guides, but the shaft, without any single one of which
+            the crank could turn; none where it can turn.
     """
 
     bodies: int
     joints: int
     guides: int
-    degrees: int
-    turns: bool
-    loose: tuple[str, ...]
-    too_many: tuple[str, ...]
+    degrees_of_freedom: int
+    crank_turns: bool
+    loose_bodies: tuple[str, ...]
+    overconstraining: tuple[str, ...]
 
     @property
-    def counted(self) -> int:
+    def gruebler_count(self) -> int:
         """Degrees of freedom if all joints and guides were independent."""
         return 3 * self.bodies - 2 * self.joints - 2 * self.guides
 
     @property
     def redundant(self) -> int:
-        """Number of constraints that others hold already."""
-        return self.degrees - self.counted
+        """Number of redundant constraints."""
+        return self.degrees_of_freedom - self.gruebler_count
 
     @property
-    def right(self) -> bool:
-        """Return whether the crank turns and all else follows it."""
-        return self.turns and not self.loose
+    def is_driven(self) -> bool:
+        """Whether the crank turns and all other bodies follow it."""
+        return self.crank_turns and not self.loose_bodies
 
 
 def mobility_of(mechanism: Mechanism) -> Mobility:
     """Return a mechanism's mobility with ideal joints and guides, as it is drawn."""
     constraints = mechanism.constraints
     jacobian = constraints.jacobian(np.array(constraints.drawn))
-    held = constraints.angle(mechanism.crank)[None]
+    fixed_crank = constraints.angle_row(mechanism.crank)[None]
 
-    def free(left_out: str, *further: Array) -> Array:
-        rows = [rows for name, rows in constraints.rows.items() if name != left_out]
+    def free_motions(omitted: str, *further: Array) -> Array:
+        rows = [rows for name, rows in constraints.rows.items() if name != omitted]
         return null_space(np.vstack([jacobian[np.concatenate(rows)], *further]))
 
-    def turns(left_out: str) -> bool:
-        return len(free(left_out)) > len(free(left_out, held))
+    def turns_without(omitted: str) -> bool:
+        return len(free_motions(omitted)) > len(free_motions(omitted, fixed_crank))
 
-    moving = turns("")
-    suspects = [] if moving else list(constraints.rows)
+    crank_turns = turns_without("")
+    suspects: Collection[str] = (
+        () if crank_turns else constraints.rows.keys() - {f"joints.{mechanism.shaft.name}"}
+    )
     return Mobility(
         bodies=len(mechanism.bodies),
         joints=len(mechanism.joints),
         guides=len(mechanism.guides),
-        degrees=len(free("")),
-        turns=moving,
-        loose=constraints.moving(free("", held)),
-        too_many=tuple(
-            name for name in suspects if name != f"joints.{mechanism.shaft.name}" and turns(name)
-        ),
+        degrees_of_freedom=len(free_motions("")),
+        crank_turns=crank_turns,
+        loose_bodies=constraints.moving_bodies(free_motions("", fixed_crank)),
+        overconstraining=tuple(n for n in constraints.rows if n in suspects and turns_without(n)),
     )

@@ -23,21 +23,16 @@ class Motion:
 
     def __getitem__(self, columns: slice) -> "Motion":
         """Return the motion of some columns: body[:2] is the body's centre."""
-        parts = (self.position, self.velocity, self.acceleration)
-        return Motion(*(part[:, columns] for part in parts))
+        return Motion(*(level[:, columns] for level in self._levels))
 
-    def at(self, point: tuple[float, float]) -> "Motion":
+    def point_motion(self, point: tuple[float, float]) -> "Motion":
         """Return the motion (x, y, angle) of a point of the body's frame, m."""
-        angle, omega, alpha = (
-            part[:, 2] for part in (self.position, self.velocity, self.acceleration)
-        )
+        angle, omega, alpha = (level[:, 2] for level in self._levels)
         x, y = point
         cos, sin = np.cos(angle), np.sin(angle)
         arm_x, arm_y = cos * x - sin * y, sin * x + cos * y
         square = omega**2
-        position, velocity, acceleration = (
-            np.array(part, order="F") for part in (self.position, self.velocity, self.acceleration)
-        )
+        position, velocity, acceleration = (np.array(level, order="F") for level in self._levels)
         position[:, 0] += arm_x
         position[:, 1] += arm_y
         velocity[:, 0] -= omega * arm_y
@@ -47,3 +42,7 @@ class Motion:
         acceleration[:, 1] += alpha * arm_x
         acceleration[:, 1] -= square * arm_y
         return Motion(position, velocity, acceleration)
+
+    @property
+    def _levels(self) -> tuple[Array, Array, Array]:
+        return self.position, self.velocity, self.acceleration

@@ -1,4 +1,4 @@
-"""Parts of a mechanism, in the coordinates of one assembled drawing."""
+"""Bodies, joints, guides and output of a mechanism, in the coordinates of one assembled drawing."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -18,7 +18,7 @@ __all__ = [
     "Point",
     "Spring",
     "distinct_points",
-    "size_of",
+    "drawing_size",
     "steel_cube",
 ]
 
@@ -35,8 +35,8 @@ ROD = math.nan
 """Inertia of a body that is a uniform rod between its two joints; `Mechanism` fills it in."""
 
 PRECISION = 1e-6
-"""Part of a drawing's size to which it is drawn: closer points are one, and redundant constraints
-agree to this."""
+"""Precision of a drawing, over its size: closer points coincide, and redundant constraints agree to
+this."""
 
 Point = tuple[float, float]
 
@@ -86,12 +86,12 @@ class Joint:
 
     @property
     def spherical(self) -> bool:
-        """Return whether a ball sits in a socket."""
+        """Whether it is a ball in a socket."""
         return self.shape == "spherical"
 
     @property
     def on_frame(self) -> bool:
-        """Return whether one of its bodies is the frame."""
+        """Whether one of its bodies is the frame."""
         return GROUND in (self.journal, self.bearing)
 
 
@@ -105,13 +105,13 @@ class Spring:
 
 @dataclass(frozen=True)
 class Guideway:
-    """Guideways between which a body slides with clearance: it touches them with its two ends.
+    """Guideways with clearance, which a body touches with its two ends.
 
     Attributes:
         clearance: on each side, m.
         length: of the body, from end to end, m; its centre of mass lies in the middle.
         half_width: of the body, m.
-        stiffness: that each end meets where it touches, N/m.
+        stiffness: of the contact of each end, N/m.
     """
 
     clearance: float
@@ -140,23 +140,23 @@ class Guide:
 
     @property
     def holds_across(self) -> bool:
-        """Return whether it holds the body across its direction without any give."""
+        """Whether it holds the body rigidly along its normal."""
         return self.lateral is None and self.guideway is None
 
     @property
     def holds_angle(self) -> bool:
-        """Return whether it holds the body's angle without any give."""
+        """Whether it holds the body's angle rigidly."""
         return self.tilting is None and self.guideway is None
 
     @property
-    def across(self) -> Point:
-        """Unit vector across the guide, to the right of its direction."""
+    def normal(self) -> Point:
+        """Unit normal of the guide, to the right of its direction."""
         return self.direction[1], -self.direction[0]
 
 
 @dataclass(frozen=True)
 class Output:
-    """The body and the direction whose motion the slider's channels record.
+    """The body whose motion the slider's channels record, and its direction.
 
     Attributes:
         body: its centre of mass is meant.
@@ -169,12 +169,12 @@ class Output:
     origin: Point = (0.0, 0.0)
 
     @property
-    def across(self) -> Point:
+    def normal(self) -> Point:
         """Unit vector to the right of the direction."""
         return self.direction[1], -self.direction[0]
 
 
-def size_of(joints: Sequence[Joint]) -> float:
+def drawing_size(joints: Sequence[Joint]) -> float:
     """Return the largest distance of two joints along x or y in the drawing, m."""
     return max(
         (max(values) - min(values) for values in zip(*(j.at for j in joints), strict=True)),
@@ -183,10 +183,10 @@ def size_of(joints: Sequence[Joint]) -> float:
 
 
 def distinct_points(points: Iterable[Point], size: float) -> list[Point]:
-    """Return the points of a drawing of some size, m, of those that lie in one place the first."""
+    """Return the points of a drawing of some size, m, without coincident ones."""
     distinct: list[Point] = []
     for point in points:
-        if all(math.dist(point, before) > PRECISION * size for before in distinct):
+        if all(math.dist(point, known) > PRECISION * size for known in distinct):
             distinct.append(point)
     return distinct
 

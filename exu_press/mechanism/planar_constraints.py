@@ -1,4 +1,4 @@
-"""The constraints of a planar mechanism: joints and guides as one system.
+"""The constraints of a planar mechanism: those of joints and guides as one system.
 
 Lengths are relative to the mechanism's size, so that displacements compare with rotations.
 """
@@ -66,7 +66,7 @@ class PlanarConstraints:
         return {name: np.array(numbers) for name, numbers in rows.items()}
 
     def residuals(self, q: Array) -> Array:
-        """Return by how much the constraints are not kept, (..., m)."""
+        """Return the violations of the constraints, (..., m)."""
         poses = Poses(q)
         return np.concatenate([r for _, kind in self._by_kind for r in kind.residuals(poses)], -1)
 
@@ -97,14 +97,14 @@ class PlanarConstraints:
         poses = [motions[body].position / (self.size, self.size, 1.0) for body in self.bodies]
         return np.concatenate(poses, axis=-1)
 
-    def angle(self, body: str) -> Array:
-        """Return the row of a body's angle, (3 n,)."""
+    def angle_row(self, body: str) -> Array:
+        """Return the gradient of a body's angle, (3 n,)."""
         return np.asarray(np.eye(len(self.drawn))[3 * self.bodies.index(body) + 2])
 
-    def moving(self, directions: Array, least: float = INDEPENDENT) -> tuple[str, ...]:
+    def moving_bodies(self, directions: Array, least: float = INDEPENDENT) -> tuple[str, ...]:
         """Return the bodies that move in one of the directions (k, 3 n), which have unit length."""
-        moved = np.abs(directions).max(axis=0, initial=0.0).reshape(-1, 3).max(axis=1)
-        return tuple(self.bodies[index] for index in np.flatnonzero(moved > least))
+        sizes = np.abs(directions).max(axis=0, initial=0.0).reshape(-1, 3).max(axis=1)
+        return tuple(self.bodies[index] for index in np.flatnonzero(sizes > least))
 
 
 def planar_constraints(
@@ -124,7 +124,7 @@ def planar_constraints(
         for guide in guides:
             body = drawn[guide.body]
             ends = index[guide.body], 0j, *end(GROUND, body.centre_of_mass)
-            yield f"guides.{guide.body}", PointOnLine(*ends, complex(*guide.across))
+            yield f"guides.{guide.body}", PointOnLine(*ends, complex(*guide.normal))
             turning = RotationRatio(index[guide.body], index[GROUND], 1.0, body.angle)
             yield f"guides.{guide.body}", turning
 
@@ -137,10 +137,10 @@ def planar_constraints(
 
 
 def null_space(rows: Array, least: float = INDEPENDENT) -> Array:
-    """Return orthonormal motions (k, n) that constraints (m, n) allow.
+    """Return orthonormal motions (k, n) that constraints allow.
 
     Args:
-        rows: of a Jacobian.
+        rows: of their Jacobian, (m, n).
         least: singular value, over the largest one, from which a constraint counts.
     """
     _, sizes, directions = np.linalg.svd(rows)

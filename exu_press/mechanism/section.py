@@ -15,7 +15,7 @@ TURN = 2.0 * math.pi
 
 @dataclass(frozen=True)
 class Section:
-    """Crank angles of every revolution.
+    """Crank angles at which every revolution is sampled.
 
     Attributes:
         angles: from 0 to 2 pi, rad, increasing.
@@ -25,37 +25,34 @@ class Section:
     angles: Sequence[float]
     start: float
 
-    def after(self, turned: float, near: float) -> float:
+    def next_sample(self, turned: float, near: float) -> float:
         """Return how far the crank turns from the start to its next sample, rad.
 
-        >>> round(Section([1.0, 2.0], start=0.5).after(0.5, 1e-9), 12)
+        >>> round(Section([1.0, 2.0], start=0.5).next_sample(0.5, 1e-9), 12)
         1.5
 
         Args:
             turned: since the start, rad.
             near: samples closer than this are passed, rad.
         """
-        ways = [(angle - self.start - turned - near) % TURN + near for angle in self.angles]
-        return turned + min(ways)
+        distances = [(angle - self.start - turned - near) % TURN + near for angle in self.angles]
+        return turned + min(distances)
 
-    def side(self, angle: float) -> float:
+    def event_function(self, angle: float) -> float:
         """Return a number that changes its sign wherever the crank (angle in rad) is sampled."""
-        product = 1.0
-        for each in self.angles:
-            product *= math.sin(0.5 * (angle - each))
-        return product
+        return math.prod(math.sin(0.5 * (angle - sample)) for sample in self.angles)
 
-    def up_to(self, turned: float) -> tuple[Array, Array]:
+    def samples(self, turned: float) -> tuple[Array, Array]:
         """Return the samples of a crank that has turned so far, rad.
 
         Returns:
             turned since the start at each of them, (m,), rad, increasing; and the number of its
             angle, (m,).
         """
-        found = sorted(
+        samples = sorted(
             (first + TURN * turn, number)
             for number, angle in enumerate(self.angles)
             for first in [(angle - self.start) % TURN]
             for turn in range(max(0, math.floor((turned - first) / TURN + 1e-9) + 1))
         )
-        return np.array([each for each, _ in found]), np.array([n for _, n in found], dtype=int)
+        return np.array([at for at, _ in samples]), np.array([n for _, n in samples], dtype=int)

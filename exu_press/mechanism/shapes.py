@@ -1,10 +1,9 @@
-"""Shapes of the bodies from the front: links around their joints, blocks on guides.
+"""Outlines of a mechanism's bodies as seen from the front, and what stands still behind them.
 
-Drawn, not measured: links have one width, blocks grow with the cube root of their mass. Only the
-joints' positions are the mechanism's.
+Outlines are drawn, not measured: links have one width, blocks grow with the cube root of their
+mass. Only the joints' positions are the mechanism's.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,14 +14,13 @@ from exu_press.numerics.arrays import Array
 
 __all__ = [
     "COLOURS",
+    "FrontView",
     "Mark",
     "Shape",
-    "marks",
-    "moved",
-    "rails",
+    "rail_corners",
     "shapes_of",
-    "swept",
-    "swept_outlines",
+    "swept_points",
+    "transform_points",
 ]
 
 COLOURS = {"crank": "#F2C14E", "bearing": "#8FC1E3", "link": "#C3D0DA", "block": "#DADFE3"}
@@ -39,6 +37,9 @@ LEVEL = 1e-6
 
 CORNERS = 48
 """Corners of a link's outline, most of them at its round ends."""
+
+REVOLUTION = np.linspace(0.0, 2.0 * np.pi, 73)
+"""Crank angles of a revolution, rad, of which outlines are drawn."""
 
 
 @dataclass(frozen=True)
@@ -58,9 +59,9 @@ class Shape:
         """Its fill."""
         return COLOURS[self.role]
 
-    def moved(self, pose: Array) -> Array:
+    def outline_at(self, pose: Array) -> Array:
         """Return the outline (n, 2) for a pose (x, y, angle)."""
-        return moved(self.outline, pose)
+        return transform_points(self.outline, pose)
 
 
 def shapes_of(mechanism: Mechanism, height: float | None = None) -> dict[str, Shape]:
@@ -68,10 +69,10 @@ def shapes_of(mechanism: Mechanism, height: float | None = None) -> dict[str, Sh
 
     Args:
         mechanism: drawn.
-        height: of the mechanism, m; that of a revolution unless given.
+        height: of the mechanism, m; by default that of a revolution.
     """
     if height is None:
-        height = float(np.ptp(swept(mechanism)[:, 1]))
+        height = float(np.ptp(swept_points(mechanism)[:, 1]))
     guided = {guide.body for guide in mechanism.guides}
     heaviest = max(body.mass for body in mechanism.bodies)
     shapes = {}
@@ -87,87 +88,118 @@ def shapes_of(mechanism: Mechanism, height: float | None = None) -> dict[str, Sh
     return shapes
 
 
-def swept(mechanism: Mechanism) -> Array:
-    """Return every position that a joint passes through in a revolution of the ideal mechanism."""
-    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 73), 1.0)
+def swept_points(mechanism: Mechanism) -> Array:
+    """Return the joints' positions (n, 2) over a revolution of the ideal mechanism, m."""
+    motion = mechanism.motion(REVOLUTION, 1.0)
     points = {body.name: np.array(mechanism.points(body.name)) for body in mechanism.bodies}
-    positions = [moved(at, pose) for name, at in points.items() for pose in motion[name].position]
-    return np.vstack(positions)
+    return np.vstack(
+        [
+            transform_points(local, pose)
+            for name, local in points.items()
+            for pose in motion[name].position
+        ]
+    )
 
 
-def swept_outlines(mechanism: Mechanism, shapes: Mapping[str, Shape]) -> dict[str, Array]:
-    """Return all places (n, 2) of every body's outline over a revolution of the ideal mechanism."""
-    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 73), 1.0)
-    return {
-        name: np.vstack([shape.moved(pose) for pose in motion[name].position])
-        for name, shape in shapes.items()
-    }
+def transform_points(points: Array, pose: Array) -> Array:
+    """Return points (n, 2) of a body's frame for a pose (x, y, angle) of the body."""
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    return np.asarray(points @ np.array([[c, s], [-s, c]]) + pose[:2])
 
 
-def rails(guide: Guide, outline: Array, unit: float) -> list[Array]:
+def rail_corners(guide: Guide, outline: Array, unit: float) -> list[Array]:
     """Return the corners (4, 2) of the rails on both sides of a body in its guide.
 
     Args:
-        guide: that holds the body.
-        outline: all places (n, 2) of the body's outline.
+        guide: of the body.
+        outline: the body's outlines over a revolution, (n, 2).
         unit: size of the drawing, m.
     """
     gap, width = 0.004 * unit, 0.008 * unit
-    axes = np.array([guide.across, guide.direction])
-    (left, low), (right, high) = (outline @ axes.T).min(axis=0), (outline @ axes.T).max(axis=0)
+    axes = np.array([guide.normal, guide.direction])
+    (left_edge, low), (right_edge, high) = (
+        end(outline @ axes.T, axis=0) for end in (np.min, np.max)
+    )
     return [
         np.array([[edge, low], [edge + width, low], [edge + width, high], [edge, high]]) @ axes
-        for edge in (left - gap - width, right + gap)
+        for edge in (left_edge - gap - width, right_edge + gap)
     ]
 
 
 @dataclass(frozen=True)
 class Mark:
-    """A dead centre beside the slider's way, at the edge that leads upwards.
+    """The mark of a dead centre beside the slider, at the edge that leads upwards.
 
     Attributes:
         label: "TDC" or "BDC".
-        place: where the slider's outline ends sideways, m.
-        aside: unit vector away from the slider: to the left, or downwards.
-        above: whether the other one lies below.
+        position: at the side of the slider's outline, m.
+        direction: unit vector away from the slider: to the left, or downwards.
+        is_above: whether the mark of the opposite dead centre lies below.
     """
 
     label: str
-    place: Array
-    aside: Array
-    above: bool
+    position: Array
+    direction: Array
+    is_above: bool
 
 
-def marks(mechanism: Mechanism, outline: Array) -> list[Mark]:
-    """Return the ideal slider's dead centres, none where it has none.
+class FrontView:
+    """A mechanism from the front over a revolution, as animation and page show it.
 
-    Args:
-        mechanism: drawn.
-        outline: all places (n, 2) of the slider's outline.
+    Attributes:
+        shapes: name of a body -> its shape.
+        swept: name of a body -> its outlines over a revolution of the ideal mechanism, (n, 2), m.
+        low: least x and y of them, m.
+        high: largest x and y of them, m.
+        unit: of labels and pins, m: the larger of height and width.
     """
-    if mechanism.dead_centres is None:
-        return []
-    motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 721), 1.0)[mechanism.slider]
-    along = np.array(mechanism.output.direction)
-    aside = np.array([-along[1], along[0]])
-    if aside @ (1.0, LEVEL) > 0.0:
-        aside = -aside
-    heights = motion.position[:, :2] @ along
-    edge = (outline @ along).max() - heights.max()
-    beside = (outline @ aside).max() * aside
-    return [
-        Mark(label, (height + edge) * along + beside, aside, bool(upwards > LEVEL))
-        for label, height, upwards in (
-            ("TDC", heights.max(), along[1]),
-            ("BDC", heights.min(), -along[1]),
-        )
-    ]
 
+    def __init__(self, mechanism: Mechanism) -> None:
+        self._mechanism = mechanism
+        self.shapes = shapes_of(mechanism)
+        motion = mechanism.motion(REVOLUTION, 1.0)
+        self.swept = {
+            name: np.vstack([shape.outline_at(pose) for pose in motion[name].position])
+            for name, shape in self.shapes.items()
+        }
+        corners = np.vstack(list(self.swept.values()))
+        self.low, self.high = corners.min(axis=0), corners.max(axis=0)
+        self.unit = float((self.high - self.low).max())
 
-def moved(points: Array, pose: Array) -> Array:
-    """Return points (n, 2) of a body at a pose (x, y, angle)."""
-    c, s = np.cos(pose[2]), np.sin(pose[2])
-    return np.asarray(points @ np.array([[c, s], [-s, c]]) + pose[:2])
+    def layer(self, body: str) -> int:
+        """Return a body's layer: the slider, other blocks, links, and the crank in front."""
+        if body == self._mechanism.slider:
+            return -1
+        return {"block": 0, "crank": 2}.get(self.shapes[body].role, 1)
+
+    def rails(self) -> list[Array]:
+        """Return the corners (4, 2) of the rails on both sides of every guided body."""
+        return [
+            corners
+            for guide in self._mechanism.guides
+            for corners in rail_corners(guide, self.swept[guide.body], self.unit)
+        ]
+
+    def dead_centres(self) -> list[Mark]:
+        """Return the marks of the slider's ideal dead centres, none where it has none."""
+        mechanism = self._mechanism
+        if mechanism.dead_centres is None:
+            return []
+        motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 721), 1.0)[mechanism.slider]
+        outline, along = self.swept[mechanism.slider], np.array(mechanism.output.direction)
+        sideways = np.array([-along[1], along[0]])
+        if sideways @ (1.0, LEVEL) > 0.0:
+            sideways = -sideways
+        heights = motion.position[:, :2] @ along
+        edge = (outline @ along).max() - heights.max()
+        side = (outline @ sideways).max() * sideways
+        return [
+            Mark(label, (height + edge) * along + side, sideways, bool(upwards > LEVEL))
+            for label, height, upwards in (
+                ("TDC", heights.max(), along[1]),
+                ("BDC", heights.min(), -along[1]),
+            )
+        ]
 
 
 def _role(mechanism: Mechanism, body: str) -> str:
@@ -181,8 +213,8 @@ def _role(mechanism: Mechanism, body: str) -> str:
 
 
 def _block(points: Array, margin: float) -> Array:
-    (left, low), (right, high) = points.min(axis=0) - margin, points.max(axis=0) + margin
-    return np.array([[left, low], [right, low], [right, high], [left, high]])
+    (x_min, y_min), (x_max, y_max) = points.min(axis=0) - margin, points.max(axis=0) + margin
+    return np.array([[x_min, y_min], [x_max, y_min], [x_max, y_max], [x_min, y_max]])
 
 
 def _link(points: Array, half_width: float) -> Array:

@@ -10,7 +10,7 @@ from exu_press.numerics.arrays import Array
 __all__ = ["DeadCentre", "Stroke", "stroke_of"]
 
 STEPS = 1440
-"""Crank angles of a revolution between which dead centres are looked for."""
+"""Crank angles of a revolution; dead centres are searched between two of them."""
 
 REST = 1e-9
 """Velocity, relative to its peak, below which the output stands still."""
@@ -18,7 +18,7 @@ REST = 1e-9
 
 @dataclass(frozen=True)
 class DeadCentre:
-    """A position in which the output turns back.
+    """A position in which the output reverses.
 
     Attributes:
         angle: of the crank from the drawing, rad, to rounding.
@@ -75,26 +75,26 @@ def stroke_of(mechanism: Mechanism, angle: Array) -> Stroke:
 
 
 def _dead_centres(mechanism: Mechanism) -> tuple[DeadCentre, ...]:
-    """Return where the velocity changes its sign, by bisection from the angles between."""
+    """Return the sign changes of the output's velocity, by bisection."""
     angle = (np.arange(STEPS + 1) - 0.5) * 2.0 * np.pi / STEPS
     _, velocity, _ = mechanism.ideal_slider(angle, 1.0)
-    moves = np.flatnonzero(np.abs(velocity) > REST * np.abs(velocity).max())
-    if not len(moves):
+    moving = np.flatnonzero(np.abs(velocity) > REST * np.abs(velocity).max())
+    if not len(moving):
         return ()
-    signs = np.sign(velocity[moves])
-    before = np.flatnonzero(signs[1:] != signs[:-1])
-    low, high, sign = angle[moves[before]], angle[moves[before + 1]], signs[before]
+    signs = np.sign(velocity[moving])
+    change = np.flatnonzero(signs[1:] != signs[:-1])
+    low, high, sign = angle[moving[change]], angle[moving[change + 1]], signs[change]
     for _ in range(50):
         middle = 0.5 * (low + high)
         same = np.sign(mechanism.ideal_slider(middle, 1.0)[1]) == sign
         low, high = np.where(same, middle, low), np.where(same, high, middle)
-    found = 0.5 * (low + high)
-    found = np.where(np.abs(np.sin(0.5 * found)) < 1e-12, 0.0, found % (2.0 * np.pi))
-    if not len(found):
+    roots = 0.5 * (low + high)
+    roots = np.where(np.abs(np.sin(0.5 * roots)) < 1e-12, 0.0, roots % (2.0 * np.pi))
+    if not len(roots):
         return ()
-    position = mechanism.ideal_slider(found, 1.0)[0]
+    position = mechanism.ideal_slider(roots, 1.0)[0]
     centres = [
         DeadCentre(float(a), float(p), bool(up > 0.0))
-        for a, p, up in zip(found, position, sign, strict=True)
+        for a, p, up in zip(roots, position, sign, strict=True)
     ]
     return tuple(sorted(centres, key=lambda centre: centre.angle))

@@ -1,9 +1,9 @@
 """Transmission angles of a mechanism's dyads over the crank angle.
 
-A dyad is two bodies that are found together: two links (RRR), or a link and a body on a guide
+A dyad is a group of two bodies: two links (RRR), or a link and a body on a guide
 (RRP). The transmission angle of the former is the acute angle between the two links, that of the
 latter the acute angle between the link and the normal of the guide [1]_. A link drives its body
-best at 90 deg; at 0 deg the dyad locks. 40 to 50 deg is the least that textbooks recommend.
+best at 90 deg; at 0 deg the dyad locks. Textbooks recommend 40 to 50 deg at least.
 
 References
 ----------
@@ -20,13 +20,13 @@ from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Joint
 from exu_press.numerics.arrays import Array
 
-__all__ = ["alike", "transmission_angles"]
+__all__ = ["group_equal_angles", "transmission_angles"]
 
 
 def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
     """Return transmission angles (n,), rad, by the name of the joint inside each dyad.
 
-    Bodies that close together in larger groups have none.
+    Groups of more than two bodies have none.
 
     Args:
         mechanism: with one degree of freedom.
@@ -40,7 +40,7 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
 
     def path(joint: Joint) -> Array:
         (body, point), _ = sorted(mechanism.ends(joint), key=lambda end: end[0] == GROUND)
-        return motion[body].at(point).position[:, :2]
+        return motion[body].point_motion(point).position[:, :2]
 
     transmission: dict[str, Array] = {}
     for group in groups_of(mechanism.constraints, mechanism.crank):
@@ -50,31 +50,32 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
         joints = {body: mechanism.joints_of(body) for body in dyad}
         inner = [joint for joint in joints[dyad[0]] if joint in joints[dyad[1]]]
         outer = [
-            [j for j in joints[body] if {j.journal, j.bearing} & group.before]
+            [j for j in joints[body] if {j.journal, j.bearing} & group.predecessors]
             for body in dyad
             if body not in guides
         ]
         if len(inner) != 1 or not outer or any(len(ends) != 1 for ends in outer):
             continue
-        at = path(inner[0])
-        lines = [path(ends[0]) - at for ends in outer]
+        centre = path(inner[0])
+        lines = [path(ends[0]) - centre for ends in outer]
         if len(lines) == 1:
             guided = next(body for body in dyad if body in guides)
-            lines.append(np.broadcast_to(np.array(guides[guided].across), at.shape))
+            lines.append(np.broadcast_to(np.array(guides[guided].normal), centre.shape))
         across = np.abs(lines[0][:, 0] * lines[1][:, 1] - lines[0][:, 1] * lines[1][:, 0])
         along = np.abs((lines[0] * lines[1]).sum(axis=1))
         transmission[inner[0].name] = np.arctan2(across, along)
     return transmission
 
 
-def alike(transmission: Mapping[str, Array]) -> list[tuple[str, Array]]:
-    """Return transmission angles, the smallest first, joints with the same one together."""
-    found: list[tuple[list[str], Array]] = []
+def group_equal_angles(transmission: Mapping[str, Array]) -> list[tuple[str, Array]]:
+    """Return (names of joints, transmission angles), equal ones together, the smallest first."""
+    groups: list[tuple[list[str], Array]] = []
     for name, values in transmission.items():
-        same = next((names for names, other in found if np.allclose(values, other)), None)
-        if same is None:
-            found.append(([name], values))
+        for names, angles in groups:
+            if np.allclose(angles, values):
+                names.append(name)
+                break
         else:
-            same.append(name)
-    found.sort(key=lambda each: float(each[1].min()))
-    return [(", ".join(names), values) for names, values in found]
+            groups.append(([name], values))
+    groups.sort(key=lambda group: float(group[1].min()))
+    return [(", ".join(names), angles) for names, angles in groups]

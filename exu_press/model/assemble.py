@@ -79,10 +79,10 @@ def _assembled(
     system: System, start: Mapping[str, Motion], frames: Mapping[str, "FrameStart"]
 ) -> Model:
     """Return a system with everything in it that its scene asks for."""
-    mechanism, holding, joints = system.mechanism, system.holding, system.scene.joints
+    mechanism, constraints, joints = system.mechanism, system.constraints, system.scene.joints
     add_bodies(system, {**system.ideal, **start}, frames)
     clearance = _clearance_joints(system) if joints.with_clearance else {}
-    held = {*holding.joints, *holding.single_axis}
+    held = {*constraints.joints, *constraints.single_axis}
     ideal = {
         joint.name: add_ideal_joint(system, joint)
         for joint in mechanism.joints
@@ -93,7 +93,7 @@ def _assembled(
     guides = {
         guide.body: add_guide(system, guide)
         for guide in mechanism.guides
-        if guide.body not in holding.sliding
+        if guide.body not in constraints.sliding_bodies
     }
     guideways = _guideways(system)
     friction = _guide_friction(system, guides)
@@ -120,7 +120,7 @@ def _assembled(
     return Model(
         scene=system.scene,
         mechanism=mechanism,
-        holding=holding,
+        constraints=constraints,
         SC=system.SC,
         mbs=system.mbs,
         bodies=system.bodies,

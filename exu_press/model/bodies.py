@@ -40,16 +40,16 @@ def add_bodies(
 
 def _add_rigid_body(system: System, body: Body, start: Motion) -> None:
     """Add a rigid body with the coordinates that its ideal joints leave it."""
-    pivot = system.holding.pivoted.get(body.name)
+    pivot = system.constraints.pivots.get(body.name)
     relaxed = system.ideal[body.name].position[0]
     if pivot is not None:
         point = body.local(pivot.at)
         added: RigidBody = PivotedBody(system.mbs, body, start, pivot.at, point, relaxed)
-    elif body.name in system.holding.sliding:
+    elif body.name in system.constraints.sliding_bodies:
         guide = next(guide for guide in system.mechanism.guides if guide.body == body.name)
         added = SlidingBody(system.mbs, body, start, guide.direction, relaxed)
     else:
-        if system.holding.guides.get(body.name, (False, False))[1]:
+        if system.constraints.guides.get(body.name, (False, False))[1]:
             start = _upright(start, float(relaxed[2]))
         added = RigidBody(system.mbs, body, start, relaxed)
     system.take_in(body.name, added)
@@ -75,7 +75,7 @@ def _add_flexible_body(
     begin = deformed or undeformed(part.frame(start))
     for guide in system.mechanism.guides:
         if guide.body == name:
-            held = system.holding.guides[name]
+            held = system.constraints.guides[name]
             begin = fitted_to_guide(begin, part, guide, held, system.ideal[name].position[0])
     body = add_part(
         system.mbs,

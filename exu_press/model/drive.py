@@ -90,7 +90,7 @@ def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[st
         if name == system.mechanism.crank:
             _add_disc(system, start.get(DRIVE))
             hold_driven(mbs, system.bodies[DRIVE], body, part)
-        pivot = system.holding.pivoted.get(name)
+        pivot = system.constraints.pivots.get(name)
         hold_upright(mbs, system.still, body, part, pivot)
         if pivot is not None:
             held |= hold_pivot(mbs, system.ground, body, part, pivot)
@@ -100,7 +100,7 @@ def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[st
 def _add_disc(system: System, start: Motion | None) -> None:
     """Add the disc that turns a flexible crank, on the shaft's axis unless that has moved."""
     crank = system.mechanism.body(system.mechanism.crank)
-    relaxed = system.ideal[crank.name].at(crank.local(system.mechanism.shaft.at))
+    relaxed = system.ideal[crank.name].point_motion(crank.local(system.mechanism.shaft.at))
     motor = system.scene.drive
     inertia = 1.0 if motor is None else motor.on_crank
     disc = Body(DRIVE, DISC_MASS, inertia)

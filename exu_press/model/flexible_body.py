@@ -308,7 +308,7 @@ def fitted_to_guide(
         omega[2] = -float(bent @ start.modes_t)
     position, velocity = start.position, start.velocity
     if held[0]:
-        across = np.array([*guide.across, 0.0])
+        across = np.array([*guide.normal, 0.0])
         arm = rotation @ (place + modes @ start.modes)
         rate = velocity + np.cross(omega, arm) + rotation @ (modes @ start.modes_t)
         position = position - across * (across @ (position + arm - [pose[0], pose[1], 0.0]))

@@ -11,7 +11,7 @@ from exudyn import graphics
 
 from exu_press.mechanism import GROUND, Mechanism, Point
 from exu_press.mechanism.parts import DRIVE
-from exu_press.mechanism.shapes import Shape, shapes_of, swept, swept_outlines
+from exu_press.mechanism.shapes import FrontView, swept_points
 from exu_press.model import Model, build
 from exu_press.scene import Scene
 
@@ -34,10 +34,10 @@ def build_with_graphics(scene: Scene) -> Model:
 def add_graphics(model: Model) -> None:
     """Give every rigid body and the ground something to be seen by, and the viewer its sizes."""
     mechanism = model.mechanism
-    height = float(np.ptp(swept(mechanism)[:, 1]))
+    height = float(np.ptp(swept_points(mechanism)[:, 1]))
     thickness = THICKNESS * height
-    shapes, layers = shapes_of(mechanism), _layers(mechanism)
-    for name, shape in shapes.items():
+    view, layers = FrontView(mechanism), _layers(mechanism)
+    for name, shape in view.shapes.items():
         if name not in model.parts:
             outline = [model.rigid[name].drawn((x, y)) for x, y in shape.outline.tolist()]
             _show(model, name, [_solid(outline, shape.colour, layers[name] * thickness, thickness)])
@@ -48,7 +48,7 @@ def add_graphics(model: Model) -> None:
             [0.0, 0.0, height_there], [0.0, 0.0, thickness], 0.05 * height, DISC
         )
         _show(model, DRIVE, [disc])
-    _show(model, GROUND, _frame(mechanism, shapes, layers, thickness))
+    _show(model, GROUND, _frame(mechanism, view, layers, thickness))
     settings = model.SC.visualizationSettings
     hidden = (settings.nodes, settings.markers, settings.sensors, settings.loads)
     for items in (*hidden, settings.connectors):  # symbols larger than the parts they hold
@@ -87,15 +87,14 @@ def _layers(mechanism: Mechanism) -> dict[str, int]:
 
 
 def _frame(
-    mechanism: Mechanism, shapes: dict[str, Shape], layers: dict[str, int], thickness: float
+    mechanism: Mechanism, view: FrontView, layers: dict[str, int], thickness: float
 ) -> list[Any]:
     """Return the guides' rails beside their bodies, and the pivots' pins."""
-    everywhere = swept_outlines(mechanism, shapes)
     solids = []
     for guide in mechanism.guides:
-        (left, low), (right, high) = everywhere[guide.body].min(0), everywhere[guide.body].max(0)
-        width = 0.25 * thickness
-        for x in (left - width, right + width):
+        outline, width = view.swept[guide.body], 0.25 * thickness
+        (x_min, low), (x_max, high) = outline.min(axis=0), outline.max(axis=0)
+        for x in (x_min - width, x_max + width):
             centre = [x, 0.5 * (low + high), layers[guide.body] * thickness]
             size = [width, high - low, thickness]
             solids.append(graphics.Brick(centre, size, FRAME))

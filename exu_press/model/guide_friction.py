@@ -36,7 +36,7 @@ def add_guide_friction(system: System, guide: Guide, held: Mapping[str, int]) ->
     if guide.lateral is None:
         side = HeldSide(mbs, held["force"])
     else:
-        across, spring = np.array(guide.across), guide.lateral
+        across, spring = np.array(guide.normal), guide.lateral
         moved = float(across @ missed[:2])
         side = SpringSide(spring.stiffness, spring.damping, across @ rows[:2], moved)
     law = guide_friction_law(table, system.scene.friction)

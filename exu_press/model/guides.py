@@ -25,7 +25,7 @@ def add_guide(system: System, guide: Guide) -> dict[str, int]:
     """
     if guide.body in system.flexible:
         return _add_flexible_guide(system, guide)
-    holds_across, holds_angle = system.holding.guides[guide.body]
+    holds_across, holds_angle = system.constraints.guides[guide.body]
     added = {}
     if guide.lateral is not None:
         added["force"] = _lateral_spring(system, guide, guide.lateral)
@@ -49,9 +49,9 @@ def _add_flexible_guide(system: System, guide: Guide) -> dict[str, int]:
     values, rows = guided_motion(mbs, body, system.parts[guide.body])
     away = values - system.ideal[guide.body].position[0]
     away[2] = np.remainder(away[2] + np.pi, 2.0 * np.pi) - np.pi
-    held = dict(zip(("force", "moment"), system.holding.guides[guide.body], strict=True))
+    held = dict(zip(("force", "moment"), system.constraints.guides[guide.body], strict=True))
     springs = {"force": guide.lateral, "moment": guide.tilting}
-    directions = {"force": (*guide.across, 0.0), "moment": (0.0, 0.0, 1.0)}
+    directions = {"force": (*guide.normal, 0.0), "moment": (0.0, 0.0, 1.0)}
     nodes = [body.node_rigid, *([] if body.node_modes is None else [body.node_modes])]
     references = [np.array(mbs.GetNodeParameter(n, "referenceCoordinates")) for n in nodes]
     added = {}
@@ -96,8 +96,8 @@ def _hold_row(system: System, nodes: list[int], row: Array, frame: int, offset: 
 def _hold_across(system: System, guide: Guide) -> int:
     """Hold a body across its guide; linear in the coordinates, and exact."""
     rigid = system.rigid[guide.body]
-    offset = np.dot(system.mechanism.body(guide.body).centre_of_mass, guide.across)
-    by_name = dict(zip(("x", "y", "angle"), (*guide.across, 0.0), strict=True))
+    offset = np.dot(system.mechanism.body(guide.body).centre_of_mass, guide.normal)
+    by_name = dict(zip(("x", "y", "angle"), (*guide.normal, 0.0), strict=True))
     row = np.array([by_name[coordinate] for coordinate in rigid.coordinates])
     return _hold_row(system, [rigid.node], row, len(row), float(offset))
 
@@ -110,7 +110,7 @@ def _lateral_spring(system: System, guide: Guide, spring: Spring) -> int:
         markerNumbers=[system.mbs.AddMarker(marker), system.marker(guide.body, (0.0, 0.0))],
         stiffness=spring.stiffness,
         damping=spring.damping,
-        axisMarker0=[*guide.across, 0.0],
+        axisMarker0=[*guide.normal, 0.0],
     )
     number = int(system.mbs.AddObject(held))
     system.local_forces.add(number)

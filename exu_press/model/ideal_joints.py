@@ -13,7 +13,7 @@ from exudyn.rigidBodyUtilities import RotationMatrixZ
 
 from exu_press.errors import InputError
 from exu_press.mechanism import GROUND, Joint
-from exu_press.mechanism.holding import SingleAxis
+from exu_press.mechanism.independent_constraints import SingleAxis
 from exu_press.model.system import System
 
 __all__ = ["add_ideal_joint"]
@@ -21,7 +21,7 @@ __all__ = ["add_ideal_joint"]
 
 def add_ideal_joint(system: System, joint: Joint) -> int:
     """Add a revolute joint, or a constraint in the one direction that nothing else holds."""
-    half = system.holding.single_axis.get(joint.name)
+    half = system.constraints.single_axis.get(joint.name)
     if half is not None:
         return _hold_half(system, joint, half)
     markers = [system.joint_marker(joint, *end) for end in system.mechanism.ends(joint)]

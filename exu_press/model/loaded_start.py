@@ -144,7 +144,7 @@ class _Problem:
         )
         rows = self.constraints.rows
         self._loose_rows = np.concatenate([rows[f"joints.{joint.name}"] for joint in self.loose])
-        self._crank = self.constraints.angle(self.mechanism.crank)
+        self._crank = self.constraints.angle_row(self.mechanism.crank)
         self.angles = scene.start_angle + ANGLES
         self.ideal = self.mechanism.motion(self.angles, scene.start_speed)
         self.ideal_q = self.constraints.coordinates(self.ideal)
@@ -174,8 +174,8 @@ class _Problem:
         scene, speed = self.system.scene, self.system.scene.start_speed
         crank = self.angles, np.full(len(ANGLES), speed)
         slider = self.ideal[self.mechanism.slider]
-        height = self.mechanism.travel(slider.position) - self.mechanism.bottom
-        velocity = self.mechanism.along(slider.velocity)
+        height = self.mechanism.output_position(slider.position) - self.mechanism.bottom
+        velocity = self.mechanism.output_component(slider.velocity)
         found = np.zeros(len(self.scale))
         for k, body in enumerate(self.mechanism.bodies):
             moving, mass, inertia = self.ideal[body.name], body.mass, body.inertia
@@ -183,7 +183,7 @@ class _Problem:
             if body.name in self.system.parts:  # of the solid, not of its drawing
                 part = self.system.parts[body.name]
                 mass, inertia, centre = part.reduced.mass, part.inertia, part.centre_of_mass
-                moving = moving.at(centre)
+                moving = moving.point_motion(centre)
                 arm = moving.position[i, :2] - self.ideal[body.name].position[i, :2]
             a = moving.acceleration[i]
             fx, fy = mass * a[0], mass * (a[1] + scene.gravity)

@@ -96,13 +96,15 @@ class Model(Assembled):
         soonest = min(corners, default=math.inf)
         if self.start_stop is not None:
             soonest = min(soonest, self.start_stop.next_corner(time))
-        if self._sampled is None:
+        if self._section is None:
             return soonest
         speed, (ahead,) = self.scene.angular_speed, self.ahead
-        return min(soonest, (self._sampled.after(speed * time + ahead, CLOSE) - ahead) / speed)
+        return min(
+            soonest, (self._section.next_sample(speed * time + ahead, CLOSE) - ahead) / speed
+        )
 
     @cached_property
-    def _sampled(self) -> "Section | None":
+    def _section(self) -> "Section | None":
         output = self.scene.output
         if output is None or not output.samples or self.scene.drive is not None:
             return None
@@ -122,7 +124,7 @@ class Model(Assembled):
         from exu_press.mechanism.section import Section
 
         section = Section(angles, self.scene.start_angle)
-        return lambda mbs, time: section.side(self.crank_angle()[0])
+        return lambda mbs, time: section.event_function(self.crank_angle()[0])
 
     def crank_at_start(self) -> float:
         """Return the crank's angle in the initial state, rad, which becomes the current one."""

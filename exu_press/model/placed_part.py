@@ -100,11 +100,11 @@ class PlacedPart:
     def frame(self, body: Motion) -> Motion:
         """Return the motion of the solid's frame from that of the body's."""
         x, y = _turned(self.centre, -self.angle)
-        return _turned_by(body.at((-x, -y)), -self.angle)
+        return _turned_by(body.point_motion((-x, -y)), -self.angle)
 
     def body(self, frame: Motion) -> Motion:
         """Return the motion of the body's frame from that of the solid's."""
-        return _turned_by(frame.at(self.centre), self.angle)
+        return _turned_by(frame.point_motion(self.centre), self.angle)
 
     @property
     def centre_of_mass(self) -> Point:
@@ -170,7 +170,7 @@ def _placed(
     )
     fitted = named and table.origin is None and table.angle_deg is None
     origin, turn = table.origin or (0.0, 0.0), radians(table.angle_deg or 0.0)
-    across = (1.0, 0.0) if guide is None else _turned(guide.across, -turn)
+    across = (1.0, 0.0) if guide is None else _turned(guide.normal, -turn)
     part, carriers = _part(table, body, faces, drive, patches, joints, origin, turn, across)
     reduction = Reduction(
         table.modes, table.method, flexibility_error=table.flexibility_error, loads=IN_THE_PLANE

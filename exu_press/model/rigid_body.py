@@ -187,4 +187,4 @@ class PivotedBody(_OneCoordinate):
         place += [*self._pivot, self.reference[2]]
         for columns, part in zip((place, *rates), (q, q_t, q_tt), strict=True):
             columns[:, 2] += part[:, 0]
-        return Motion(place, *rates).at(self.local((0.0, 0.0)))
+        return Motion(place, *rates).point_motion(self.local((0.0, 0.0)))

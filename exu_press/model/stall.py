@@ -97,9 +97,9 @@ def holding_torque(
     torque = 0.0
     for body in mechanism.bodies:
         torque += body.mass * scene.gravity * float(per_angle[body.name].velocity[0, 1])
-    closes = float(mechanism.along(per_angle[mechanism.slider].velocity)[0]) < 0.0
+    closes = float(mechanism.output_component(per_angle[mechanism.slider].velocity)[0]) < 0.0
     for name, load in applied_loads(scene).items():
         if load.fade is None or closes:
-            moved = per_angle[load.body].at(load.point).velocity[0, :2]
+            moved = per_angle[load.body].point_motion(load.point).velocity[0, :2]
             torque -= forces[name] * float(moved @ np.array(load.direction))
     return torque

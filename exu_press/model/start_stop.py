@@ -216,7 +216,7 @@ def add_flywheel(system: System) -> None:
     assert motor is not None
     mechanism = system.mechanism
     at = mechanism.shaft.at
-    start = system.ideal[mechanism.crank].at(mechanism.body(mechanism.crank).local(at))
+    start = system.ideal[mechanism.crank].point_motion(mechanism.body(mechanism.crank).local(at))
     speed = 0.0 if motor.begins == "rest" else scene.angular_speed
     start.velocity[:] = 0.0, 0.0, speed
     wheel = Body(FLYWHEEL, 1.0, motor.inertia)  # its weight is borne by the frame

@@ -16,7 +16,10 @@ from exudyn.itemInterface import (
 )
 
 from exu_press.mechanism import GROUND, Joint, Mechanism, Point, Spring
-from exu_press.mechanism.holding import by_constraints, holding_of
+from exu_press.mechanism.independent_constraints import (
+    independent_constraints,
+    with_all_coordinates,
+)
 from exu_press.model.rigid_body import RigidBody
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
@@ -35,7 +38,7 @@ class System:
         scene: of the system.
         parts: name -> flexible body's part; empty for rigid bodies.
         mechanism: bodies, joints and guides.
-        holding: constraints of ideal joints and guides.
+        constraints: independent ones of ideal joints and guides.
         ideal: name -> motion of the ideal mechanism at the start.
         loads: name -> load.
         clocks: of pulses and sheets, each with the reader of its state, told at the end of
@@ -66,8 +69,8 @@ class System:
         guided = frozenset(guide.body for guide in self.mechanism.guides)
         if scene.guide is None or not scene.guide.rubs:
             guided &= scene.bodies.keys()
-        self.holding = by_constraints(
-            holding_of(self.mechanism, scene.joints.ideal),
+        self.constraints = with_all_coordinates(
+            independent_constraints(self.mechanism, scene.joints.ideal),
             _beside_flexible(scene, self.mechanism) | guided,
         )
         self.ideal = self.mechanism.motion(np.array([scene.start_angle]), scene.start_speed)

@@ -3,8 +3,8 @@
 from typing import Any
 
 from exu_press.mechanism import Mechanism
-from exu_press.mechanism.front import Front
 from exu_press.mechanism.parts import GROUND
+from exu_press.mechanism.shapes import FrontView
 from exu_press.numerics.arrays import Array
 from exu_press.plots.busiest import busiest
 from exu_press.plots.words import joint_in_words
@@ -20,7 +20,7 @@ MAGNIFIED = 2
 def scenery(result: Result) -> dict[str, Any]:
     """Return everything that is drawn of a run's mechanism, lengths in m, poses aside."""
     mechanism = mechanism_of(result.scene)
-    front = Front(mechanism)
+    front = FrontView(mechanism)
     bodies = [
         {
             "name": name,
@@ -43,9 +43,9 @@ def scenery(result: Result) -> dict[str, Any]:
         "ends": [
             {
                 "label": mark.label,
-                "at": [*map(float, mark.place)],
-                "aside": [*map(float, mark.aside)],
-                "above": mark.above,
+                "at": [*map(float, mark.position)],
+                "aside": [*map(float, mark.direction)],
+                "above": mark.is_above,
             }
             for mark in front.dead_centres()
         ],

@@ -13,7 +13,7 @@ from exu_press.mechanism import Mechanism
 from exu_press.mechanism.examine import Examination
 from exu_press.mechanism.parts import GROUND
 from exu_press.mechanism.shapes import shapes_of
-from exu_press.mechanism.transmission import alike
+from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
 from exu_press.plots.style import GREY, RUN, colour_of, with_style
@@ -69,24 +69,24 @@ def _draw(axes: Axes, examined: Examination) -> None:
     mechanism = examined.mechanism
     drawn = {b.name: np.array([*b.centre_of_mass, b.angle]) for b in mechanism.bodies}
     shapes = shapes_of(mechanism, mechanism.size)
-    refusal = examined.refusal
+    error = examined.error
     axes.set_aspect("equal", adjustable="box", anchor="C")
     if examined.stroke is not None:
         _draw_paths(axes, examined)
     for body in sorted(mechanism.bodies, key=lambda body: shapes[body.name].role != "block"):
         wrong = body.name in examined.wrong_bodies
         patch = Polygon(
-            shapes[body.name].moved(drawn[body.name]),
+            shapes[body.name].outline_at(drawn[body.name]),
             facecolor=shapes[body.name].colour,
             edgecolor=WRONG if wrong else EDGE,
             linewidth=2.0 if wrong else 0.9,
             alpha=0.85,
         )
         axes.add_patch(patch)
-    if refusal is not None and refusal.angle and refusal.poses:
-        for name, pose in refusal.poses.items():
+    if error is not None and error.angle and error.poses:
+        for name, pose in error.poses.items():
             colour = WRONG if name in examined.wrong_bodies else GREY
-            outline = shapes[name].moved(pose)
+            outline = shapes[name].outline_at(pose)
             axes.add_patch(Polygon(outline, fill=False, edgecolor=colour, linestyle="--"))
     axes.set_title(_complaints(examined), color=WRONG, fontsize=9.5, fontweight="normal")
     for joint in mechanism.joints:
@@ -107,9 +107,9 @@ def _draw(axes: Axes, examined: Examination) -> None:
 
 
 def _complaints(examined: Examination) -> str:
-    texts = [*examined.complaints]
-    if examined.refusal is not None and examined.refusal.angle and examined.refusal.poses:
-        texts.append(f"dashed: at crank angle {np.degrees(examined.refusal.angle):.4g} deg")
+    texts = [*examined.faults]
+    if examined.error is not None and examined.error.angle and examined.error.poses:
+        texts.append(f"dashed: at crank angle {np.degrees(examined.error.angle):.4g} deg")
     return plain("\n".join(line for text in texts for line in textwrap.wrap(text, 150)))
 
 
@@ -120,13 +120,13 @@ def _draw_paths(axes: Axes, examined: Examination) -> None:
     motion = mechanism.motion(np.append(stroke.angle, stroke.angle[:1]), 1.0)
     for joint in mechanism.joints:
         (body, point), _ = sorted(mechanism.ends(joint), key=lambda end: end[0] == GROUND)
-        path = motion[body].at(point).position
+        path = motion[body].point_motion(point).position
         axes.plot(*path[:, :2].T, color="#B9C6D2", linewidth=0.9, zorder=0.7)
     shape = shapes_of(mechanism, mechanism.size)[mechanism.slider]
     angles = np.array([centre.angle for centre in stroke.dead_centres])
     if len(angles):
         for pose in mechanism.motion(angles, 1.0)[mechanism.slider].position:
-            outline = Polygon(shape.moved(pose), fill=False, edgecolor=GREY, linestyle=":")
+            outline = Polygon(shape.outline_at(pose), fill=False, edgecolor=GREY, linestyle=":")
             axes.add_patch(outline)
 
 
@@ -205,7 +205,7 @@ def _curves(panels: Sequence[Axes], examined: Examination, speed: float | None) 
         advantage.set(yscale="log", ylim=(0.7 * least, HIGHEST * least))
         advantage.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
         advantage.yaxis.set_minor_formatter(NullFormatter())
-    curves = alike(examined.transmission)
+    curves = group_equal_angles(examined.transmission)
     for index, (name, values) in enumerate(curves[:MOST_TRANSMISSIONS]):
         degrees = np.degrees(values)
         transmission.plot(angle, degrees, color=colour_of(index), label=plain(shorten(name, SHORT)))

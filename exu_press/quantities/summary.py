@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.mechanism.holding import holding_of
+from exu_press.mechanism.independent_constraints import independent_constraints
 from exu_press.quantities.catalogue import quantities_of
 from exu_press.quantities.energy import energy_residual
 from exu_press.quantities.kind import COST
@@ -146,9 +146,9 @@ def _deep(name: str, joint: JointRecord, described: Joint) -> Iterator[str]:
 
 def _held_twice(scene: Scene) -> Iterator[str]:
     """Yield the ideal joints between which forces cannot be told apart."""
-    holding = holding_of(mechanism_of(scene), scene.joints.ideal)
-    if holding.twice:
-        names = ", ".join(name.replace("_", " ") for name in holding.redundant)
+    constraints = independent_constraints(mechanism_of(scene), scene.joints.ideal)
+    if constraints.keeps_redundant:
+        names = ", ".join(name.replace("_", " ") for name in constraints.redundant)
         yield (
             f"{names}: other ideal joints hold the same at most crank angles; the motion is right, "
             "but how joints divide the forces among them is not determined; give one of them "

@@ -50,12 +50,12 @@ def record(run: Recording) -> Record:
             found[:, column] = inertia - found[:, column] - weight
         return found
 
-    for name in sorted(model.holding.sliding):
-        across = held(name) @ np.array(guides[name].across)
+    for name in sorted(model.constraints.sliding_bodies):
+        across = held(name) @ np.array(guides[name].normal)
         angle = motions[name].position[:, 2]
         moment = -_moment(model, name, on_body[name], angle, channels, histories)
         found |= guide_channels(model.mechanism, name, {"force": across, "moment": moment})
-    for name, pivot in model.holding.pivoted.items():
+    for name, pivot in model.constraints.pivots.items():
         if name in model.rigid:
             force = held(name) * (1.0 if pivot.journal == name else -1.0)
             found |= FORCE.record(vectors(force, pivot.spherical), pivot.name)

@@ -42,7 +42,7 @@ def _frame_force(model: Model, channels: Mapping[str, Channel]) -> Array:
         if f"{name}_force" in channels:
             on_bodies += sign * channels[f"{name}_force"].values[:, :2]
     for guide in model.mechanism.guides:
-        for quantity, direction in (("force", guide.across), ("friction", guide.direction)):
+        for quantity, direction in (("force", guide.normal), ("friction", guide.direction)):
             force = channels.get(f"{guide_channel(model.mechanism, guide.body)}_{quantity}")
             if force is not None:
                 on_bodies += np.outer(force.values, direction)

@@ -45,6 +45,6 @@ def guide_channels(
     place, words = guide_channel(mechanism, body), f"{body.replace('_', ' ')} guide"
     channels: dict[str, Channel] = {}
     for quantity, history in values.items():
-        way = positive(guide.direction if quantity == "friction" else guide.across)
+        way = positive(guide.direction if quantity == "friction" else guide.normal)
         channels |= BY_QUANTITY[quantity].record(history, place, words=words, way=way)
     return channels

@@ -30,7 +30,7 @@ def _elastic(run: Recording) -> Record:
     channels: dict[str, Channel] = {}
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
     for guide in model.mechanism.guides:
-        springs = (guide.lateral, (*guide.across, 0.0)), (guide.tilting, (0.0, 0.0, 1.0))
+        springs = (guide.lateral, (*guide.normal, 0.0)), (guide.tilting, (0.0, 0.0, 1.0))
         if not any(spring for spring, _ in springs):
             continue
         lost = np.zeros_like(time)

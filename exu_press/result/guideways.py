@@ -53,12 +53,12 @@ def record(run: Recording) -> Record:
             lost += stored_and_lost(film, time)[1]
             channels |= guide_channels(model.mechanism, guide.body, {"gap": film.gap})
         all_lost += lost
-        across, along = force @ np.array(guide.across), force @ np.array(guide.direction)
+        across, along = force @ np.array(guide.normal), force @ np.array(guide.direction)
         held = {"force": across, "moment": moment, "friction": along, "loss": lost}
         channels |= guide_channels(model.mechanism, guide.body, held)
         if guide.body in wearing:
             both = [states[f"{guide.body} {n}"] for n in (0, 1)]
-            on_right = [np.sign(end.eccentricity[:, :2] @ np.array(guide.across)) for end in both]
+            on_right = [np.sign(end.eccentricity[:, :2] @ np.array(guide.normal)) for end in both]
             normal = [s * end.rubbing[:, 0] for s, end in zip(on_right, both, strict=True)]
             sliding = [end.rubbing[:, 1] for end in both]
             rubbed = {"normal_force": np.column_stack(normal), "sliding": np.column_stack(sliding)}

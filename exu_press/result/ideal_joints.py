@@ -33,7 +33,7 @@ def record(run: Recording) -> Record:
             body = name.removesuffix("_guide")
             channels |= guide_channels(model.mechanism, body, {quantity: -values[:, 0]})
         else:
-            if name in model.holding.single_axis and not _flexible(model, name):
+            if name in model.constraints.single_axis and not _flexible(model, name):
                 values = _single_axis(model, run.motions, name, values[:, 0])
             channels |= FORCE.record(vectors(values[:, :2], name in spherical), name)
     return Record(channels | _of_several_faces(channels, model))
@@ -62,7 +62,7 @@ def _flexible(model: Model, joint: str) -> bool:
 
 def _single_axis(model: Model, motions: Mapping[str, Motion], joint: str, force: Array) -> Array:
     """Return the force on the journal, (n, 2), N, of a joint that holds one direction."""
-    held = model.holding.single_axis[joint]
+    held = model.constraints.single_axis[joint]
     described = next(one for one in model.mechanism.joints if one.name == joint)
     turned = 0.0 if held.body == GROUND else motions[held.body].position[:, 2]
     angle = held.angle + turned * np.ones_like(force)

@@ -44,7 +44,7 @@ def record(run: Recording) -> Record:
             part = model.parts[load.body]
             velocity = carried_motion(model, load.body, part.loads[name], load.point)[1]
         else:
-            velocity = run.motions[load.body].at(load.point).velocity
+            velocity = run.motions[load.body].point_motion(load.point).velocity
         done = work(time, force, velocity[:, :2] @ np.array(load.direction))
         all_work += done
         words = f"{name} on the {load.body.replace('_', ' ')}"

@@ -65,7 +65,7 @@ def samples_of(scene: Scene, channels: Mapping[str, Channel]) -> Samples:
     if scene.drive is None:
         time = channels["time"].values
         turned = turned[0] + scene.angular_speed * (time - time[0])
-    wanted, number = scene.output.section(scene.start_angle).up_to(float(turned.max()) + NEAR)
+    wanted, number = scene.output.section(scene.start_angle).samples(float(turned.max()) + NEAR)
     rows = np.searchsorted(turned, wanted)
     before, after = np.maximum(rows - 1, 0), np.minimum(rows, len(turned) - 1)
     nearer = np.abs(turned[before] - wanted) < np.abs(turned[after] - wanted)

@@ -41,16 +41,16 @@ def record(run: Recording) -> Record:
     """Return the motion of crank, slider and bodies, and the mechanical energy of rigid bodies."""
     mechanism = run.model.mechanism
     slider, crank = run.motions[mechanism.slider], run.motions[mechanism.crank]
-    up, beside = positive(mechanism.output.direction), positive(mechanism.output.across)
+    up, beside = positive(mechanism.output.direction), positive(mechanism.output.normal)
     tilt = slider.position[:, 2] - mechanism.body(mechanism.slider).angle
     rigid = [body for body in mechanism.bodies if body.name not in run.model.parts]
     return Record(
         channels=TIME.record(run.time)
         | CRANK_ANGLE.record(crank.position[:, 2] - mechanism.body(mechanism.crank).angle)
-        | POSITION.record(mechanism.travel(slider.position), way=up)
-        | VELOCITY.record(mechanism.along(slider.velocity), way=up)
-        | ACCELERATION.record(mechanism.along(slider.acceleration), way=up)
-        | LATERAL.record(mechanism.beside(slider.position), way=beside)
+        | POSITION.record(mechanism.output_position(slider.position), way=up)
+        | VELOCITY.record(mechanism.output_component(slider.velocity), way=up)
+        | ACCELERATION.record(mechanism.output_component(slider.acceleration), way=up)
+        | LATERAL.record(mechanism.lateral_displacement(slider.position), way=beside)
         | TILT.record(tilt)
         | POSES.record(_poses(run.motions)),
         stored=mechanical_energy(rigid, run.motions, run.model.scene.gravity),

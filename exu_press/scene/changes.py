@@ -7,9 +7,9 @@ from exu_press.errors import InputError, prefixed
 from exu_press.mechanism import (
     SHIPPED,
     Mechanism,
+    change_mechanism,
     load_mechanism,
-    mechanism_changed,
-    mechanism_from,
+    mechanism_from_dict,
     mechanism_to_dict,
     shipped_mechanism,
 )
@@ -47,7 +47,7 @@ def changed_keys(
     if drawing := inner.pop("mechanism", None):
         drawn = _drawn(data["mechanism"], drawing)
         with prefixed("mechanism."):
-            data["mechanism"] = mechanism_changed(drawn, drawing)
+            data["mechanism"] = change_mechanism(drawn, drawing)
     for table, keys in inner.items():
         before = data.get(table, {})
         if table not in TABLES or not isinstance(before, Mapping):
@@ -75,7 +75,7 @@ def asked_mechanism(mechanism: Any) -> Any:
     """Return a mechanism that is given as data or as the path of a file; others as they are."""
     if isinstance(mechanism, Mapping):
         with prefixed("mechanism."):
-            return mechanism_from(mechanism)
+            return mechanism_from_dict(mechanism)
     if isinstance(mechanism, str) and mechanism.lower().endswith(".toml"):
         return load_mechanism(mechanism)
     return mechanism

@@ -512,9 +512,9 @@ def _require_turning(mechanism: Mechanism) -> None:
     try:
         mechanism.require_turning()
     except MotionError as refusal:
-        from exu_press.mechanism.examine import complete_refusal
+        from exu_press.mechanism.examine import explain_motion_error
 
-        raise complete_refusal(mechanism, refusal) from None
+        raise explain_motion_error(mechanism, refusal) from None
 
 
 type.__setattr__(Scene, "load", staticmethod(_load))  # of a scene `load` has its [load] tables

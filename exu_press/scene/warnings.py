@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from exu_press.laws.catalogue import FILM_LAWS
-from exu_press.mechanism.doubtful import doubtful_drawing
+from exu_press.mechanism.drawing_warnings import drawing_warnings
 from exu_press.scene.applied import applied_loads
 from exu_press.scene.custom import CustomJoint
 from exu_press.scene.joint import LubricatedJoint
@@ -68,7 +68,7 @@ def _drawing(scene: Scene) -> Iterator[str]:
     mechanism = mechanism_of(scene)
     size = mechanism.size
     position = mechanism.ideal_slider(np.linspace(0.0, 2.0 * math.pi, 181), 1.0)[0]
-    yield from doubtful_drawing(mechanism, float(np.ptp(position)))
+    yield from drawing_warnings(mechanism, float(np.ptp(position)))
     for name, joint in scene.joints.grouped.items():
         if not isinstance(joint, CustomJoint) and joint.radius > size:
             yield (
@@ -209,10 +209,12 @@ def _brake(scene: Scene) -> Iterator[str]:
     wanted = np.zeros_like(angle)
     for body in mechanism.bodies:
         wanted += body.mass * scene.gravity * moving[body.name].velocity[:, 1]
-    height = mechanism.travel(moving[mechanism.slider].position) - mechanism.bottom
+    height = mechanism.output_position(moving[mechanism.slider].position) - mechanism.bottom
     for load in applied_loads(scene).values():
         if load.over == "height" and load.fade is None:
-            along = moving[load.body].at(load.point).velocity[:, :2] @ np.array(load.direction)
+            along = moving[load.body].point_motion(load.point).velocity[:, :2] @ np.array(
+                load.direction
+            )
             wanted -= np.array([load.curve(place) for place in height.tolist()]) * along
     worst = int(np.argmax(np.abs(wanted)))
     if abs(wanted[worst]) > motor.brake_torque:

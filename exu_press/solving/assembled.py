@@ -9,7 +9,7 @@ import exudyn as exu
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.joints.states import States
 from exu_press.mechanism import Mechanism
-from exu_press.mechanism.holding import Holding
+from exu_press.mechanism.independent_constraints import IndependentConstraints
 from exu_press.scene import Scene
 
 __all__ = ["Assembled"]
@@ -22,7 +22,7 @@ class Assembled(ABC):
     Attributes:
         scene: of the model.
         mechanism: bodies, joints and guides.
-        holding: constraints of ideal joints and guides.
+        constraints: independent ones of ideal joints and guides.
         mbs: Exudyn's main system, assembled.
         nodes: name -> node number.
         clearance_joints: name -> joint.
@@ -36,7 +36,7 @@ class Assembled(ABC):
 
     scene: Scene
     mechanism: Mechanism
-    holding: Holding
+    constraints: IndependentConstraints
     mbs: exu.MainSystem
     nodes: dict[str, int]
     clearance_joints: dict[str, ClearanceJoint]

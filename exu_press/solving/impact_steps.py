@@ -27,7 +27,7 @@ def impact_steps(model: Assembled) -> Iterator[float]:
     if not any(joint.contact_onset < math.inf for joint in model.clearance_joints.values()):
         return
     masses = {body.name: body.mass for body in model.mechanism.bodies} | {GROUND: math.inf}
-    if model.mechanism.crank in model.holding.pivoted:
+    if model.mechanism.crank in model.constraints.pivots:
         masses[model.mechanism.crank] = math.inf  # driven
     sensor = next(iter(model.sensors.values()))
     time = np.asarray(model.mbs.GetSensorStoredData(sensor))[:, 0]

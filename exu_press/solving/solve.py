@@ -37,7 +37,7 @@ def solve(model: Assembled, *, tuning: SolverTuning = DEFAULTS, quiet: bool = Tr
     solver = scene.solver
     assert solver is not None
     masses = {body.name: body.mass for body in model.mechanism.bodies}
-    settings = settings_for(scene, twice=model.holding.twice)
+    settings = settings_for(scene, keeps_redundant=model.constraints.keeps_redundant)
     settings.timeIntegration.startTime = model.begin
     settings.timeIntegration.endTime = model.begin + scene.duration
     if solver.tolerance is not None:
@@ -63,7 +63,7 @@ def solve(model: Assembled, *, tuning: SolverTuning = DEFAULTS, quiet: bool = Tr
     return outcome
 
 
-def settings_for(scene: Scene, *, twice: bool = False) -> exu.SimulationSettings:
+def settings_for(scene: Scene, *, keeps_redundant: bool = False) -> exu.SimulationSettings:
     """Return Exudyn's settings of a scene, for constraints some of which may be redundant.
 
     A fixed step is the largest one not above `solver.step` that divides the run's duration.
@@ -82,7 +82,7 @@ def settings_for(scene: Scene, *, twice: bool = False) -> exu.SimulationSettings
     integration.generalizedAlpha.spectralRadius = solver.spectral_radius
     # For the 20 to 160 unknowns here no slower than the sparse one, and its matrix is read at once.
     settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
-    settings.linearSolver.ignoreSingularJacobian = twice
+    settings.linearSolver.ignoreSingularJacobian = keeps_redundant
     settings.solution.file.write = False
     settings.solution.sensors.writePeriod = 0.0  # every step
     return settings

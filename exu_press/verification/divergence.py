@@ -86,7 +86,7 @@ def _plays(run: Result) -> Iterator[tuple[float, Array]]:
     for guide in mechanism.guides:
         if guide.guideway is not None:
             position = run["body_position"][:, run.bodies.index(guide.body)]
-            beside = position[:, :2] @ np.array(guide.across)
+            beside = position[:, :2] @ np.array(guide.normal)
             angle = position[:, 2] - mechanism.body(guide.body).angle
             reach = 0.5 * guide.guideway.length * np.sin(angle)
             yield guide.guideway.clearance, np.stack([beside - reach, beside + reach], axis=1)

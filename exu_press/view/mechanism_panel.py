@@ -9,9 +9,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
 from exu_press.mechanism import Mechanism
-from exu_press.mechanism.front import Front
 from exu_press.mechanism.parts import Point
-from exu_press.mechanism.shapes import Mark, moved
+from exu_press.mechanism.shapes import FrontView, Mark, transform_points
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
 from exu_press.plots.style import COLOURS, GREY
@@ -46,14 +45,14 @@ class MechanismPanel:
     def __init__(self, axes: Axes, result: Result, instants: Instants) -> None:
         mechanism = mechanism_of(result.scene)
         self._poses = poses(result, mechanism, instants)
-        front = Front(mechanism)
+        front = FrontView(mechanism)
         ends = front.dead_centres()
         self._shapes, unit, low, high = front.shapes, front.unit, front.low, front.high
         _draw_frame(axes, mechanism, front)
         _draw_dead_centres(axes, ends, unit)
         lowest_x = float(low[0])
         if ends:
-            outline = front.everywhere[mechanism.slider]
+            outline = front.swept[mechanism.slider]
             lowest_x = min(lowest_x, float(outline[:, 0].min()) - 0.09 * unit)
         axes.set_aspect("equal", adjustable="box", anchor="W")
         axes.set_axis_off()
@@ -90,11 +89,14 @@ class MechanismPanel:
     def show(self, frame: int) -> None:
         """Bring every body to its pose."""
         for name, patch in self._bodies.items():
-            patch.set_xy(self._shapes[name].moved(self._poses[name][frame]))
+            patch.set_xy(self._shapes[name].outline_at(self._poses[name][frame]))
         for name, (line, (x, y)) in self._leaders.items():
             line.set_data(*np.array([self._poses[name][frame][:2], (x, y)]).T)
         places = np.array(
-            [moved(np.array([point]), self._poses[body][frame])[0] for body, point in self._joints]
+            [
+                transform_points(np.array([point]), self._poses[body][frame])[0]
+                for body, point in self._joints
+            ]
         )
         self._pins.set_data(*places[: self._split].T)
         self._marked.set_data(*places[self._split :].T)
@@ -115,7 +117,7 @@ def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str,
     return pose_of_body
 
 
-def _draw_frame(axes: Axes, mechanism: Mechanism, front: Front) -> None:
+def _draw_frame(axes: Axes, mechanism: Mechanism, front: FrontView) -> None:
     """Draw the guides beside their bodies, and the pivots in the frame."""
     for rail in front.rails():
         axes.add_patch(Polygon(rail, **FIXED))
@@ -127,10 +129,10 @@ def _draw_frame(axes: Axes, mechanism: Mechanism, front: Front) -> None:
 def _draw_dead_centres(axes: Axes, ends: Sequence[Mark], unit: float) -> None:
     """Mark the slider's leading edge with ideal joints in both dead centres."""
     for mark in ends:
-        line = mark.place + np.outer([0.01 * unit, 0.035 * unit], mark.aside)
+        line = mark.position + np.outer([0.01 * unit, 0.035 * unit], mark.direction)
         axes.plot(*line.T, color=GREY, linewidth=0.9)
-        x, y = line[1] + 0.006 * unit * mark.aside
-        side = "bottom" if mark.above else "top"
+        x, y = line[1] + 0.006 * unit * mark.direction
+        side = "bottom" if mark.is_above else "top"
         axes.text(x, y, mark.label, fontsize=7.5, color=GREY, va=side, ha="right")
 
 

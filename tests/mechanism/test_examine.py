@@ -14,7 +14,7 @@ from exu_press.mechanism.examine import examine
 
 def test_a_drawing_that_moves_has_no_complaints():
     found = examine(four_bar())
-    assert found.complaints == () == found.wrong_bodies == found.wrong_joints
+    assert found.faults == () == found.wrong_bodies == found.wrong_joints
     assert found.stroke is not None
 
 
@@ -26,10 +26,10 @@ def test_links_that_are_too_short_are_named_with_the_position_of_their_lock():
     assert set(found.wrong_bodies) == {"rod", "slider"}
     assert found.wrong_joints == ("rod_small_end",)
     lock = math.asin(0.15 / 0.2)
-    assert found.refusal.angle == pytest.approx(lock, abs=1e-5)
-    at = found.refusal.angle
+    assert found.error.angle == pytest.approx(lock, abs=1e-5)
+    at = found.error.angle
     pin = 0.2 * np.array([math.cos(at), math.sin(at)])
-    slider = found.refusal.poses["slider"]
+    slider = found.error.poses["slider"]
     assert math.dist(pin, slider[:2]) == pytest.approx(0.15, abs=1e-12)
 
 
@@ -39,7 +39,7 @@ def test_a_body_that_nothing_holds_is_named():
     said = (
         "2 degrees of freedom too many: with the crank held, rod, slider can still move, held by "
     )
-    assert found.complaints[1] == said + "joints.rod_big_end, joints.rod_small_end alone"
+    assert found.faults[1] == said + "joints.rod_big_end, joints.rod_small_end alone"
     with pytest.raises(InputError, match=said):
         Scene(mechanism=found.mechanism, joints={})
 
@@ -56,8 +56,8 @@ def test_a_misfit_says_in_a_run_what_it_says_in_a_drawing():
     )
     braced = replace(whole, bodies=(*whole.bodies, brace), joints=joints)
     found = examine(braced)
-    assert found.mobility.counted == 0
-    assert found.complaints[1].startswith("1 degree of freedom too few: the crank cannot turn")
+    assert found.mobility.gruebler_count == 0
+    assert found.faults[1].startswith("1 degree of freedom too few: the crank cannot turn")
     with pytest.raises(
         InputError, match=r"1 degree of freedom too few.*it could without one of .*joi"
     ):

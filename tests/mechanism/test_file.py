@@ -11,7 +11,7 @@ from exu_press.mechanism import (
     SHIPPED,
     Press,
     load_mechanism,
-    mechanism_from,
+    mechanism_from_dict,
     mechanism_lines,
     press,
     shipped_mechanism,
@@ -62,7 +62,7 @@ def changed(*changes):
 
 
 def test_a_file_is_read_as_drawn():
-    mechanism = mechanism_from(tomllib.loads(TEXT))
+    mechanism = mechanism_from_dict(tomllib.loads(TEXT))
     assert [body.name for body in mechanism.bodies] == ["crank", "rod", "slider"]
     assert [joint.spherical for joint in mechanism.joints] == [False, False, True]
     assert mechanism.output.direction == pytest.approx((0.6, 0.8))
@@ -72,19 +72,19 @@ def test_a_file_is_read_as_drawn():
 
 
 def test_a_body_without_inertia_is_a_rod_between_its_two_joints():
-    rod = mechanism_from(tomllib.loads(TEXT)).body("rod")
+    rod = mechanism_from_dict(tomllib.loads(TEXT)).body("rod")
     assert rod.inertia == pytest.approx(3.0 * (0.3**2 + 0.3**2) / 12)
 
 
 @pytest.mark.parametrize("name", SHIPPED)
 def test_a_mechanism_is_written_and_read_back_equal(name):
     drawn = shipped_mechanism(name)
-    assert mechanism_from(tomllib.loads("\n".join(mechanism_lines(drawn)))) == drawn
+    assert mechanism_from_dict(tomllib.loads("\n".join(mechanism_lines(drawn)))) == drawn
 
 
 def test_frames_that_are_turned_in_the_drawing_come_back_too():
     drawn = press(Press())
-    assert mechanism_from(tomllib.loads("\n".join(mechanism_lines(drawn)))) == drawn
+    assert mechanism_from_dict(tomllib.loads("\n".join(mechanism_lines(drawn)))) == drawn
 
 
 @pytest.mark.parametrize(
@@ -154,11 +154,11 @@ def test_frames_that_are_turned_in_the_drawing_come_back_too():
     ],
 )
 def test_what_is_wrong_is_named_in_one_line(changes, shown):
-    assert refused(mechanism_from, tomllib.loads(changed(*changes))).startswith(shown)
+    assert refused(mechanism_from_dict, tomllib.loads(changed(*changes))).startswith(shown)
 
 
 def test_dataclasses_of_ones_own_are_checked_too():
-    drawn = mechanism_from(tomllib.loads(TEXT))
+    drawn = mechanism_from_dict(tomllib.loads(TEXT))
     listed = replace(drawn, bodies=list(drawn.bodies), joints=list(drawn.joints))
     assert listed == drawn and hash(listed) == hash(drawn)
     for change, shown in (
@@ -176,7 +176,7 @@ def test_dataclasses_of_ones_own_are_checked_too():
 def test_a_body_on_nothing():
     more = "[bodies.idle]\ncentre_of_mass = [0.0, 0.0]\nmass = 1.0\ninertia = 1.0\n[groups]"
     assert (
-        refused(mechanism_from, tomllib.loads(changed(("[groups]", more))))
+        refused(mechanism_from_dict, tomllib.loads(changed(("[groups]", more))))
         == "bodies.idle: no joint and no guide holds it"
     )
 

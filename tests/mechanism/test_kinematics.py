@@ -34,7 +34,7 @@ def places(mechanism, motion, joint):
     return [
         np.broadcast_to(point, (len(HALF_DEGREES), 2))
         if body == GROUND
-        else motion[body].at(point).position[:, :2]
+        else motion[body].point_motion(point).position[:, :2]
         for body, point in mechanism.ends(joint)
     ]
 
@@ -48,7 +48,7 @@ def test_every_joint_is_closed_and_every_guide_kept(mechanism):
     for guide in mechanism.guides:
         pose = motion[guide.body].position
         drawn = mechanism.body(guide.body)
-        away = (pose[:, :2] - drawn.centre_of_mass) @ np.array(guide.across)
+        away = (pose[:, :2] - drawn.centre_of_mass) @ np.array(guide.normal)
         assert away == pytest.approx(0.0, abs=1e-13)
         assert pose[:, 2] == pytest.approx(drawn.angle, abs=1e-15)
 

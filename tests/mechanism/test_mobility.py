@@ -22,17 +22,21 @@ from exu_press.mechanism.mobility import mobility_of
 )
 def test_one_degree_of_freedom_whatever_is_redundant(mechanism, redundant):
     found = mobility_of(mechanism)
-    assert found.right
-    assert (found.degrees, found.redundant, found.counted) == (1, redundant, 1 - redundant)
-    assert found.too_many == ()
+    assert found.is_driven
+    assert (found.degrees_of_freedom, found.redundant, found.gruebler_count) == (
+        1,
+        redundant,
+        1 - redundant,
+    )
+    assert found.overconstraining == ()
 
 
 def test_a_body_without_its_guide_is_loose():
     whole = slider_crank()
     found = mobility_of(replace(whole, guides=()))
-    assert found.degrees == 3 == found.counted
-    assert found.turns
-    assert set(found.loose) == {"rod", "slider"}
+    assert found.degrees_of_freedom == 3 == found.gruebler_count
+    assert found.crank_turns
+    assert set(found.loose_bodies) == {"rod", "slider"}
 
 
 def test_a_link_held_by_one_joint_too_many_stops_the_crank():
@@ -40,6 +44,6 @@ def test_a_link_held_by_one_joint_too_many_stops_the_crank():
     extra = Joint("extra", (0.2, 0.1), "coupler", GROUND)
     bodies = tuple(replace(body, inertia=0.1) for body in whole.bodies)
     found = mobility_of(replace(whole, bodies=bodies, joints=(*whole.joints, extra)))
-    assert (found.degrees, found.turns, found.counted) == (0, False, -1)
-    assert "joints.extra" in found.too_many
-    assert "joints.shaft" not in found.too_many
+    assert (found.degrees_of_freedom, found.crank_turns, found.gruebler_count) == (0, False, -1)
+    assert "joints.extra" in found.overconstraining
+    assert "joints.shaft" not in found.overconstraining

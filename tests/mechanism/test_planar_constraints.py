@@ -10,7 +10,7 @@ from refused import refused
 from exu_press import Scene, simulate
 from exu_press.mechanism import Press, press
 from exu_press.mechanism.constraint import Coincidence, PointOnLine, RotationRatio
-from exu_press.mechanism.holding import holding_of
+from exu_press.mechanism.independent_constraints import independent_constraints
 from exu_press.mechanism.mobility import mobility_of
 from exu_press.mechanism.parts import ROD
 from exu_press.mechanism.planar_constraints import PlanarConstraints
@@ -86,7 +86,10 @@ def test_redundant_parts_agree_to_the_drawings_precision(mechanism, joint):
         drawn.require_turning()
         assert mobility_of(drawn).redundant == mobility_of(mechanism).redundant == 1
         ideal = frozenset(j.name for j in drawn.joints)
-        assert holding_of(drawn, ideal).redundant == holding_of(mechanism, ideal).redundant
+        assert (
+            independent_constraints(drawn, ideal).redundant
+            == independent_constraints(mechanism, ideal).redundant
+        )
     assert "do not agree" in refused(moved(mechanism, joint, 1e-4).require_turning)
 
 

@@ -4,7 +4,13 @@ from matplotlib.path import Path
 
 from exu_press import Scene
 from exu_press.mechanism import Body, Guide, Joint, Mechanism, Output
-from exu_press.mechanism.shapes import marks, moved, rails, shapes_of, swept, swept_outlines
+from exu_press.mechanism.shapes import (
+    FrontView,
+    rail_corners,
+    shapes_of,
+    swept_points,
+    transform_points,
+)
 from exu_press.scene import mechanism_of
 
 SCENES = [
@@ -45,13 +51,13 @@ def test_roles():
     }  # fmt: skip
 
 
-def test_moved_turns_and_shifts():
+def test_points_turn_and_shift_with_their_body():
     pose = np.array([1.0, 2.0, np.pi / 2])
-    assert moved(np.array([[1.0, 0.0]]), pose)[0] == pytest.approx([1.0, 3.0])
+    assert transform_points(np.array([[1.0, 0.0]]), pose)[0] == pytest.approx([1.0, 3.0])
 
 
-def test_swept_spans_the_mechanism():
-    height = np.ptp(swept(mechanism_of(Scene(mechanism="slider_crank")))[:, 1])
+def test_joints_sweep_the_height_of_the_mechanism():
+    height = np.ptp(swept_points(mechanism_of(Scene(mechanism="slider_crank")))[:, 1])
     assert height == pytest.approx(2 * 0.03 + 0.383, abs=1e-6)
 
 
@@ -76,15 +82,16 @@ def test_rails_and_dead_centres_lie_along_the_guide(degrees):
         guides=[Guide("slide", tuple(along))],
         output=Output("slide", tuple(along)),
     )
-    outline = swept_outlines(mechanism, shapes_of(mechanism))["slide"]
+    view = FrontView(mechanism)
+    outline = view.swept["slide"]
     beside = outline @ across
-    for rail in rails(mechanism.guides[0], outline, 1.0):
-        ways = rail @ across
-        assert not np.any((ways > beside.min()) & (ways < beside.max()))
+    for rail in rail_corners(mechanism.guides[0], outline, 1.0):
+        sides = rail @ across
+        assert not np.any((sides > beside.min()) & (sides < beside.max()))
         assert np.ptp(rail @ along) == pytest.approx(np.ptp(outline @ along))
-    top, bottom = marks(mechanism, outline)
+    top, bottom = view.dead_centres()
     assert (top.label, bottom.label) == ("TDC", "BDC")
-    assert (top.place - bottom.place) == pytest.approx(0.2 * along)
-    assert top.aside[0] <= 1e-12
-    assert abs(top.aside @ along) < 1e-12
-    assert top.above == (along[1] > 1e-9)
+    assert (top.position - bottom.position) == pytest.approx(0.2 * along)
+    assert top.direction[0] <= 1e-12
+    assert abs(top.direction @ along) < 1e-12
+    assert top.is_above == (along[1] > 1e-9)

@@ -5,7 +5,7 @@ import pytest
 from drawings import four_bar, slider_crank, stephenson
 
 from exu_press.mechanism import Press, press
-from exu_press.mechanism.transmission import alike, transmission_angles
+from exu_press.mechanism.transmission import group_equal_angles, transmission_angles
 
 ANGLES = np.radians(np.arange(0.0, 360.0, 5.0))
 
@@ -43,5 +43,5 @@ def test_of_the_dyads_of_a_press():
 
 def test_the_same_angles_are_named_together_smallest_first():
     values = np.array([1.0, 0.5])
-    found = alike({"a": values + 0.1, "left": values, "right": values.copy()})
+    found = group_equal_angles({"a": values + 0.1, "left": values, "right": values.copy()})
     assert [name for name, _ in found] == ["left, right", "a"]

@@ -133,7 +133,7 @@ def test_stiff_the_drive_takes_out_what_the_load_puts_in(rocker, place):
     power = result["load_one_force"] * (
         mechanism_of(asked)
         .motion(result["crank_angle"], asked.angular_speed)["rocker"]
-        .at(point_of(asked))
+        .point_motion(point_of(asked))
         .velocity[:, :2]
         @ np.array([1.0, 0.4])
         / np.hypot(1.0, 0.4)

@@ -73,14 +73,16 @@ def test_the_picture(tmp_path):
         pixels = np.array(image.convert("RGB"), dtype=float)
     model = build(Scene())
     shapes = shapes_of(model.mechanism)
-    plates = [name for name in model.holding.sliding if name != "slide"]  # hidden by the links
+    plates = [
+        name for name in model.constraints.sliding_bodies if name != "slide"
+    ]  # hidden by the links
     (colour,) = {shapes[name].colour for name in plates}
     wanted = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)])
     drawn = np.abs(pixels - 0.88 * wanted).max(axis=2) < 4.0
     rows, columns = np.nonzero(drawn)
     assert len(rows) > 5_000
     motion = model.mechanism.motion(np.array([0.0]), 1.0)
-    places = np.vstack([shapes[name].moved(motion[name].position[0]) for name in plates])
+    places = np.vstack([shapes[name].outline_at(motion[name].position[0]) for name in plates])
     width, height = np.ptp(places, axis=0)
     assert np.ptp(columns) / np.ptp(rows) == pytest.approx(width / height, rel=0.02)
 

@@ -73,7 +73,7 @@ def test_the_start_is_on_the_constraints(name):
                 if body == "frame":
                     ends.append((np.array(point), np.zeros(2)))
                 else:
-                    moved = start[body].at(point)
+                    moved = start[body].point_motion(point)
                     ends.append((moved.position[0, :2], moved.velocity[0, :2]))
             assert ends[0][0] == pytest.approx(ends[1][0], abs=1e-12)
             assert ends[0][1] == pytest.approx(ends[1][1], abs=1e-9)

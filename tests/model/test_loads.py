@@ -62,7 +62,9 @@ def test_the_drive_takes_out_what_a_load_puts_in(name, free):
     force = load.force(
         result.time, (angle, result["crank_speed"]), (position - position.min(), velocity)
     )
-    power = force * (motion[load.body].at(load.point).velocity[:, :2] @ np.array(load.direction))
+    power = force * (
+        motion[load.body].point_motion(load.point).velocity[:, :2] @ np.array(load.direction)
+    )
     without = np.interp(result.time, free.time, free["drive_torque"])
     changed = result["drive_torque"] - without
     expected = -power / speed

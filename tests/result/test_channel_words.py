@@ -30,7 +30,7 @@ def test_an_output_along_x_is_not_upwards():
 
 def test_a_guides_force_is_positive_across_it():
     """To the right of a guide along +x is down."""
-    assert positive(Guide(body="ram", direction=(1.0, 0.0)).across) == "downwards"
+    assert positive(Guide(body="ram", direction=(1.0, 0.0)).normal) == "downwards"
     result = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=0.01))
     told = result.channels["guide_force"].long_name
     assert told == "slider guide: force on the body, to the right"

@@ -7,7 +7,7 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.mechanism import mechanism_to_dict, shipped_mechanism
-from exu_press.mechanism.holding import holding_of
+from exu_press.mechanism.independent_constraints import independent_constraints
 from exu_press.scene import flexible_press, mechanism_of
 
 PULSE = {
@@ -41,18 +41,18 @@ def hold_all(monkeypatch, flexible):
     kept = {"crank"} if flexible else set()
 
     def constrained(mechanism, ideal):
-        found = holding_of(mechanism, ideal)
-        pivots = {body: joint for body, joint in found.pivoted.items() if body in kept}
-        others = [j.name for body, j in found.pivoted.items() if body not in kept]
+        found = independent_constraints(mechanism, ideal)
+        pivots = {body: joint for body, joint in found.pivots.items() if body in kept}
+        others = [j.name for body, j in found.pivots.items() if body not in kept]
         return replace(
             found,
-            pivoted=pivots,
-            sliding=frozenset(),
+            pivots=pivots,
+            sliding_bodies=frozenset(),
             joints=(*found.joints, *others),
-            guides={**found.guides, **dict.fromkeys(found.sliding, (True, True))},
+            guides={**found.guides, **dict.fromkeys(found.sliding_bodies, (True, True))},
         )
 
-    monkeypatch.setattr("exu_press.model.system.holding_of", constrained)
+    monkeypatch.setattr("exu_press.model.system.independent_constraints", constrained)
 
 
 @pytest.mark.parametrize("name", SCENES)

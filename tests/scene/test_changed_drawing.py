@@ -6,7 +6,7 @@ import pytest
 from refused import refused
 
 from exu_press import Scene
-from exu_press.mechanism import mechanism_from, mechanism_lines, shipped_mechanism
+from exu_press.mechanism import mechanism_from_dict, mechanism_lines, shipped_mechanism
 from exu_press.scene.scene import mechanism_of
 from exu_press.studies.sweep.units import with_unit
 
@@ -64,7 +64,7 @@ def test_keys_of_a_shipped_drawing():
 
 def test_a_file_and_its_keys_change_at_once(tmp_path):
     file = tmp_path / "link.toml"
-    file.write_text("\n".join(mechanism_lines(mechanism_from(LINK))), encoding="utf-8")
+    file.write_text("\n".join(mechanism_lines(mechanism_from_dict(LINK))), encoding="utf-8")
     changes = {"mechanism": str(file), "mechanism.bodies.slide.mass": 7.0}
     changed = Scene(mechanism="slider_crank", joints={}).replace(changes)
     assert mechanism_of(changed).body("slide").mass == 7.0

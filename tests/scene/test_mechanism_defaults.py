@@ -7,7 +7,7 @@ import pytest
 
 from exu_press import InputError, Scene, simulate
 from exu_press.laws.contact import hertz_stiffness
-from exu_press.mechanism import mechanism_from, mechanism_lines, shipped_mechanism
+from exu_press.mechanism import mechanism_from_dict, mechanism_lines, shipped_mechanism
 from exu_press.mechanism.press import TABLE_2
 from exu_press.scene import Contact, DryJoint, Film
 from exu_press.scene.assumptions import assumed
@@ -138,7 +138,7 @@ def test_defaults_that_no_scene_has_are_refused(defaults, message):
         dataclasses.replace(FOUR_BAR, defaults=defaults)
     data = {**Scene(mechanism=FOUR_BAR).to_dict()["mechanism"], "defaults": defaults}
     with pytest.raises(InputError, match=message):
-        mechanism_from(data)
+        mechanism_from_dict(data)
 
 
 def test_everything_assumed_is_named_with_its_source():

@@ -33,7 +33,7 @@ def horizon(result, others):
 
 
 def test_a_body_that_is_elsewhere_between_its_ways_has_parted(run):
-    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].across)))
+    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].normal)))
     assert horizon(run, {2.0: moved(run, across, 0.9 * APART * PLAY / 2**0.5)}) is None
     found = horizon(run, {2.0: moved(run, across, APART * PLAY)})
     assert 0.9 * run.time[-1] < found <= run.time[-1]
@@ -52,14 +52,14 @@ def test_one_that_is_ahead_has_not(run):
 
 @pytest.mark.parametrize(("ratio", "parted"), [(0.5, True), (0.25, False), (8.0, False)])
 def test_a_run_at_half_the_tolerance_is_half_way_to_the_truth(run, ratio, parted):
-    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].across)))
+    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].normal)))
     found = horizon(run, {ratio: moved(run, across, 0.5 * APART * PLAY)})
     assert (found is not None) is parted
 
 
 def test_a_run_at_half_the_tolerance_vouches_for_less_where_a_coarser_one_has_diverged(run):
     """One difference is small by chance more often than two."""
-    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].across)))
+    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].normal)))
     near = moved(run, across, 1.1 * APART * PLAY / of_one(0.5))
     beside, away = (moved(run, across, part * APART * PLAY) for part in (0.6, 1.5))
     found = divergence(run, {0.5: near, 8.0: beside})
@@ -73,7 +73,7 @@ def test_a_run_at_half_the_tolerance_vouches_for_less_where_a_coarser_one_has_di
 
 def test_a_run_that_was_beside_by_chance_vouches_for_less_still(run):
     """When the coarser one diverged, its distance told an error twelve times the other's."""
-    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].across)))
+    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].normal)))
     near, away = (moved(run, across, part * PLAY) for part in (0.035, 10.0 * APART))
     found = divergence(run, {0.5: near, 8.0: away})
     part = 0.035 / (10.0 * APART)  # of the coarser one's distance, at all times

@@ -6,7 +6,7 @@ from matplotlib.text import Text
 
 from exu_press import Scene, simulate
 from exu_press.mechanism import GROUND
-from exu_press.mechanism.shapes import moved
+from exu_press.mechanism.shapes import transform_points
 from exu_press.scene import mechanism_of
 from exu_press.view import instants
 from exu_press.view.joint_panel import (
@@ -33,7 +33,7 @@ def test_links_are_drawn_joined(runs, name):
     for joint in mechanism.joints:
         for frame, now in enumerate(shown.time):
             journal, bearing = (
-                moved(np.array([point]), where[body][frame])[0]
+                transform_points(np.array([point]), where[body][frame])[0]
                 for body, point in mechanism.ends(joint)
             )
             apart = np.zeros(2)

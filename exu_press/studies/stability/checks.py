@@ -146,7 +146,11 @@ def _drifts(result: Result) -> Iterator[tuple[float, str]]:
     motions = {name: Motion(poses[:, i], still, still) for i, name in enumerate(result.bodies)}
 
     def world(body: str, point: Point) -> Array:
-        return np.array([point]) if body == GROUND else motions[body].at(point).position[:, :2]
+        return (
+            np.array([point])
+            if body == GROUND
+            else motions[body].point_motion(point).position[:, :2]
+        )
 
     for joint in mechanism.joints:
         rigid = not {joint.journal, joint.bearing} & set(scene.bodies)

@@ -8,7 +8,7 @@ from drawings import coupled_cranks, four_bar, slider_crank
 
 from exu_press import InputError, Scene, simulate
 from exu_press.mechanism import Press, Spring, press
-from exu_press.mechanism.holding import holding_of
+from exu_press.mechanism.independent_constraints import independent_constraints
 
 PRESS = press(Press())
 BALLS = ("ball_left", "ball_right")
@@ -16,7 +16,9 @@ BALLS = ("ball_left", "ball_right")
 
 def holding(mechanism, *loose):
     """What holds it where some joints have clearance."""
-    return holding_of(mechanism, frozenset(j.name for j in mechanism.joints) - {*loose})
+    return independent_constraints(
+        mechanism, frozenset(j.name for j in mechanism.joints) - {*loose}
+    )
 
 
 def elastic(mechanism):
@@ -28,7 +30,7 @@ def elastic(mechanism):
 def kept(mechanism, *loose):
     """How many coordinates the mechanism keeps."""
     found = holding(mechanism, *loose)
-    constraints = 2 * len(found.pivoted) + 2 * len(found.sliding)
+    constraints = 2 * len(found.pivots) + 2 * len(found.sliding_bodies)
     constraints += 2 * len(found.joints) + len(found.single_axis)
     constraints += sum(map(sum, found.guides.values()))
     return 3 * len(mechanism.bodies) - constraints
@@ -69,25 +71,25 @@ def test_two_balls_hold_the_slider_upright_and_share_its_load():
 
 def test_with_clearance_in_the_balls_the_guide_holds_the_slider_alone():
     found = holding(PRESS, *BALLS)
-    assert "slider" in found.sliding
+    assert "slider" in found.sliding_bodies
     assert not found.redundant
 
 
 def test_what_stands_on_the_frame_or_in_a_guide_needs_no_constraint():
     found = holding(PRESS)
-    assert set(found.pivoted) == {"crank", "link_6_left", "link_6_right"}
-    assert found.sliding == {"slide", "plunger_left", "plunger_right", "counterweight"}
+    assert set(found.pivots) == {"crank", "link_6_left", "link_6_right"}
+    assert found.sliding_bodies == {"slide", "plunger_left", "plunger_right", "counterweight"}
 
 
 def test_a_body_in_an_oblique_guide_is_held_by_constraints():
     found = holding(slider_crank(tilt=0.5))
-    assert not found.sliding
+    assert not found.sliding_bodies
     assert found.guides == {"slider": (True, True)}
 
 
 def test_a_pivot_may_carry_the_journal():
     """The four-bar's rocker turns on a pin of the frame."""
-    assert holding(four_bar()).pivoted["rocker"].journal == "frame"
+    assert holding(four_bar()).pivots["rocker"].journal == "frame"
 
 
 def test_half_of_a_second_rod_is_left_out_whatever_its_direction():
@@ -120,7 +122,7 @@ def test_half_a_joint_holds_no_flexible_body():
 
 def test_elastic_guides_leave_their_work_to_no_joint():
     found = holding(elastic(PRESS))
-    assert not found.sliding
+    assert not found.sliding_bodies
     assert not found.single_axis
     assert set(found.guides.values()) == {(False, False)}
 
@@ -128,10 +130,10 @@ def test_elastic_guides_leave_their_work_to_no_joint():
 def test_coupled_cranks_are_held_by_both_rods():
     """In a dead centre of one rod the other one alone turns the follower."""
     found = holding(coupled_cranks())
-    assert found.twice and not found.single_axis
+    assert found.keeps_redundant and not found.single_axis
     assert set(found.joints) == {"pin", "far_pin", "other_pin", "other_far_pin"}
-    assert not holding(slider_crank(second_rod=True)).twice
-    assert not holding(PRESS).twice
+    assert not holding(slider_crank(second_rod=True)).keeps_redundant
+    assert not holding(PRESS).keeps_redundant
 
 
 @pytest.mark.parametrize("start", [0.0, 37.0, 90.0])

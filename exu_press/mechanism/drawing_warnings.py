@@ -1,11 +1,11 @@
-"""Drawings that are allowed but hardly meant: lengths in another unit, links of slips."""
+"""Warnings about drawings that are allowed but hardly meant, as with lengths in another unit."""
 
 import math
 from collections.abc import Iterator
 
 from exu_press.mechanism.mechanism import Mechanism
 
-__all__ = ["doubtful_drawing"]
+__all__ = ["drawing_warnings"]
 
 LARGEST = 30.0
 """m, of a mechanism."""
@@ -22,7 +22,7 @@ LIGHT = 1e-3
 thirty, the root of it, than the motion of the others asks for."""
 
 
-def doubtful_drawing(mechanism: Mechanism, stroke: float) -> Iterator[str]:
+def drawing_warnings(mechanism: Mechanism, stroke: float) -> Iterator[str]:
     """Yield warnings about a drawing of another size than machines, or than the rest of it.
 
     Args:
@@ -37,11 +37,12 @@ def doubtful_drawing(mechanism: Mechanism, stroke: float) -> Iterator[str]:
         )
     for body in mechanism.bodies:
         joints = [joint.at for joint in mechanism.joints_of(body.name)]
-        away = min((math.dist(body.centre_of_mass, at) for at in joints), default=0.0)
-        if away > FAR * size:
+        distance = min((math.dist(body.centre_of_mass, at) for at in joints), default=0.0)
+        if distance > FAR * size:
             yield (
-                f"bodies.{body.name}.centre_of_mass lies {away:.3g} m from the next joint of the "
-                f"body, in a mechanism of {size:.3g} m: is it in the coordinates of the drawing?"
+                f"bodies.{body.name}.centre_of_mass lies {distance:.3g} m from the next "
+                f"joint of the body, in a mechanism of {size:.3g} m: is it in the coordinates of "
+                "the drawing?"
             )
     heaviest = max(mechanism.bodies, key=lambda body: body.mass)
     for body in mechanism.bodies:

@@ -161,7 +161,7 @@ def attack_blocks(folder: Path, seeds: Sequence[int]) -> int:
         simulate(scene, unfinished=left)
     names = sorted(file.name for file in left.glob("*") if file.stat().st_size > PAGE)
     with warnings.catch_warnings(action="ignore"):
-        sound = Result.load(left).changed(lambda _, values: values) if seeds else None
+        sound = Result.load(left).map_values(lambda _, values: values) if seeds else None
         kept = {name: np.array(sound[name]) for name in sound} if sound else {}
     campaign = Campaign("damaged blocks", lambda: _same_blocks(left, kept))
     for seed in seeds:

@@ -27,7 +27,7 @@ from pathlib import Path
 import numpy as np
 
 from exu_press import InputError, Result
-from exu_press.result.unfinished import HEAD, has_blocks
+from exu_press.result.checkpoint import HEAD, has_blocks
 
 COMMAND = [sys.executable, "-m", "exu_press"]
 

@@ -12,9 +12,8 @@ from docutils.parsers.rst import Directive
 
 from exu_press import Scene
 from exu_press.quantities import CATALOGUE
-from exu_press.result.channel import AXES
-from exu_press.result.declared import PLACES, VECTOR, Declared
-from exu_press.result.recorders import all_declared
+from exu_press.result.channel import AXES, OWNERS, VECTOR, Declaration
+from exu_press.result.recorders import declared_channels
 from exu_press.scene import DryJoint, Flexible
 from exu_press.scene.joint import LAW_TABLES
 from exu_press.scene.load import LOAD_KINDS
@@ -82,18 +81,19 @@ class Channels(Directive):
     def run(self) -> list[nodes.Node]:
         """Return one table."""
         rows = [("name", "unit", "meaning", "columns", "of")]
-        rows += [_of_channel(one) for one in all_declared()]
+        rows += [_of_channel(declared) for declared in declared_channels()]
         return [table_of(rows)]
 
 
-def _of_channel(one: Declared) -> tuple[str, ...]:
+def _of_channel(declared: Declaration) -> tuple[str, ...]:
     """Return the row of a channel."""
-    columns = ", ".join(AXES.get(one.axis, (one.axis and "a column each",)))
-    if one.axis == VECTOR:
+    columns = ", ".join(AXES.get(declared.axis, (declared.axis and "a column each",)))
+    if declared.axis == VECTOR:
         columns = "x, y; and z of spherical joints"
-    words = one.meaning.format(**{one.of or "whole": "NAME", "way": "along its guide or across it"})
-    runs = PLACES[one.of] + (f"; not {one.unless}" if one.unless else "")
-    return one.at("NAME"), one.unit, words, columns, runs
+    texts = {declared.owner or "run": "NAME", "positive": "along its guide or across it"}
+    runs = OWNERS[declared.owner] + (f"; not {declared.unless}" if declared.unless else "")
+    meaning = declared.meaning.format(**texts)
+    return declared.name_of("NAME"), declared.unit, meaning, columns, runs
 
 
 class Commands(Directive):

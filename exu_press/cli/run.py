@@ -18,12 +18,12 @@ from exu_press.files.output_directory import output_directory, remove_pictures, 
 from exu_press.model.state import State
 from exu_press.quantities.table import run_lines
 from exu_press.result import Result
-from exu_press.result.unfinished import (
+from exu_press.result.checkpoint import (
+    checkpoint_directory,
     has_blocks,
     refuse_blocks,
     remove,
     set_aside,
-    unfinished_of,
 )
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import assumed_line
@@ -90,7 +90,7 @@ def _start_path(name: str) -> Path:
     """
     path = Path(name)
     file = path / RESULT if path.is_dir() else path
-    blocks = path if has_blocks(path) else unfinished_of(file)
+    blocks = path if has_blocks(path) else checkpoint_directory(file)
     return blocks if has_blocks(blocks) and (path.is_dir() or not path.exists()) else file
 
 
@@ -183,7 +183,7 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
     doubts = scene_warnings(scene)
     if not options.quiet:  # a drawing in mm may run for long
         show_warnings(doubts)
-    unfinished = unfinished_of(directory / RESULT)
+    unfinished = checkpoint_directory(directory / RESULT)
     _make_room(unfinished, options)
     if options.within is not None:
         delivered = deliver(scene, options.within, options.figure, quiet=options.quiet)

@@ -12,7 +12,7 @@ from exu_press.quantities.uncertain import uncertain
 from exu_press.quantities.value import Value
 from exu_press.result import Result
 from exu_press.result.info import Error
-from exu_press.result.windows import settled
+from exu_press.result.windows import settled_part
 
 __all__ = ["error_of", "mark_peak", "mark_peaks", "with_error"]
 
@@ -51,7 +51,7 @@ def mark_peak(
     error = error_of(result, name)
     if error is None:
         return ""
-    read = settled(result).time
+    read = settled_part(result).time
     inside = (result.time >= read[0]) & (result.time <= read[-1])
     highest = int(np.argmax(np.where(inside, np.abs(values), 0.0)))
     ends = np.array([error["low"], error["high"]]) * np.copysign(scale, values[highest])

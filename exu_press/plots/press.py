@@ -34,7 +34,7 @@ from exu_press.quantities.uncertain import significant
 from exu_press.quantities.value import value_of
 from exu_press.result import Result
 from exu_press.result.channel import guide_channel
-from exu_press.result.windows import settled
+from exu_press.result.windows import settled_part
 from exu_press.scene import mechanism_of
 from exu_press.scene.applied import applied_loads
 
@@ -76,7 +76,7 @@ def press_figure(result: Result) -> Figure:
     _drive(drive, result)
     _guides(guides, result)
     over_angle, free = [shaking, drive, guides, *further_panels], iter(further_panels)
-    centres = bottom_dead_centres(settled(result))
+    centres = bottom_dead_centres(settled_part(result))
     if centres and dead_centres({"": result}):
         _strokes(strokes, result, centres)
     else:

@@ -22,7 +22,7 @@ from exu_press.quantities.law_errors import of_pads
 from exu_press.quantities.quantity import Extreme, Place, Quantity, always
 from exu_press.quantities.reading import Reading
 from exu_press.result.channel import guide_channel
-from exu_press.result.channels import part_of
+from exu_press.result.channels import read_columns
 from exu_press.scene import Scene, mechanism_of
 
 __all__ = ["DRIVE", "GUIDES", "LOADS", "SHAKING"]
@@ -70,7 +70,7 @@ def _sliding_power(run: Reading, guide: Guide) -> float | None:
     if force is None or len(run.time) < 2:
         return None
     index, direction = run.result.bodies.index(guide.body), np.array(guide.direction)
-    position = part_of(
+    position = read_columns(
         run.result.channels, "body_position", lambda values: values[:, index, :2] @ direction
     )
     power = slopes(run.time, position)

@@ -12,7 +12,7 @@ from exu_press.numerics.piecewise import integral
 from exu_press.quantities.alternating import Largest, largest
 from exu_press.quantities.dead_centre import DeadCentre, bottom_dead_centres
 from exu_press.result import Result
-from exu_press.result.windows import settled
+from exu_press.result.windows import settled_part
 from exu_press.scene import mechanism_of
 
 __all__ = ["Reading"]
@@ -31,7 +31,7 @@ class Reading:
     def __init__(self, run: Result) -> None:
         """Take the settled part of a run."""
         self.run = run
-        self.result = settled(run)
+        self.result = settled_part(run)
         self._found: dict[Any, Any] = {}
         self._largest: dict[str, Largest] = {}
 

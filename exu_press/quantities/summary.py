@@ -15,7 +15,7 @@ from exu_press.quantities.reading import Reading
 from exu_press.quantities.start_stop import still_turns
 from exu_press.quantities.value import values_of
 from exu_press.result import JointRecord, Result
-from exu_press.result.windows import settled
+from exu_press.result.windows import settled_part
 from exu_press.scene import DryJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.assumptions import assumed
 from exu_press.scene.joint import Joint
@@ -97,7 +97,7 @@ def run_warnings(result: Result) -> list[str]:
             f"the energy balance misses {residual:.2g} of the energy: try a smaller "
             "solver.tolerance or solver.step"
         )
-    for name, joint in settled(result).joints.items():
+    for name, joint in settled_part(result).joints.items():
         if joint.kind == "lubricated":
             ratio = float(joint.distance.max() / joint.clearance)
             if ratio > NEARLY_TOUCHING:

@@ -7,7 +7,7 @@ from pathlib import Path
 from exu_press.errors import InputError
 from exu_press.report.shown import ALL, Span
 from exu_press.result import Result
-from exu_press.result.unfinished import unfinished_of
+from exu_press.result.checkpoint import checkpoint_directory
 
 __all__ = ["Kind", "find_output", "report_of"]
 
@@ -39,7 +39,7 @@ def find_output(path: Path, wanted: Kind | None = None) -> tuple[Kind, Path]:
     named = ", ".join(kind.value for kind in Kind)
     if path.is_dir():
         found = [kind for kind in Kind if (path / kind.value).is_file()]
-        if not found and unfinished_of(path / Kind.RUN.value).is_dir():
+        if not found and checkpoint_directory(path / Kind.RUN.value).is_dir():
             found = [Kind.RUN]
         if not found:
             raise InputError(f"{path}: has none of {named}, so there is nothing to report")

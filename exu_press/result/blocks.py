@@ -8,11 +8,11 @@ from pathlib import Path
 from exu_press.integrate import SolverStatus
 from exu_press.model import Model
 from exu_press.model.state import go_on_from, state_of
+from exu_press.result.checkpoint import open_checkpoint, write_checkpoint
 from exu_press.result.info import Info
 from exu_press.result.record import record
 from exu_press.result.result import Result
-from exu_press.result.unfinished import begin, keep
-from exu_press.result.warming import to_next_revolution, warmed
+from exu_press.result.warming import to_next_revolution, update_film_temperatures
 from exu_press.scene import Scene
 from exu_press.scene.scene import SHORTEST_RUN
 from exu_press.terminal.progress import Progress
@@ -41,81 +41,83 @@ def block_by_block(
     assert solver is not None
     unfinished = unfinished if scene.revolutions > longest else None
     infos: list[Info] = []
-    left, steps, added = scene.revolutions, solver.max_steps, 0
+    remaining, steps, added = scene.revolutions, solver.max_steps, 0
     with (
-        begin(unfinished) as channels,
+        open_checkpoint(unfinished) as channels,
         Progress("run", scene.duration, quiet=quiet, whole=True),
     ):
         while True:
-            length = min(left, longest)
+            length = min(remaining, longest)
             if model.warm:
-                model, length = to_next_revolution(model, left)
+                model, length = to_next_revolution(model, remaining)
             block_of = {"revolutions": length, "settle": 0.0, "solver.max_steps": steps}
             model = replace(model, scene=scene.replace(block_of))
             block = record(model, model.solve(quiet=quiet))
             if model.warm and block.completed:
-                block = warmed(model, block)
+                block = update_film_temperatures(model, block)
             channels.append(block.channels)
             infos.append(block.info)
             if model.until is not None:  # a motor has turned the crank by then, or not
                 length = float(block.time[-1] - block.time[0]) * scene.speed_rpm / 60.0
-            left -= length
+            remaining -= length
             steps -= block.info["steps"] + block.info["rejected_steps"]
             if unfinished is not None and block.completed:
-                so_far = replace(block, scene=scene, info=_of_all(infos))
-                keep(unfinished, so_far, scene.revolutions - left, channels)
+                so_far = replace(block, scene=scene, info=_combined_info(infos))
+                write_checkpoint(unfinished, so_far, scene.revolutions - remaining, channels)
             may_add = settling and added < MOST_ADDED and block.completed
-            if may_add and _unsettled(model, scene, left):
-                left, added = left + 1.0, added + 1
+            if may_add and _needs_revolution(model, scene, remaining):
+                remaining, added = remaining + 1.0, added + 1
                 later = {"revolutions": scene.revolutions + 1.0, "settle": scene.settled + 1.0}
                 scene = scene.replace(later)
-            ended = left < _least(scene) or model.has_stood(block.info["end_time"])
+            ended = remaining < _negligible_rest(scene) or model.has_stood(block.info["end_time"])
             if ended or not block.completed or steps < 1:
                 break
             model = go_on_from(model, state_of(model))
-    kept = channels if scene.revolutions > longest else channels.in_memory()
-    info: Info = {**_of_all(infos), "added_revolutions": added} if added else _of_all(infos)
-    return replace(block, scene=scene, channels=kept, info=info)
+    channels_of_run = channels if scene.revolutions > longest else channels.in_memory()
+    info: Info = (
+        {**_combined_info(infos), "added_revolutions": added} if added else _combined_info(infos)
+    )
+    return replace(block, scene=scene, channels=channels_of_run, info=info)
 
 
-def _unsettled(model: Model, scene: Scene, left: float) -> bool:
+def _needs_revolution(model: Model, scene: Scene, remaining: float) -> bool:
     """Return whether revolutions of a scene are about to be read while films have not settled.
 
     Args:
         model: at the end of a revolution.
         scene: whose settled part is read; one that has nothing to settle is read as it is.
-        left: revolutions that are left of it.
+        remaining: revolutions that are left of it.
     """
-    gone = scene.revolutions - left + _least(scene)
-    if not scene.settled or gone < scene.settled:
+    completed = scene.revolutions - remaining + _negligible_rest(scene)
+    if not scene.settled or completed < scene.settled:
         return False
     return any(not film.settled for film in model.warm.values())
 
 
-def _least(scene: Scene) -> float:
+def _negligible_rest(scene: Scene) -> float:
     """Return the revolutions below which nothing is left of a run."""
     return max(1e-9 * scene.revolutions, SHORTEST_RUN * scene.speed_rpm / 60.0)
 
 
-def _of_all(infos: Sequence[Info]) -> Info:
+def _combined_info(infos: Sequence[Info]) -> Info:
     """Return the last block's metadata, with the cost of all and the worst status."""
-    whole = infos[-1]
-    worst = whole
-    if SolverStatus(whole["status"]).ended:
+    last = infos[-1]
+    worst = last
+    if SolverStatus(last["status"]).ended:
         completed = SolverStatus.COMPLETED.value
-        worst = next((one for one in infos if one["status"] != completed), whole)
-    found: Info = {
-        **whole,
+        worst = next((info for info in infos if info["status"] != completed), last)
+    combined: Info = {
+        **last,
         "status": worst["status"],
         "reason": worst["reason"],
-        "wall_time": sum(one["wall_time"] for one in infos),
-        "steps": sum(one["steps"] for one in infos),
-        "rejected_steps": sum(one["rejected_steps"] for one in infos),
-        "newton_iterations": sum(one["newton_iterations"] for one in infos),
+        "wall_time": sum(info["wall_time"] for info in infos),
+        "steps": sum(info["steps"] for info in infos),
+        "rejected_steps": sum(info["rejected_steps"] for info in infos),
+        "newton_iterations": sum(info["newton_iterations"] for info in infos),
     }
-    if "stress" in whole:
-        found["stress"] = {
-            name: max((one["stress"][name] for one in infos), key=itemgetter("von_mises"))
-            for name in whole["stress"]
+    if "stress" in last:
+        combined["stress"] = {
+            name: max((info["stress"][name] for info in infos), key=itemgetter("von_mises"))
+            for name in last["stress"]
         }
-    return found
+    return combined

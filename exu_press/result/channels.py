@@ -1,6 +1,7 @@
-"""The channels of a run where memory does not hold them all: on disk, or worked out when asked."""
+"""Channels of a run that are on disk, or computed when they are asked for."""
 
 import copy
+from abc import ABC
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
@@ -17,53 +18,92 @@ from exu_press.result.channel import Channel
 if TYPE_CHECKING:
     from fe_models.temporary import TemporaryFolder
 
-__all__ = ["Changed", "OnDisk", "at_rows", "described", "on_disk", "part_of"]
+__all__ = [
+    "LazyChannels",
+    "MemmapChannels",
+    "channel_headers",
+    "is_on_disk",
+    "read_columns",
+    "read_rows",
+]
 
 
 AT_ONCE = 100_000
 """Instants."""
 
 
-class OnDisk(Mapping[str, Channel]):
+class _StoredChannels(Mapping[str, Channel], ABC):
+    """Channels whose values are read or computed when they are asked for.
+
+    Attributes:
+        headers: channels whose values do not count.
+        is_on_disk: whether the values are read from the disk.
+    """
+
+    headers: Mapping[str, Channel]
+    is_on_disk: bool
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.headers
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.headers)
+
+    def __len__(self) -> int:
+        return len(self.headers)
+
+    def __reduce__(self) -> Any:
+        """Go to another process with all values in memory."""
+        return dict, (dict(self),)
+
+
+class MemmapChannels(_StoredChannels):
     """Channels on disk, read by pages.
 
     Attributes:
         count: number of instants.
-        begun: channels without a value.
+        headers: channels without a value.
         checksums: CRC-32 of the values of each channel, one instant after the other.
     """
+
+    headers: dict[str, Channel]
+    is_on_disk = True
 
     def __init__(self, directory: Path | None = None) -> None:
         """Start without a channel, in an empty directory, or in one that goes with this object."""
         self.count = 0
         self._temporary = None if directory is not None else _temporary_folder()
         self._directory = directory or (self._temporary.path if self._temporary else Path())
-        self.begun: dict[str, Channel] = {}
+        self.headers = {}
         self.checksums: dict[str, int] = {}
         self._last: dict[str, Array] = {}  # value of each channel
         self._unchecked: set[str] = set()
 
     @classmethod
-    def found(
-        cls, directory: Path, begun: Mapping[str, Channel], count: int, checksums: Mapping[str, int]
-    ) -> "OnDisk":
+    def reopen(
+        cls,
+        directory: Path,
+        headers: Mapping[str, Channel],
+        count: int,
+        checksums: Mapping[str, int],
+    ) -> "MemmapChannels":
         """Return the channels in a directory; each is checked when it is first read.
 
         Args:
             directory: in which they are.
-            begun: channels without a value.
+            headers: channels without a value.
             count: number of instants; what lies behind them was never finished.
             checksums: of the channels until there.
         """
         channels = cls(directory)
-        channels.begun, channels.count, channels.checksums = dict(begun), count, dict(checksums)
-        channels._unchecked = set(begun)
+        channels.headers, channels.count, channels.checksums = dict(headers), count, dict(checksums)
+        channels._unchecked = set(headers)
         return channels
 
     def append(self, channels: Mapping[str, Channel]) -> None:
-        """Take the next instants of every channel, the first of which is the last one before.
+        """Append the next instants of every channel; the first repeats the last one.
 
-        Energies there count from it; here they count on.
+        Energies count from it in `channels`, and from the start here.
         """
         from exu_press.files.output_directory import writing
         from exu_press.result.classic import checksum
@@ -72,7 +112,7 @@ class OnDisk(Mapping[str, Channel]):
         for name, channel in channels.items():
             values = channel.values[first:]
             if not first:
-                self.begun[name] = replace(channel, values=values[:0])
+                self.headers[name] = replace(channel, values=values[:0])
             elif channel.unit == "J":
                 values = values + self._last[name]
             stored = np.ascontiguousarray(values, np.float64)
@@ -84,30 +124,30 @@ class OnDisk(Mapping[str, Channel]):
         self.count += len(channels["time"].values) - first
 
     def __getitem__(self, name: str) -> Channel:
-        begun = self.begun[name]
-        shape = self.count, *begun.values.shape[1:]
+        headers = self.headers[name]
+        shape = self.count, *headers.values.shape[1:]
         try:  # pages are read when they are used; a path of its own type takes as long as the map
             values = np.memmap(str(self._file(name)), np.float64, "r", shape=shape)
         except (OSError, ValueError):  # missing, or too short
             raise InputError(f"{self._file(name)}: not a whole channel of a run") from None
         if name in self._unchecked:
             self._check(name, values)
-        found = copy.copy(begun)
-        object.__setattr__(found, "values", values.view(np.ndarray))  # checked block by block
-        return found
+        channel = copy.copy(headers)
+        object.__setattr__(channel, "values", values.view(np.ndarray))  # checked block by block
+        return channel
 
     def _check(self, name: str, values: Array) -> None:
         """Raise InputError unless the values of a channel have its checksum."""
         from exu_press.result.classic import checksum
 
-        made_of = 0
+        checksum_read = 0
         for first in range(0, self.count, AT_ONCE):
-            made_of = checksum(values[first : first + AT_ONCE], made_of)
-        if made_of != self.checksums.get(name):
+            checksum_read = checksum(values[first : first + AT_ONCE], checksum_read)
+        if checksum_read != self.checksums.get(name):
             raise InputError(f"{self._file(name)}: damaged: its values do not have their checksum")
         self._unchecked.remove(name)
 
-    def parts(self, name: str) -> Iterator[Array]:
+    def blocks(self, name: str) -> Iterator[Array]:
         """Yield the values of a channel AT_ONCE by AT_ONCE.
 
         The pages of a map stay in memory as long as the map does.
@@ -117,20 +157,10 @@ class OnDisk(Mapping[str, Channel]):
 
     def in_memory(self) -> dict[str, Channel]:
         """Return all channels with their values in memory."""
-        return {name: replace(one, values=np.array(one.values)) for name, one in self.items()}
-
-    def __contains__(self, name: object) -> bool:
-        return name in self.begun
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.begun)
-
-    def __len__(self) -> int:
-        return len(self.begun)
-
-    def __reduce__(self) -> Any:
-        """Go to another process as they are in memory."""
-        return dict, (dict(self),)
+        return {
+            name: replace(channel, values=np.array(channel.values))
+            for name, channel in self.items()
+        }
 
     def _file(self, name: str) -> Path:
         return self._directory / name
@@ -143,14 +173,14 @@ def _temporary_folder() -> "TemporaryFolder":
     return TemporaryFolder()
 
 
-class Changed(Mapping[str, Channel]):
-    """Other channels with changed values, each worked out when it is asked for.
+class LazyChannels(_StoredChannels):
+    """Channels with changed values, each computed when it is asked for.
 
-    Changed channels in memory stay there; those on disk are worked out each time.
+    Values in memory stay there; those of channels on disk are computed each time.
 
     Attributes:
         channels: that are changed.
-        change: name and values of a channel -> its other values.
+        change: name and values of a channel -> its changed values.
     """
 
     def __init__(
@@ -158,69 +188,52 @@ class Changed(Mapping[str, Channel]):
     ) -> None:
         """Change channels by a function of their name and their values."""
         self.channels, self.change = channels, change
-        self._found: dict[str, Channel] | None = None if on_disk(channels) else {}
+        self.headers, self.is_on_disk = channel_headers(channels), is_on_disk(channels)
+        self._computed: dict[str, Channel] = {}
 
     def __getitem__(self, name: str) -> Channel:
-        if self._found is not None and name in self._found:
-            return self._found[name]
+        if name in self._computed:
+            return self._computed[name]
         channel = self.channels[name]
         channel = replace(channel, values=self.change(name, channel.values))
-        if self._found is not None:
-            self._found[name] = channel
+        if not self.is_on_disk:
+            self._computed[name] = channel
         return channel
 
-    def __contains__(self, name: object) -> bool:
-        return name in self.channels
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.channels)
-
-    def __len__(self) -> int:
-        return len(self.channels)
-
-    def __reduce__(self) -> Any:
-        """Go to another process with all of them worked out."""
-        return dict, (dict(self),)
-
-    @property
-    def on_disk(self) -> bool:
-        """Return whether the channels that are changed are on disk."""
-        return self._found is None
+def channel_headers(channels: Mapping[str, Channel]) -> Mapping[str, Channel]:
+    """Return channels with their units and meanings, whatever values they have: none is read."""
+    return channels.headers if isinstance(channels, _StoredChannels) else channels
 
 
-def described(channels: Mapping[str, Channel]) -> Mapping[str, Channel]:
-    """Return channels with their units and words, whatever values they have: none is read."""
-    if isinstance(channels, OnDisk):
-        return channels.begun
-    return described(channels.channels) if isinstance(channels, Changed) else channels
-
-
-def part_of(channels: Mapping[str, Channel], name: str, pick: Callable[[Array], Array]) -> Array:
+def read_columns(
+    channels: Mapping[str, Channel], name: str, pick: Callable[[Array], Array]
+) -> Array:
     """Return some columns of a channel, as pick(values (n, ...)) of those on disk or in memory.
 
     A change along the time applies to a part alone.
     """
-    if isinstance(channels, Changed) and channels.on_disk:
-        return channels.change(name, part_of(channels.channels, name, pick))
-    if isinstance(channels, OnDisk):
-        return np.concatenate([np.array(pick(values)) for values in channels.parts(name)])
+    if isinstance(channels, LazyChannels) and channels.is_on_disk:
+        return channels.change(name, read_columns(channels.channels, name, pick))
+    if isinstance(channels, MemmapChannels):
+        return np.concatenate([np.array(pick(values)) for values in channels.blocks(name)])
     return pick(channels[name].values)
 
 
-def at_rows(channels: Mapping[str, Channel], name: str, rows: NDArray[np.intp]) -> Array:
+def read_rows(channels: Mapping[str, Channel], name: str, rows: NDArray[np.intp]) -> Array:
     """Return the values of a channel at some instants, (m, ...), in their order."""
-    if not isinstance(channels, OnDisk):
+    if not isinstance(channels, MemmapChannels):
         return np.array(channels[name].values[rows])
     bounds = np.searchsorted(rows, range(0, channels.count + AT_ONCE, AT_ONCE))
-    found = [
+    blocks = [
         np.array(values[rows[begin:end] - number * AT_ONCE])
         for number, (values, (begin, end)) in enumerate(
-            zip(channels.parts(name), pairwise(bounds), strict=True)
+            zip(channels.blocks(name), pairwise(bounds), strict=True)
         )
     ]
-    return np.concatenate(found)
+    return np.concatenate(blocks)
 
 
-def on_disk(channels: Mapping[str, Channel]) -> bool:
-    """Return whether channels, or those of which they are worked out, are on disk."""
-    return isinstance(channels, OnDisk) or (isinstance(channels, Changed) and channels.on_disk)
+def is_on_disk(channels: Mapping[str, Channel]) -> bool:
+    """Return whether channels, or those of which they are computed, are on disk."""
+    return isinstance(channels, _StoredChannels) and channels.is_on_disk

@@ -32,9 +32,9 @@ CHECKSUM = "checksum"
 """Attribute of a variable, whose bytes it belongs to, and of a file, whose header it belongs to."""
 
 
-def checksum(data: NDArray[Any], before: int = 0) -> int:
+def checksum(data: NDArray[Any], preceding: int = 0) -> int:
     """Return the CRC-32 of an array's bytes in order, behind bytes whose checksum is `before`."""
-    return zlib.crc32(np.ascontiguousarray(data).data, before)
+    return zlib.crc32(np.ascontiguousarray(data).data, preceding)
 
 
 def header_checksum(
@@ -52,11 +52,11 @@ def header_checksum(
         return {name: text.decode("latin-1") for name, text in texts.items()}
 
     whole = {name: text for name, text in attributes.items() if name != CHECKSUM}
-    described = {
+    header = {
         name: ([*axes.items()], plain(texts), dtype.str)
         for name, (axes, texts, dtype) in variables.items()
     }
-    text = json.dumps([plain(whole), described], sort_keys=True)
+    text = json.dumps([plain(whole), header], sort_keys=True)
     return f"{zlib.crc32(text.encode()):08x}"
 
 
@@ -97,13 +97,15 @@ class Classic:
 
     def check_header(self) -> None:
         """Raise InputError where the header is not the one that its checksum was made of."""
-        described = {
-            name: (one.dimensions, one.attributes, one.stored.dtype)
-            for name, one in self.variables.items()
+        header = {
+            name: (variable.dimensions, variable.attributes, variable.stored.dtype)
+            for name, variable in self.variables.items()
         }
-        bare = [name for name, one in self.variables.items() if CHECKSUM not in one.attributes]
-        made_of = header_checksum(self.attributes, described).encode()
-        if bare or self.attributes.get(CHECKSUM) != made_of:
+        bare = [
+            name for name, variable in self.variables.items() if CHECKSUM not in variable.attributes
+        ]
+        expected = header_checksum(self.attributes, header).encode()
+        if bare or self.attributes.get(CHECKSUM) != expected:
             raise InputError("its header is damaged: it does not have the checksum of the file")
 
 
@@ -125,7 +127,7 @@ class _Header:
     """Reads a header from its begin to its end."""
 
     def __init__(self, data: NDArray[np.uint8]) -> None:
-        self._data, self._place, self._left = data, 0, len(data)
+        self._data, self._offset_read, self._unclaimed = data, 0, len(data)
         self._dimensions: list[tuple[str, int]] = []
         self._offset = ">i"
 
@@ -136,36 +138,36 @@ class _Header:
             raise InputError("not a NetCDF file of the classic format")
         self._offset = ">i" if magic == b"CDF\1" else ">q"
         self._number()  # of records
-        self._dimensions = self._each(DIMENSION, lambda: (self._name(), self._number()))
-        attributes = dict(self._each(ATTRIBUTE, self._attribute))
-        return Classic(attributes, dict(self._each(VARIABLE, self._variable)))
+        self._dimensions = self._list(DIMENSION, lambda: (self._name(), self._number()))
+        attributes = dict(self._list(ATTRIBUTE, self._attribute))
+        return Classic(attributes, dict(self._list(VARIABLE, self._variable)))
 
     def _take(self, size: int) -> bytes:
-        begin, self._place = self._place, self._place + size
-        if size < 0 or self._place > len(self._data):
+        begin, self._offset_read = self._offset_read, self._offset_read + size
+        if size < 0 or self._offset_read > len(self._data):
             raise InputError("the file ends within its header")
-        return self._data[begin : self._place].tobytes()
+        return self._data[begin : self._offset_read].tobytes()
 
     def _number(self, form: str = ">i") -> int:
         (number,) = struct.unpack(form, self._take(struct.calcsize(form)))
         return int(number)
 
-    def _padded(self, size: int) -> bytes:
+    def _take_padded(self, size: int) -> bytes:
         taken = self._take(size)
         self._take(-size % 4)
         return taken
 
     def _name(self) -> str:
-        name = self._padded(self._number())
+        name = self._take_padded(self._number())
         try:
             return name.decode()
         except UnicodeDecodeError:
             raise InputError(f"{shown(name)}: allowed is a name in UTF-8") from None
 
-    def _each(self, kind: int, read: Callable[[], T]) -> list[T]:
+    def _list(self, kind: int, read: Callable[[], T]) -> list[T]:
         """Return a list of the header; an empty one may be without its kind."""
-        found, count = self._number(), self._number()
-        if found != kind and (found, count) != (0, 0):
+        tag, count = self._number(), self._number()
+        if tag != kind and (tag, count) != (0, 0):
             raise InputError("the header is damaged")
         return [read() for _ in range(count)]
 
@@ -177,7 +179,7 @@ class _Header:
 
     def _attribute(self) -> tuple[str, bytes]:
         name, kind, count = self._name(), self._type(), self._number()
-        values = self._padded(count * np.dtype(TYPES[kind]).itemsize)
+        values = self._take_padded(count * np.dtype(TYPES[kind]).itemsize)
         return name, values if kind == TEXT else b""
 
     def _variable(self) -> tuple[str, Variable]:
@@ -186,13 +188,13 @@ class _Header:
             axes = dict(self._dimensions[self._number()] for _ in range(self._number()))
         except IndexError:
             raise InputError(f"{shown(name)}: has a dimension that is none") from None
-        attributes = dict(self._each(ATTRIBUTE, self._attribute))
+        attributes = dict(self._list(ATTRIBUTE, self._attribute))
         dtype = np.dtype(TYPES[self._type()])
         self._number()  # size, which the dimensions tell
         begin = self._number(self._offset)
         size = math.prod(axes.values()) * dtype.itemsize
-        self._left -= size
-        inside = 0 <= begin <= len(self._data) - size and self._left >= 0
+        self._unclaimed -= size
+        inside = 0 <= begin <= len(self._data) - size and self._unclaimed >= 0
         if not inside or min(axes.values(), default=1) < 1:
             raise InputError(f"{shown(name)}: does not lie within the file")
         stored = self._data[begin : begin + size].view(dtype).reshape(tuple(axes.values()))

@@ -10,9 +10,9 @@ from exu_press.errors import InputError
 from exu_press.integrate import SolverStatus
 from exu_press.mechanism import Mechanism
 from exu_press.result.channel import Channel
-from exu_press.result.channels import described
+from exu_press.result.channels import channel_headers
 from exu_press.result.info import Info
-from exu_press.result.recorders import expected
+from exu_press.result.recorders import expected_channels
 from exu_press.scene import Scene, mechanism_of
 from exu_press.schema.stored import shown
 
@@ -44,8 +44,8 @@ class Contents:
 def _check(result: Contents) -> None:
     """Raise InputError for the first thing in which a result contradicts itself or its scene."""
     status = result.info["status"]
-    if status not in (each.value for each in SolverStatus):
-        allowed = ", ".join(repr(each.value) for each in SolverStatus)
+    if status not in (member.value for member in SolverStatus):
+        allowed = ", ".join(repr(member.value) for member in SolverStatus)
         raise InputError(f"info.status = {shown(status)}: allowed is one of {allowed}")
     scene, mechanism = result.scene, mechanism_of(result.scene)
     bodies = tuple(body.name for body in mechanism.bodies)
@@ -54,38 +54,40 @@ def _check(result: Contents) -> None:
             f"bodies = {shown(result.bodies)}: allowed are the scene's, {', '.join(bodies)}"
         )
     whole = "figures" not in result.info
-    known = expected(scene, own_items=bool(result.info["own_items"]))
+    expected = expected_channels(scene, own_items=bool(result.info["own_items"]))
     for channels in (result.channels, result.sampled) if result.sampled else (result.channels,):
-        _check_channels(channels, mechanism, known, whole=whole)
+        _check_channels(channels, mechanism, expected, whole=whole)
     _check_surfaces(result)
 
 
 def _check_channels(
     channels: Mapping[str, Channel],
     mechanism: Mechanism,
-    known: Mapping[str, tuple[str, bool]],
+    expected: Mapping[str, tuple[str, bool]],
     *,
     whole: bool,
 ) -> None:
     """Check the channels and their columns."""
-    required = [name for name, (_, always) in known.items() if always]
+    required = [name for name, (_, always) in expected.items() if always]
     for name in required if whole else ("time", "crank_angle"):
         if name not in channels:
             raise InputError(f"channel {name}: missing; this scene's results have it")
     count = len(channels["time"].values)
-    kinds = described(channels)
-    worked_out = kinds is not channels  # on disk or changed: values are checked where they are read
+    kinds = channel_headers(channels)
+    computed_later = (
+        kinds is not channels
+    )  # on disk or changed: values are checked where they are read
     for name, channel in kinds.items():
-        if name.endswith("_eccentricity") and name not in known:
+        if name.endswith("_eccentricity") and name not in expected:
             raise InputError(f"channel {name}: the scene has no such joint with clearance")
-        allowed, _ = known.get(name, (channel.axis, False))  # one face of several is not known
+        allowed, _ = expected.get(name, (channel.axis, False))  # one face of several is not known
         if channel.axis != allowed:
             raise InputError(
                 f"channel {name}: columns are {shown(channel.axis)}; allowed is {allowed!r}"
             )
-        if not worked_out and len(channel.values) != count:
+        if not computed_later and len(channel.values) != count:
             raise InputError(f"channel {name}: {len(channel.values)} values; time has {count}")
-    poses = described(channels).get("body_position")
+    poses = channel_headers(channels).get("body_position")
     if poses is not None and poses.values.shape[1] != len(mechanism.bodies):
         raise InputError(f"channel body_position: allowed are {len(mechanism.bodies)} bodies")
     if count == 0 or not (np.diff(channels["time"].values) > 0.0).all():

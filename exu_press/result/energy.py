@@ -6,15 +6,15 @@ import numpy as np
 
 from exu_press.mechanism import Body, Motion
 from exu_press.numerics.arrays import Array
-from exu_press.result.declared import OWN, Declared
+from exu_press.result.channel import OWN, Declaration, Declarations
 from exu_press.result.recording import Record, Recording
 
 __all__ = ["CHANNELS", "mechanical_energy", "record", "work"]
 
-CHANNELS = INPUT, STORED, DISSIPATED = (
-    Declared("energy_input", "J", "work of drive and loads since the start", unless=OWN),
-    Declared("energy_stored", "J", "change of stored energy", unless=OWN),
-    Declared("energy_dissipated", "J", "energy dissipated since the start", unless=OWN),
+CHANNELS = Declarations(
+    Declaration("energy_input", "J", "work of drive and loads since the start", unless=OWN),
+    Declaration("energy_stored", "J", "change of stored energy", unless=OWN),
+    Declaration("energy_dissipated", "J", "energy dissipated since the start", unless=OWN),
 )
 
 
@@ -25,8 +25,13 @@ def record(run: Recording) -> Record:
     supplied, stored, dissipated = map(
         np.asarray, (run.so_far.supplied, run.so_far.stored, run.so_far.dissipated)
     )
-    channels = INPUT.record(supplied) | STORED.record(stored - stored[0])
-    return Record(channels | DISSIPATED.record(dissipated))
+    return Record(
+        CHANNELS.record(
+            energy_input=supplied,
+            energy_stored=stored - stored[0],
+            energy_dissipated=dissipated,
+        )
+    )
 
 
 def mechanical_energy(

@@ -12,9 +12,9 @@ import numpy as np
 from exu_press.mechanism import Point
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
+from exu_press.result import ideal_joints
 from exu_press.result.channel import Channel
 from exu_press.result.guide_channels import guide_channels
-from exu_press.result.ideal_joints import FORCE, vectors
 from exu_press.result.recording import Record, Recording
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["record"]
 
-Held = tuple[str, float, Point]
+JointOnBody = tuple[str, float, Point]
 """A joint on a body, the sign with which its force acts there, and where in the body's frame."""
 
 
@@ -32,38 +32,40 @@ def record(run: Recording) -> Record:
     The loads and all joints that hold a coordinate or have clearance have their channels.
     """
     model, motions, channels, histories = run.model, run.motions, run.so_far.channels, run.histories
-    found: dict[str, Channel] = {}
+    reactions: dict[str, Channel] = {}
     guides = {guide.body: guide for guide in model.mechanism.guides}
     masses = {body.name: body.mass for body in model.mechanism.bodies}
 
-    on_body: dict[str, list[Held]] = {name: [] for name in masses}
+    on_body: dict[str, list[JointOnBody]] = {name: [] for name in masses}
     for joint in model.mechanism.joints:
         for sign, (name, point) in zip((1.0, -1.0), model.mechanism.ends(joint), strict=True):
             if name in on_body and f"{joint.name}_force" in channels:
                 on_body[name].append((joint.name, sign, point))
 
-    def held(name: str) -> Array:
+    def constraint_force(name: str) -> Array:
         """Return the reaction to all forces on a body, (n, 2)."""
-        found = _force(model, name, on_body[name], channels)
+        reaction = _force(model, name, on_body[name], channels)
         for column, weight in enumerate((0.0, -masses[name] * model.scene.gravity)):
             inertia = masses[name] * motions[name].acceleration[:, column]
-            found[:, column] = inertia - found[:, column] - weight
-        return found
+            reaction[:, column] = inertia - reaction[:, column] - weight
+        return reaction
 
     for name in sorted(model.constraints.sliding_bodies):
-        across = held(name) @ np.array(guides[name].normal)
+        across = constraint_force(name) @ np.array(guides[name].normal)
         angle = motions[name].position[:, 2]
         moment = -_moment(model, name, on_body[name], angle, channels, histories)
-        found |= guide_channels(model.mechanism, name, {"force": across, "moment": moment})
+        reactions |= guide_channels(model.mechanism, name, force=across, moment=moment)
     for name, pivot in model.constraints.pivots.items():
         if name in model.rigid:
-            force = held(name) * (1.0 if pivot.journal == name else -1.0)
-            found |= FORCE.record(vectors(force, pivot.spherical), pivot.name)
-    return Record(found)
+            force = constraint_force(name) * (1.0 if pivot.journal == name else -1.0)
+            reactions |= ideal_joints.CHANNELS.record(
+                pivot.name, force=ideal_joints.vectors(force, pivot.spherical)
+            )
+    return Record(reactions)
 
 
 def _force(
-    model: Model, name: str, joints: Sequence[Held], channels: Mapping[str, Channel]
+    model: Model, name: str, joints: Sequence[JointOnBody], channels: Mapping[str, Channel]
 ) -> Array:
     """Return the force of joints and loads on a body, (n, 2)."""
     force = np.zeros((len(channels["time"].values), 2))
@@ -79,7 +81,7 @@ def _force(
 def _moment(
     model: Model,
     name: str,
-    joints: Sequence[Held],
+    joints: Sequence[JointOnBody],
     angle: Array,
     channels: Mapping[str, Channel],
     histories: "Mapping[str, JointHistory]",

@@ -7,8 +7,7 @@ import numpy as np
 from exu_press.mechanism import Motion, Point
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
-from exu_press.result.channel import Channel
-from exu_press.result.declared import Declared
+from exu_press.result.channel import Channel, Declaration, Declarations
 from exu_press.result.energy import work
 from exu_press.result.info import Solid
 from exu_press.result.motion import frame_motion, moving_point, point_motion, sensor
@@ -20,18 +19,20 @@ if TYPE_CHECKING:
 
 __all__ = ["CHANNELS", "carried_motion", "deflection", "guided_motion", "modal", "record"]
 
-CHANNELS = STRAIN_ENERGY, MODES_LOSS, MODES, ELONGATION, BENDING, DEFLECTION = (
-    Declared("{body}_strain_energy", "J", "{body}: elastic energy", always=False),
-    Declared(
+CHANNELS = Declarations(
+    Declaration("{body}_strain_energy", "J", "{body}: elastic energy", always=False),
+    Declaration(
         "{body}_modes_loss",
         "J",
         "{body}: energy dissipated by the damping of modes since the start",
         always=False,
     ),
-    Declared("{body}_modes", "kg^0.5 m", "{body}: modal coordinates", "{body}_mode", False),
-    Declared("{body}_elongation", "m", "{body}: joints further apart", always=False),
-    Declared("{body}_bending", "rad", "{body}: joints turned apart", always=False),
-    Declared("{faced}_deflection", "m", "{faced}: displacement from a rigid body", "plane", False),
+    Declaration("{body}_modes", "kg^0.5 m", "{body}: modal coordinates", "{body}_mode", False),
+    Declaration("{body}_elongation", "m", "{body}: joints further apart", always=False),
+    Declaration("{body}_bending", "rad", "{body}: joints turned apart", always=False),
+    Declaration(
+        "{pivoted}_deflection", "m", "{pivoted}: displacement from a rigid body", "plane", False
+    ),
 )
 
 
@@ -46,31 +47,30 @@ def record(run: Recording) -> Record:
     channels: dict[str, Channel] = {}
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
     for name, placed in model.parts.items():
-        part = placed.reduced
+        reduced = placed.reduced
         motion = frame_motion(model, name)
         position, velocity = motion.position, motion.velocity
-        q, q_t = modal(model, name, part, len(time))
-        strain = 0.5 * (q**2) @ np.diag(part.stiffness_matrix)
-        stored += _rigid_energy(model, name, part)
+        q, q_t = modal(model, name, reduced, len(time))
+        strain = 0.5 * (q**2) @ np.diag(reduced.stiffness_matrix)
+        stored += _rigid_energy(model, name, reduced)
         stored += 0.5 * (q_t**2).sum(axis=1) + strain
-        stored += 0.5 * velocity[:, 2] ** 2 * (q @ _stretch(part))
-        damping = np.diag(part.damping_matrix(placed.damping_ratio))
-        lost = work(time, q_t * damping, q_t)
-        dissipated += lost
-        channels |= STRAIN_ENERGY.record(strain, name)
-        if part.mode_count:
-            channels |= MODES_LOSS.record(lost, name)
-            channels |= MODES.record(q, name)
+        stored += 0.5 * velocity[:, 2] ** 2 * (q @ _inertia_of_modes(reduced))
+        damping = np.diag(reduced.damping_matrix(placed.damping_ratio))
+        loss = work(time, q_t * damping, q_t)
+        dissipated += loss
+        channels |= CHANNELS.record(name, strain_energy=strain)
+        if reduced.mode_count:
+            channels |= CHANNELS.record(name, modes_loss=loss, modes=q)
         pivot = next((j.name for j in model.mechanism.joints_of(name) if j.on_frame), None)
         if pivot is not None:
             for joint in placed.faces:
                 if placed.faces[joint][0] not in placed.faces[pivot]:
-                    moved = q @ deflection(placed, joint, pivot).T
-                    turned = _turned(moved, position[:, 2])
-                    words = f"{joint} on the {name}".replace("_", " ")
-                    channels |= DEFLECTION.record(turned, joint, words=words)
+                    displacement = q @ deflection(placed, joint, pivot).T
+                    rotated = _rotate(displacement, position[:, 2])
+                    label = f"{joint} on the {name}".replace("_", " ")
+                    channels |= CHANNELS.record(joint, label=label, deflection=rotated)
         elif len(placed.faces) == 2:
-            channels |= _between(placed, name, q)
+            channels |= _relative_motion(placed, name, q)
     solids = {name: _solid(placed) for name, placed in model.parts.items()}
     return Record(channels, stored, dissipated, info={"solids": solids})
 
@@ -86,14 +86,14 @@ def _solid(placed: "PlacedPart") -> Solid:
     }
 
 
-def _between(placed: "PlacedPart", name: str, q: Array) -> dict[str, Channel]:
+def _relative_motion(placed: "PlacedPart", name: str, q: Array) -> dict[str, Channel]:
     """Return how far the two joints of a body move and turn apart."""
     first, second = (placed.reduced.interface(faces[0]) for faces in placed.faces.values())
     along = (second.axis - first.axis)[:2]
     along = along / np.linalg.norm(along)
-    longer = along @ (second.translation - first.translation)[:2]
-    bent = (second.rotation - first.rotation)[2]
-    return ELONGATION.record(q @ longer, name) | BENDING.record(q @ bent, name)
+    elongation = along @ (second.translation - first.translation)[:2]
+    bending = (second.rotation - first.rotation)[2]
+    return CHANNELS.record(name, elongation=q @ elongation, bending=q @ bending)
 
 
 def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:
@@ -104,15 +104,15 @@ def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:
     the modes, so that a force across the press's throw seems to bend it by 14 % less, one along it
     by 5 % more.
     """
-    part = placed.reduced
-    moved = part.interface(placed.faces[joint][0])
-    rests = [part.interface(face) for face in placed.faces[pivot]]
-    height, heights = float(moved.centre[2]), [float(rest.centre[2]) for rest in rests]
+    reduced = placed.reduced
+    driven = reduced.interface(placed.faces[joint][0])
+    rests = [reduced.interface(face) for face in placed.faces[pivot]]
+    height, heights = float(driven.centre[2]), [float(rest.centre[2]) for rest in rests]
     part_way = 0.0 if len(rests) == 1 else (height - heights[0]) / (heights[1] - heights[0])
     line = (1.0 - part_way) * rests[0].translation + part_way * rests[-1].translation
-    axis = part.interface(placed.drive or placed.faces[pivot][0]).rotation.T * (0.0, 0.0, 1.0)
-    turned = np.cross(axis, moved.axis - rests[0].axis).T
-    return np.asarray((moved.translation - line - turned)[:2])
+    axis = reduced.interface(placed.drive or placed.faces[pivot][0]).rotation.T * (0.0, 0.0, 1.0)
+    rotated = np.cross(axis, driven.axis - rests[0].axis).T
+    return np.asarray((driven.translation - line - rotated)[:2])
 
 
 def carried_motion(
@@ -127,9 +127,9 @@ def carried_motion(
         point: in the undeformed body's frame, m.
     """
     placed, count = model.parts[name], len(sensor(model, name, "position"))
-    place, modes = placed.carried(faces, point)
+    position, modes = placed.carried(faces, point)
     q, q_t = modal(model, name, placed.reduced, count)
-    return moving_point(model, name, place + q @ modes.T, q_t @ modes.T)
+    return moving_point(model, name, position + q @ modes.T, q_t @ modes.T)
 
 
 def guided_motion(model: Model, name: str) -> Motion:
@@ -141,43 +141,46 @@ def guided_motion(model: Model, name: str) -> Motion:
     frame = frame_motion(model, name)
     q, q_t = modal(model, name, placed.reduced, len(frame.position))
     turn = placed.reduced.interface(placed.guide).rotation[2]
-    place, rate = carried_motion(model, name, (placed.guide,), (0.0, 0.0))
+    position_of_guide, rate = carried_motion(model, name, (placed.guide,), (0.0, 0.0))
     angle = frame.position[:, 2] + placed.angle + q @ turn
     omega = frame.velocity[:, 2] + q_t @ turn
     position, velocity = (
         np.column_stack([vector[:, :2], angular])
-        for vector, angular in ((place, angle), (rate, omega))
+        for vector, angular in ((position_of_guide, angle), (rate, omega))
     )
     return Motion(position, velocity, np.zeros_like(position))
 
 
-def modal(model: Model, name: str, part: "ReducedPart", count: int) -> tuple[Array, Array]:
+def modal(model: Model, name: str, reduced: "ReducedPart", count: int) -> tuple[Array, Array]:
     """Return modal coordinates and their rates, (n, modes)."""
-    if part.mode_count == 0:
+    if reduced.mode_count == 0:
         return np.zeros((count, 0)), np.zeros((count, 0))
     return sensor(model, f"{name}_modes", "position"), sensor(model, f"{name}_modes", "velocity")
 
 
-def _stretch(part: "ReducedPart") -> Array:
-    """Return each mode's part of the moment of inertia about the frame's z axis, (modes,)."""
-    products = part.couplings["mXRefTildePsiTilde"][2, 2::3]  # integrals of x u_x + y u_y over mass
+def _inertia_of_modes(reduced: "ReducedPart") -> Array:
+    """Return each mode's part of the moment of inertia about the frame's z axis, (modes,).
+
+    It is twice the integral of x u_x + y u_y over the mass.
+    """
+    products = reduced.couplings["mXRefTildePsiTilde"][2, 2::3]
     return np.asarray(2.0 * products)
 
 
-def _rigid_energy(model: Model, name: str, part: "ReducedPart") -> Array:
+def _rigid_energy(model: Model, name: str, reduced: "ReducedPart") -> Array:
     """Return kinetic and potential energy of the undeformed body, (n,), J.
 
     In space: where forces leap, the frame of a bending crank shaft tilts.
     """
-    height, velocity, omega = point_motion(model, name, part.centre_of_mass)
-    c = part.centre_of_mass
-    about_centre = part.inertia - part.mass * (c @ c * np.eye(3) - np.outer(c, c))
-    kinetic = 0.5 * part.mass * (velocity**2).sum(axis=1)
+    height, velocity, omega = point_motion(model, name, reduced.centre_of_mass)
+    c = reduced.centre_of_mass
+    about_centre = reduced.inertia - reduced.mass * (c @ c * np.eye(3) - np.outer(c, c))
+    kinetic = 0.5 * reduced.mass * (velocity**2).sum(axis=1)
     kinetic += 0.5 * ((omega @ about_centre) * omega).sum(axis=1)
-    return np.asarray(kinetic + part.mass * model.scene.gravity * height)
+    return np.asarray(kinetic + reduced.mass * model.scene.gravity * height)
 
 
-def _turned(vectors: Array, angle: Array) -> Array:
+def _rotate(vectors: Array, angle: Array) -> Array:
     """Return the x and y of vectors (n, 2 or 3) of a body turned by angles (n,)."""
     c, s = np.cos(angle), np.sin(angle)
     x, y = vectors[:, 0], vectors[:, 1]

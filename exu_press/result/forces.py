@@ -7,17 +7,22 @@ import numpy as np
 from exu_press.mechanism import GROUND, Motion
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
-from exu_press.result.channel import Channel, guide_channel
-from exu_press.result.declared import UNBALANCED, Declared
+from exu_press.result.channel import (
+    UNBALANCED,
+    Channel,
+    Declaration,
+    Declarations,
+    guide_channel,
+)
 from exu_press.result.motion import point_acceleration
 from exu_press.result.recording import Record, Recording
 
 __all__ = ["CHANNELS", "record"]
 
-CHANNELS = FRAME, SHAKING, WITHOUT_COUNTERWEIGHT = (
-    Declared("frame_force", "N", "force of shaft, pivots and guides on the frame", "plane"),
-    Declared("shaking_force", "N", "shaking force: minus the rate of momentum", "plane"),
-    Declared(
+CHANNELS = Declarations(
+    Declaration("frame_force", "N", "force of shaft, pivots and guides on the frame", "plane"),
+    Declaration("shaking_force", "N", "shaking force: minus the rate of momentum", "plane"),
+    Declaration(
         "shaking_force_without_counterweight",
         "N",
         "shaking force without the counterweight",
@@ -29,8 +34,8 @@ CHANNELS = FRAME, SHAKING, WITHOUT_COUNTERWEIGHT = (
 
 def record(run: Recording) -> Record:
     """Return the forces on the frame; all joints and guides have their channels."""
-    force = _frame_force(run.model, run.so_far.channels)
-    return Record(FRAME.record(force) | _shaking_forces(run.model, run.motions))
+    frame = CHANNELS.record(frame_force=_frame_force(run.model, run.so_far.channels))
+    return Record(frame | _shaking_forces(run.model, run.motions))
 
 
 def _frame_force(model: Model, channels: Mapping[str, Channel]) -> Array:
@@ -67,19 +72,23 @@ def _shaking_forces(model: Model, motions: Mapping[str, Motion]) -> dict[str, Ch
         mass, centre = body.mass, motions[body.name].acceleration
         if body.name in model.parts:
             # modes are orthogonal to rigid motions: they have no momentum of their own
-            part = model.parts[body.name].reduced
-            mass, centre = part.mass, point_acceleration(model, body.name, part.centre_of_mass)
+            reduced = model.parts[body.name].reduced
+            mass, centre = (
+                reduced.mass,
+                point_acceleration(model, body.name, reduced.centre_of_mass),
+            )
         forces[body.name] = -mass * centre[:, :2]
-    channels = SHAKING.record(_sum(forces, forces))
+    channels = CHANNELS.record(shaking_force=_sum(forces, forces))
     if counterweight := model.mechanism.counterweight:
-        others = [name for name in forces if name not in counterweight]
-        channels |= WITHOUT_COUNTERWEIGHT.record(_sum(forces, others))
+        remaining = [name for name in forces if name not in counterweight]
+        unbalanced = _sum(forces, remaining)
+        channels |= CHANNELS.record(shaking_force_without_counterweight=unbalanced)
     return channels
 
 
 def _sum(forces: dict[str, Array], names: Collection[str]) -> Array:
-    first, *others = names
-    found = forces[first].copy(order="K")
-    for name in others:
-        found += forces[name]
-    return found
+    first, *remaining = names
+    total = forces[first].copy(order="K")
+    for name in remaining:
+        total += forces[name]
+    return total

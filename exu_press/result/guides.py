@@ -33,20 +33,23 @@ def _elastic(run: Recording) -> Record:
         springs = (guide.lateral, (*guide.normal, 0.0)), (guide.tilting, (0.0, 0.0, 1.0))
         if not any(spring for spring, _ in springs):
             continue
-        lost = np.zeros_like(time)
-        held = _guided(run, guide.body)
-        place, speed = held.position - _relaxed(model, guide.body), held.velocity
-        loads = {}
+        loss = np.zeros_like(time)
+        motion = _guide_motion(run, guide.body)
+        displacement, velocity = motion.position - _relaxed_pose(model, guide.body), motion.velocity
+        reactions = {}
         for quantity, (spring, direction) in zip(("force", "moment"), springs, strict=True):
             if spring is not None:
-                moved, rate = place @ np.array(direction), speed @ np.array(direction)
-                stored += 0.5 * spring.stiffness * moved**2
-                lost += work(time, spring.damping * rate, rate)
-                loads[quantity] = -(spring.stiffness * moved + spring.damping * rate)
+                deflection, rate = (
+                    displacement @ np.array(direction),
+                    velocity @ np.array(direction),
+                )
+                stored += 0.5 * spring.stiffness * deflection**2
+                loss += work(time, spring.damping * rate, rate)
+                reactions[quantity] = -(spring.stiffness * deflection + spring.damping * rate)
         if guide.body in model.parts:  # of others sensors tell it
-            channels |= guide_channels(model.mechanism, guide.body, loads)
-        channels |= guide_channels(model.mechanism, guide.body, {"loss": lost})
-        dissipated += lost
+            channels |= guide_channels(model.mechanism, guide.body, **reactions)
+        channels |= guide_channels(model.mechanism, guide.body, loss=loss)
+        dissipated += loss
     return Record(channels, stored, dissipated)
 
 
@@ -56,22 +59,20 @@ def _friction(run: Recording, channels: Mapping[str, Channel]) -> Record:
     friction_channels: dict[str, Channel] = {}
     dissipated = np.zeros_like(time)
     guides = {guide.body: guide for guide in model.mechanism.guides}
-    for name, rubbing in model.guide_friction.items():
-        speed = _guided(run, name).velocity[:, :2] @ np.array(guides[name].direction)
-        shown = guide_channel(model.mechanism, name)
-        side = np.abs(channels[f"{shown}_force"].values)
-        friction = -rubbing.friction.coefficients(time, speed) * side
-        lost = -work(time, friction, speed)
-        dissipated += lost
-        if f"{shown}_loss" in channels:  # of its spring
-            lost = lost + channels[f"{shown}_loss"].values
-        friction_channels |= guide_channels(
-            model.mechanism, name, {"friction": friction, "loss": lost}
-        )
+    for name, guide_friction in model.guide_friction.items():
+        speed = _guide_motion(run, name).velocity[:, :2] @ np.array(guides[name].direction)
+        prefix = guide_channel(model.mechanism, name)
+        normal = np.abs(channels[f"{prefix}_force"].values)
+        friction = -guide_friction.friction.coefficients(time, speed) * normal
+        loss = -work(time, friction, speed)
+        dissipated += loss
+        if f"{prefix}_loss" in channels:  # of its spring
+            loss = loss + channels[f"{prefix}_loss"].values
+        friction_channels |= guide_channels(model.mechanism, name, friction=friction, loss=loss)
     return Record(friction_channels, dissipated=dissipated)
 
 
-def _guided(run: Recording, body: str) -> Motion:
+def _guide_motion(run: Recording, body: str) -> Motion:
     """Return the motion of what lies in a body's guide."""
     if body not in run.model.parts:
         return run.motions[body]
@@ -80,7 +81,7 @@ def _guided(run: Recording, body: str) -> Motion:
     return guided_motion(run.model, body)
 
 
-def _relaxed(model: Model, name: str) -> Array:
+def _relaxed_pose(model: Model, name: str) -> Array:
     """Return the pose (3,) in which the springs of a body's guide are relaxed."""
     if name in model.rigid:
         return model.rigid[name].reference

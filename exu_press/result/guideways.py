@@ -20,12 +20,12 @@ def record(run: Recording) -> Record:
     """
     model, time = run.model, run.time
     channels: dict[str, Channel] = {}
-    all_stored, all_lost = np.zeros_like(time), np.zeros_like(time)
+    all_stored, all_losses = np.zeros_like(time), np.zeros_like(time)
     wearing = wearing_guides(model.scene)
     states = {
-        f"{body} {n}": history(model.states, each, time)
-        for body, all_of in model.guideways.items()
-        for n, each in enumerate(all_of)
+        f"{body} {n}": history(model.states, joint, time)
+        for body, ends_of_guide in model.guideways.items()
+        for n, joint in enumerate(ends_of_guide)
     }
     for guide in model.mechanism.guides:
         if guide.guideway is None:
@@ -33,34 +33,39 @@ def record(run: Recording) -> Record:
         angle = run.motions[guide.body].position[:, 2]
         angle = angle - model.mechanism.body(guide.body).angle
         x, y = guide.direction
-        force, moment, lost = np.zeros((len(time), 2)), np.zeros_like(time), np.zeros_like(time)
+        force, moment, loss = np.zeros((len(time), 2)), np.zeros_like(time), np.zeros_like(time)
         for n, side in enumerate((-1.0, 1.0)):
             end = states[f"{guide.body} {n}"]
-            pressed = end.force[:, :2]
+            end_force = end.force[:, :2]
             reach = 0.5 * side * guide.guideway.length
             arm_x = reach * (np.cos(angle) * x - np.sin(angle) * y)
             arm_y = reach * (np.sin(angle) * x + np.cos(angle) * y)
-            force += pressed
-            moment += arm_x * pressed[:, 1] - arm_y * pressed[:, 0]
+            force += end_force
+            moment += arm_x * end_force[:, 1] - arm_y * end_force[:, 0]
             moment += end.moments[:, 0]
-            elastic, lost_here = stored_and_lost(end, time)
-            lost += lost_here
+            elastic, end_loss = stored_and_lost(end, time)
+            loss += end_loss
             all_stored += elastic
         film = states.get(f"{guide.body} 2")
         if film is not None:
             force += film.force
             moment += film.moments.sum(axis=1)
-            lost += stored_and_lost(film, time)[1]
-            channels |= guide_channels(model.mechanism, guide.body, {"gap": film.gap})
-        all_lost += lost
+            loss += stored_and_lost(film, time)[1]
+            channels |= guide_channels(model.mechanism, guide.body, gap=film.gap)
+        all_losses += loss
         across, along = force @ np.array(guide.normal), force @ np.array(guide.direction)
-        held = {"force": across, "moment": moment, "friction": along, "loss": lost}
-        channels |= guide_channels(model.mechanism, guide.body, held)
+        channels |= guide_channels(
+            model.mechanism, guide.body, force=across, moment=moment, friction=along, loss=loss
+        )
         if guide.body in wearing:
             both = [states[f"{guide.body} {n}"] for n in (0, 1)]
             on_right = [np.sign(end.eccentricity[:, :2] @ np.array(guide.normal)) for end in both]
             normal = [s * end.rubbing[:, 0] for s, end in zip(on_right, both, strict=True)]
             sliding = [end.rubbing[:, 1] for end in both]
-            rubbed = {"normal_force": np.column_stack(normal), "sliding": np.column_stack(sliding)}
-            channels |= guide_channels(model.mechanism, guide.body, rubbed)
-    return Record(channels, all_stored, all_lost)
+            channels |= guide_channels(
+                model.mechanism,
+                guide.body,
+                normal_force=np.column_stack(normal),
+                sliding=np.column_stack(sliding),
+            )
+    return Record(channels, all_stored, all_losses)

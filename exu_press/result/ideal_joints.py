@@ -7,16 +7,15 @@ import numpy as np
 from exu_press.mechanism import GROUND, Motion
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
-from exu_press.result.channel import Channel
-from exu_press.result.declared import VECTOR, Declared
+from exu_press.result.channel import VECTOR, Channel, Declaration, Declarations
 from exu_press.result.guide_channels import guide_channels
 from exu_press.result.motion import sensor
 from exu_press.result.recording import Record, Recording
 
-__all__ = ["CHANNELS", "FORCE", "record", "vectors"]
+__all__ = ["CHANNELS", "record", "vectors"]
 
-CHANNELS = (FORCE,) = (
-    Declared("{joint}_force", "N", "{joint}: force on journal", VECTOR, always=False),
+CHANNELS = Declarations(
+    Declaration("{joint}_force", "N", "{joint}: force on journal", VECTOR, always=False)
 )
 
 
@@ -31,42 +30,42 @@ def record(run: Recording) -> Record:
         values = sensor(model, name, quantity)
         if name.endswith("_guide"):
             body = name.removesuffix("_guide")
-            channels |= guide_channels(model.mechanism, body, {quantity: -values[:, 0]})
+            channels |= guide_channels(model.mechanism, body, **{quantity: -values[:, 0]})
         else:
-            if name in model.constraints.single_axis and not _flexible(model, name):
+            if name in model.constraints.single_axis and not _is_on_flexible_body(model, name):
                 values = _single_axis(model, run.motions, name, values[:, 0])
-            channels |= FORCE.record(vectors(values[:, :2], name in spherical), name)
-    return Record(channels | _of_several_faces(channels, model))
+            channels |= CHANNELS.record(name, force=vectors(values[:, :2], name in spherical))
+    return Record(channels | _sums_over_faces(channels, model))
 
 
-def _of_several_faces(channels: Mapping[str, Channel], model: Model) -> dict[str, Channel]:
+def _sums_over_faces(channels: Mapping[str, Channel], model: Model) -> dict[str, Channel]:
     """Return the forces of joints of the frame with several faces: those of the faces.
 
     Face by face they are in the channels, too, numbered.
     """
-    found: dict[str, Channel] = {}
+    totals: dict[str, Channel] = {}
     spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
-    for part in model.parts.values():
-        for joint, faces in part.faces.items():
-            each = [f"{joint}_{number}_force" for number in range(1, len(faces) + 1)]
-            if len(each) > 1 and each[0] in channels:
-                force = np.sum([channels[name].values for name in each], axis=0)
-                found |= FORCE.record(vectors(force, joint in spherical), joint)
-    return found
+    for placed in model.parts.values():
+        for joint, faces in placed.faces.items():
+            face_channels = [f"{joint}_{number}_force" for number in range(1, len(faces) + 1)]
+            if len(face_channels) > 1 and face_channels[0] in channels:
+                force = np.sum([channels[name].values for name in face_channels], axis=0)
+                totals |= CHANNELS.record(joint, force=vectors(force, joint in spherical))
+    return totals
 
 
-def _flexible(model: Model, joint: str) -> bool:
+def _is_on_flexible_body(model: Model, joint: str) -> bool:
     """Return whether a joint holds a flexible body."""
-    return any(joint in part.faces for part in model.parts.values())
+    return any(joint in placed.faces for placed in model.parts.values())
 
 
 def _single_axis(model: Model, motions: Mapping[str, Motion], joint: str, force: Array) -> Array:
     """Return the force on the journal, (n, 2), N, of a joint that holds one direction."""
-    held = model.constraints.single_axis[joint]
-    described = next(one for one in model.mechanism.joints if one.name == joint)
-    turned = 0.0 if held.body == GROUND else motions[held.body].position[:, 2]
-    angle = held.angle + turned * np.ones_like(force)
-    on_journal = force * (1.0 if held.body == described.journal else -1.0)
+    constraint = model.constraints.single_axis[joint]
+    declared = next(candidate for candidate in model.mechanism.joints if candidate.name == joint)
+    rotation = 0.0 if constraint.body == GROUND else motions[constraint.body].position[:, 2]
+    angle = constraint.angle + rotation * np.ones_like(force)
+    on_journal = force * (1.0 if constraint.body == declared.journal else -1.0)
     return np.asarray(on_journal[:, None] * np.column_stack([np.cos(angle), np.sin(angle)]))
 
 

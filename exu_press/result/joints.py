@@ -8,8 +8,7 @@ from exu_press.joints.history import JointHistory, history
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral
-from exu_press.result.channel import Channel
-from exu_press.result.declared import VECTOR, Declared
+from exu_press.result.channel import VECTOR, Channel, Declaration, Declarations
 from exu_press.result.ideal_joints import vectors
 from exu_press.result.recording import Record, Recording
 
@@ -18,32 +17,21 @@ if TYPE_CHECKING:
 
 __all__ = ["CHANNELS", "joint_histories", "record", "stored_and_lost"]
 
-CHANNELS = (
-    FORCE,
-    ECCENTRICITY,
-    MOMENT,
-    POWER,
-    WORN_GAP,
-    NORMAL_FORCE,
-    SLIDING,
-    LOSS,
-    TEMPERATURE,
-    VISCOSITY,
-    SIDE_FLOW,
-    CARRIED_OFF,
-) = (
-    Declared("{loose}_force", "N", "{loose}: force on journal", VECTOR),
-    Declared("{loose}_eccentricity", "m", "{loose}: journal minus bearing centre", VECTOR),
-    Declared("{loose}_moment", "N m", "{loose}: moment on journal and on bearing", "ends"),
-    Declared("{loose}_power", "W", "{loose}: dissipated power"),
-    Declared("{worn}_gap", "m", "{worn}: least gap of the worn surfaces, or -penetration"),
-    Declared("{wearing}_normal_force", "N", "{wearing}: normal force of the contact", always=False),
-    Declared("{wearing}_sliding", "m/s", "{wearing}: sliding velocity", always=False),
-    Declared("{loose}_loss", "J", "{loose}: energy dissipated since the start"),
-    Declared("{warm}_temperature", "deg C", "{warm}: temperature of the film"),
-    Declared("{warm}_viscosity", "Pa s", "{warm}: viscosity of the film"),
-    Declared("{warm}_side_flow", "m^3/s", "{warm}: oil that leaves the bearing's ends"),
-    Declared("{warm}_carried_off", "J", "{warm}: heat given to oil and frame since the start"),
+CHANNELS = Declarations(
+    Declaration("{loose}_force", "N", "{loose}: force on journal", VECTOR),
+    Declaration("{loose}_eccentricity", "m", "{loose}: journal minus bearing centre", VECTOR),
+    Declaration("{loose}_moment", "N m", "{loose}: moment on journal and on bearing", "ends"),
+    Declaration("{loose}_power", "W", "{loose}: dissipated power"),
+    Declaration("{worn}_gap", "m", "{worn}: least gap of the worn surfaces, or -penetration"),
+    Declaration(
+        "{wearing}_normal_force", "N", "{wearing}: normal force of the contact", always=False
+    ),
+    Declaration("{wearing}_sliding", "m/s", "{wearing}: sliding velocity", always=False),
+    Declaration("{loose}_loss", "J", "{loose}: energy dissipated since the start"),
+    Declaration("{warm}_temperature", "deg C", "{warm}: temperature of the film"),
+    Declaration("{warm}_viscosity", "Pa s", "{warm}: viscosity of the film"),
+    Declaration("{warm}_side_flow", "m^3/s", "{warm}: oil that leaves the bearing's ends"),
+    Declaration("{warm}_carried_off", "J", "{warm}: heat given to oil and frame since the start"),
 )
 
 
@@ -67,33 +55,37 @@ def record(run: Recording) -> Record:
     """Return the channels of the clearance joints, their stored and their dissipated energy."""
     model, time = run.model, run.time
     channels: dict[str, Channel] = {}
-    all_stored, all_lost = np.zeros_like(time), np.zeros_like(time)
+    all_stored, all_losses = np.zeros_like(time), np.zeros_like(time)
     balls = {joint.name for joint in model.mechanism.joints if joint.spherical}
     for name, states in run.histories.items():
-        stored, lost = stored_and_lost(states, time)
+        stored, loss = stored_and_lost(states, time)
         all_stored += stored
-        all_lost += lost
-        channels |= ECCENTRICITY.record(vectors(states.eccentricity, name in balls), name)
-        channels |= FORCE.record(vectors(states.force, name in balls), name)
-        channels |= MOMENT.record(states.moments_in_plane, name)
-        channels |= POWER.record(states.dissipated_power, name)
-        channels |= LOSS.record(lost, name)
+        all_losses += loss
+        channels |= CHANNELS.record(
+            name,
+            eccentricity=vectors(states.eccentricity, name in balls),
+            force=vectors(states.force, name in balls),
+            moment=states.moments_in_plane,
+            power=states.dissipated_power,
+            loss=loss,
+        )
         if name in model.warm:
             channels |= _heat(model.warm[name], states, time, name)
         if len(states.rubbing):
-            channels |= NORMAL_FORCE.record(states.rubbing[:, 0], name)
-            channels |= SLIDING.record(states.rubbing[:, 1], name)
+            normal_force, sliding = states.rubbing.T
+            channels |= CHANNELS.record(name, normal_force=normal_force, sliding=sliding)
         if model.scene.joints[name].worn is not None:
-            channels |= WORN_GAP.record(states.gap, name)
-    return Record(channels, all_stored, all_lost)
+            channels |= CHANNELS.record(name, gap=states.gap)
+    return Record(channels, all_stored, all_losses)
 
 
 def _heat(film: "WarmFilm", states: JointHistory, time: Array, name: str) -> dict[str, Channel]:
     """Return the channels of a film whose oil warms."""
     flow = film.side_flow(states)
-    return (
-        TEMPERATURE.record(np.full_like(time, film.temperature), name)
-        | VISCOSITY.record(np.full_like(time, film.viscosity), name)
-        | SIDE_FLOW.record(flow, name)
-        | CARRIED_OFF.record(integral(time, film.cooling(flow)), name)
+    return CHANNELS.record(
+        name,
+        temperature=np.full_like(time, film.temperature),
+        viscosity=np.full_like(time, film.viscosity),
+        side_flow=flow,
+        carried_off=integral(time, film.cooling(flow)),
     )

@@ -75,7 +75,7 @@ def point_acceleration(model: Model, name: str, point: Array) -> Array:
     e_0, e, velocity = _in_space(model, name)
     acceleration = sensor(model, name, "acceleration")
     omega, alpha = (_angular_velocity(e_0, e, rates[:, 3:]) for rates in (velocity, acceleration))
-    arm = _turned(e_0, e, point)
+    arm = _rotate(e_0, e, point)
     swing = np.cross(alpha, arm) + np.cross(omega, np.cross(omega, arm))
     return np.asarray(acceleration[:, :3] + swing)
 
@@ -87,26 +87,26 @@ def point_motion(model: Model, name: str, point: Array) -> tuple[Array, Array, A
     velocity (n, 3), rad/s, is in its own axes.
     """
     e_0, e, velocity = _in_space(model, name)
-    omega, arm = _angular_velocity(e_0, e, velocity[:, 3:]), _turned(e_0, e, point)
+    omega, arm = _angular_velocity(e_0, e, velocity[:, 3:]), _rotate(e_0, e, point)
     height = frame_motion(model, name).position[:, 1] + arm[:, 1]
-    return height, velocity[:, :3] + np.cross(omega, arm), _turned(e_0, -e, omega)
+    return height, velocity[:, :3] + np.cross(omega, arm), _rotate(e_0, -e, omega)
 
 
-def moving_point(model: Model, name: str, place: Array, rate: Array) -> tuple[Array, Array]:
+def moving_point(model: Model, name: str, position: Array, rate: Array) -> tuple[Array, Array]:
     """Return position and velocity (n, 3) of a point that moves in a flexible body's frame.
 
     Args:
         model: integrated.
         name: of the body.
-        place: (n, 3) in its frame, m.
+        position: (n, 3) in its frame, m.
         rate: (n, 3) of the place, m/s.
     """
     e_0, e, velocity = _in_space(model, name)
-    omega, arm = _angular_velocity(e_0, e, velocity[:, 3:]), _turned(e_0, e, place)
+    omega, arm = _angular_velocity(e_0, e, velocity[:, 3:]), _rotate(e_0, e, position)
     start = model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
     position = (sensor(model, name, "position") + start)[:, :3]
-    moved = velocity[:, :3] + np.cross(omega, arm) + _turned(e_0, e, rate)
-    return np.asarray(position + arm), np.asarray(moved)
+    rate_in_space = velocity[:, :3] + np.cross(omega, arm) + _rotate(e_0, e, rate)
+    return np.asarray(position + arm), np.asarray(rate_in_space)
 
 
 def _in_space(model: Model, name: str) -> tuple[Array, Array, Array]:
@@ -116,7 +116,7 @@ def _in_space(model: Model, name: str) -> tuple[Array, Array, Array]:
     return rotation[:, :1], rotation[:, 1:], sensor(model, name, "velocity")
 
 
-def _turned(e_0: Array, e: Array, vectors: Array) -> Array:
+def _rotate(e_0: Array, e: Array, vectors: Array) -> Array:
     """Return vectors, (3,) or (n, 3), turned from the frame to global axes, (n, 3)."""
     return np.asarray(vectors + 2.0 * np.cross(e, np.cross(e, vectors) + e_0 * vectors))
 

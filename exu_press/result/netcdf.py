@@ -86,7 +86,7 @@ def write_checksums(file: "netcdf_file") -> None:
 
     for variable in file.variables.values():
         variable.checksum = f"{checksum(variable.data):08x}"
-    described = {
+    variables = {
         name: (
             dict(zip(variable.dimensions, variable.shape, strict=True)),
             texts(variable),
@@ -94,7 +94,7 @@ def write_checksums(file: "netcdf_file") -> None:
         )
         for name, variable in file.variables.items()
     }
-    file.checksum = header_checksum(texts(file), described)
+    file.checksum = header_checksum(texts(file), variables)
 
 
 def _write_channel(file: "netcdf_file", name: str, along: str, channel: Channel) -> None:
@@ -118,7 +118,7 @@ def read(path: Path, kind: type[Kind]) -> Kind:
         InputError: it cannot be read, is no result, or is damaged.
     """
     try:
-        file = _opened(path)
+        file = _open_checked(path)
         scene = from_json(dict[str, Any], _text(file.attributes, "scene"), "scene")
         asked = from_json(list[str], file.attributes.get("asked", b"[]"), "asked")
         return kind(
@@ -170,10 +170,10 @@ def _channel(name: str, variable: Variable) -> Channel:
 def read_text(path: Path, name: str) -> str:
     """Return a text that a file has beside a result; raise InputError if it is damaged."""
     with prefixed(f"{path}: "):
-        return _text(_opened(path).attributes, name)
+        return _text(_open_checked(path).attributes, name)
 
 
-def _opened(path: Path) -> Classic:
+def _open_checked(path: Path) -> Classic:
     """Return a file of a result, its header checked.
 
     Raises:
@@ -205,7 +205,7 @@ def is_whole(path: Path) -> bool:
 
 def _write_surface(file: "netcdf_file", body: str, surface: Surface) -> None:
     """Write the arrays of a flexible body's surface; dimensions that the bodies share once."""
-    for array, (axes, unit, words) in ARRAYS.items():
+    for array, (axes, unit, meaning) in ARRAYS.items():
         values = getattr(surface, array)
         if not len(values):
             continue  # no stresses
@@ -217,7 +217,7 @@ def _write_surface(file: "netcdf_file", body: str, surface: Surface) -> None:
         variable = file.createVariable(f"{body}_surface_{array}", values.dtype.char, names)
         variable[:] = values
         variable.units = unit
-        variable.long_name = f"{body}: {words}"
+        variable.long_name = f"{body}: {meaning}"
 
 
 def _surfaces(file: Classic) -> dict[str, Surface]:
@@ -230,17 +230,17 @@ def _surfaces(file: Classic) -> dict[str, Surface]:
 def _surface(file: Classic, body: str) -> Surface:
     """Return the surface of a body; in a file without stresses there are none."""
 
-    def stored(array: str, dtype: type[Number]) -> NDArray[Number]:
-        if f"{body}_surface_{array}" not in file.variables:
-            raise InputError(f"has no {array}")
-        return file.variables[f"{body}_surface_{array}"].values(dtype)
+    def array(name: str, dtype: type[Number]) -> NDArray[Number]:
+        if f"{body}_surface_{name}" not in file.variables:
+            raise InputError(f"has no {name}")
+        return file.variables[f"{body}_surface_{name}"].values(dtype)
 
     with prefixed(f"surface of {shown(body)}: "):
-        modes = stored("modes", np.float32)
+        modes = array("modes", np.float32)
         stress = np.zeros((0, 6, modes.shape[-1]), np.float32)
         if f"{body}_surface_stress" in file.variables:
-            stress = stored("stress", np.float32)
-        return Surface(stored("nodes", np.float32), stored("triangles", np.int32), modes, stress)
+            stress = array("stress", np.float32)
+        return Surface(array("nodes", np.float32), array("triangles", np.int32), modes, stress)
 
 
 def dataset(result: Contents) -> Any:
@@ -250,16 +250,16 @@ def dataset(result: Contents) -> Any:
         InputError: xarray is not installed.
     """
     xarray = required_package("xarray", "to_xarray", "xarray")
-    variables, used = {}, set()
+    variables, axes = {}, set()
     for name, channel in result.channels.items():
         inner = ("body",) if channel.values.ndim == 3 else ()
         outer = (channel.axis,) if channel.axis else ()
-        used |= {*inner, *outer}
-        words = {"units": channel.unit, "long_name": channel.long_name}
-        variables[name] = (("time", *inner, *outer), channel.values, words)
+        axes |= {*inner, *outer}
+        attributes = {"units": channel.unit, "long_name": channel.long_name}
+        variables[name] = (("time", *inner, *outer), channel.values, attributes)
     columns = {"body": result.bodies, **AXES}
     return xarray.Dataset(
         variables,
-        coords={axis: list(columns[axis]) for axis in used if axis in columns},
+        coords={axis: list(columns[axis]) for axis in axes if axis in columns},
         attrs={"scene": json.dumps(result.scene.to_dict()), "info": json.dumps(result.info)},
     )

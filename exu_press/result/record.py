@@ -86,5 +86,5 @@ def _info(model: Model, outcome: Outcome) -> Info:
 def _versions() -> Mapping[str, str]:
     """Return the versions behind a result; looking them up takes a tenth of a short run."""
     packages = ("exu-press", "exudyn", "numpy", "scipy")
-    found = {name: importlib.metadata.version(name) for name in packages}
-    return {"python": platform.python_version(), **found}
+    installed = {name: importlib.metadata.version(name) for name in packages}
+    return {"python": platform.python_version(), **installed}

@@ -4,12 +4,18 @@ from collections.abc import Callable, Iterator
 from importlib import import_module
 from typing import Any
 
-from exu_press.result.channel import guide_channel
-from exu_press.result.declared import NO_BRAKE, NO_CLUTCH, OWN, UNBALANCED, Declared
+from exu_press.result.channel import (
+    NO_BRAKE,
+    NO_CLUTCH,
+    OWN,
+    UNBALANCED,
+    Declaration,
+    guide_channel,
+)
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.joint import oil_of
 
-__all__ = ["all_declared", "expected", "recorders"]
+__all__ = ["declared_channels", "expected_channels", "recorders"]
 
 
 def _always(scene: Scene) -> bool:
@@ -42,7 +48,7 @@ def recorders(scene: Scene | None = None) -> Iterator[Any]:
             yield import_module(f"exu_press.result.{name}")
 
 
-def all_declared(scene: Scene | None = None) -> list[Declared]:
+def declared_channels(scene: Scene | None = None) -> list[Declaration]:
     """Return every channel that the runs of a scene, or of any, may have."""
     return [
         declared for recorder in recorders(scene) for declared in getattr(recorder, "CHANNELS", ())
@@ -67,7 +73,7 @@ def _wearing(scene: Scene) -> list[str]:
     return list(wearing_joints(scene))
 
 
-def expected(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
+def expected_channels(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
     """Return the channels that a scene's runs may have -> their columns, and whether all have them.
 
     Args:
@@ -77,7 +83,7 @@ def expected(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
     mechanism = mechanism_of(scene)
     joints = [joint.name for joint in mechanism.joints]
     spherical = {joint.name for joint in mechanism.joints if joint.spherical}
-    places = {
+    owners = {
         "": [""],
         "joint": joints,
         "loose": [name for name in joints if scene.joints[name].kind != "ideal"],
@@ -87,7 +93,7 @@ def expected(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
         "guide": [guide_channel(mechanism, guide.body) for guide in mechanism.guides],
         "load": _loads(scene),
         "body": [body.name for body in mechanism.bodies],
-        "faced": joints,
+        "pivoted": joints,
     }
     motor = scene.drive
     missing = {
@@ -97,8 +103,11 @@ def expected(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
         NO_BRAKE: motor is None or motor.brake_torque is None,
     }
     return {
-        channel.at(place): (channel.axis_at(place, spherical=place in spherical), channel.always)
-        for channel in all_declared(scene)
-        for place in places[channel.of]
-        if not missing.get(channel.unless, False)
+        declared.name_of(owner): (
+            declared.axis_of(owner, spherical=owner in spherical),
+            declared.always,
+        )
+        for declared in declared_channels(scene)
+        for owner in owners[declared.owner]
+        if not missing.get(declared.unless, False)
     }

@@ -12,7 +12,7 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.integrate import SolverStatus
 from exu_press.numerics.arrays import Array
-from exu_press.result.channels import Changed, described, on_disk, part_of
+from exu_press.result.channels import LazyChannels, channel_headers, is_on_disk, read_columns
 from exu_press.result.contents import Contents
 from exu_press.result.joint import JointRecord
 from exu_press.scene import IdealJoint
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Result"]
 
-LOOSE = "eccentricity", "moment", "power"
+CLEARANCE_CHANNELS = "eccentricity", "moment", "power"
 """Channels of a joint with clearance, beside its force."""
 
 
@@ -58,14 +58,14 @@ class Result(Contents):
             cure = ""
             if "figures" in self.info:
                 cure = "was not kept; keep it by [output] channels, and run again: "
-            known = ", ".join(sorted(self.channels))
-            raise InputError(f"channel {name!r}: {cure}this run has {known}")
+            names = ", ".join(sorted(self.channels))
+            raise InputError(f"channel {name!r}: {cure}this run has {names}")
         return self.channels[name].values
 
     def path(self, body: str) -> Array:
         """Return the path of a body's centre of mass, (n, 2), m."""
         index = self.bodies.index(body)
-        return part_of(self.channels, "body_position", lambda values: values[:, index, :2])
+        return read_columns(self.channels, "body_position", lambda values: values[:, index, :2])
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.channels)
@@ -81,7 +81,7 @@ class Result(Contents):
     @property
     def units(self) -> Mapping[str, str]:
         """Units of the channels, by name."""
-        return {name: channel.unit for name, channel in described(self.channels).items()}
+        return {name: channel.unit for name, channel in channel_headers(self.channels).items()}
 
     @property
     def completed(self) -> bool:
@@ -95,7 +95,10 @@ class Result(Contents):
             name: joint
             for name, joint in self.scene.joints.items()
             if f"{name}_force" in self
-            and (isinstance(joint, IdealJoint) or all(f"{name}_{end}" in self for end in LOOSE))
+            and (
+                isinstance(joint, IdealJoint)
+                or all(f"{name}_{end}" in self for end in CLEARANCE_CHANNELS)
+            )
         }
         return _Joints(
             {
@@ -130,22 +133,22 @@ class Result(Contents):
         return {name: value for name, value in self.__dict__.items() if name != "read"}
 
     def with_values(self, values: Mapping[str, Array]) -> "Result":
-        """Return the run with other values of some of its channels, by their names."""
-        if on_disk(self.channels):
-            return self.changed(lambda name, old: values.get(name, old))
+        """Return the run with these values of some of its channels, by their names."""
+        if is_on_disk(self.channels):
+            return self.map_values(lambda name, old: values.get(name, old))
         changed = {name: replace(self.channels[name], values=new) for name, new in values.items()}
         return replace(self, channels={**self.channels, **changed})
 
-    def changed(self, change: Callable[[str, Array], Array]) -> "Result":
-        """Return the run with other values of its channels, worked out when they are asked for.
+    def map_values(self, change: Callable[[str, Array], Array]) -> "Result":
+        """Return the run with changed values of its channels, computed when they are asked for.
 
         Args:
-            change: name and values of a channel -> its other values.
+            change: name and values of a channel -> its changed values.
         """
         run = copy.copy(self)
-        object.__setattr__(run, "channels", Changed(self.channels, change))
-        for worked_out in ("joints", "samples", "read"):
-            run.__dict__.pop(worked_out, None)
+        object.__setattr__(run, "channels", LazyChannels(self.channels, change))
+        for cached in ("joints", "samples", "read"):
+            run.__dict__.pop(cached, None)
         return run
 
     def summary(self) -> dict[str, Any]:
@@ -181,13 +184,15 @@ class Result(Contents):
 
         An existing one is replaced only when complete.
         """
-        from exu_press.result.kept import kept
+        from exu_press.result.decimation import decimated_copy
         from exu_press.result.netcdf import write
 
         output, run = self.scene.output, self
         if output is not None and not output.whole and "figures" not in self.info:
             none = np.array([], np.intp)
-            run = kept(self, self.samples.rows if output.samples else none, self.summary())
+            run = decimated_copy(
+                self, self.samples.rows if output.samples else none, self.summary()
+            )
         write(run, Path(path))
 
     def to_xarray(self) -> Any:
@@ -207,7 +212,7 @@ class Result(Contents):
         Raises:
             InputError: the file cannot be read or is not a result.
         """
-        from exu_press.result.unfinished import read
+        from exu_press.result.checkpoint import read
 
         return read(Path(path), Result)
 

@@ -42,7 +42,7 @@ def run_once(
         settling: whether revolutions are added, a dozen at most, until films whose oil warms
             have settled; as many more then go before those that quantities are read from.
     """
-    begun = time.perf_counter()
+    started = time.perf_counter()
     if scene.output is not None and not isinstance(scene.output.channels, str):
         turned = max(SHORT, 2.0 * SHORTEST_RUN * scene.speed_rpm / 60.0)
         short = run_once(scene.replace({"output": None, "revolutions": turned, "settle": 0.0}))
@@ -59,5 +59,5 @@ def run_once(
             result = record(model, model.solve(quiet=quiet))
     finally:
         model.SC.Reset()  # its systems and their solvers hold each other: never freed otherwise
-    total = time.perf_counter() - begun
+    total = time.perf_counter() - started
     return replace(result, info={**result.info, "total_time": total})

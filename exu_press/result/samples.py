@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
-from exu_press.result.channels import at_rows
+from exu_press.result.channels import read_rows
 from exu_press.scene import Scene
 
 __all__ = ["Samples", "samples_of"]
@@ -35,12 +35,12 @@ class Samples:
 
     def __getitem__(self, name: str) -> Array:
         """Return the values of a channel, (m, ...)."""
-        return at_rows(self._channels, name, self.rows)
+        return read_rows(self._channels, name, self.rows)
 
     def __len__(self) -> int:
         return len(self.rows)
 
-    def at(self, angle_deg: float) -> "Samples":
+    def at_angle(self, angle_deg: float) -> "Samples":
         """Return the samples at one of the crank angles, one a revolution.
 
         Raises:
@@ -48,8 +48,10 @@ class Samples:
         """
         here = np.abs(self.angle_deg - angle_deg) < 1e-9
         if not here.any():
-            told = ", ".join(f"{angle:g}" for angle in np.unique(self.angle_deg))
-            raise InputError(f"samples at {angle_deg:g} deg: this run has them at {told or 'none'}")
+            sampled = ", ".join(f"{angle:g}" for angle in np.unique(self.angle_deg))
+            raise InputError(
+                f"samples at {angle_deg:g} deg: this run has them at {sampled or 'none'}"
+            )
         return Samples(self.revolution[here], self.angle_deg[here], self.rows[here], self._channels)
 
 
@@ -61,16 +63,16 @@ def samples_of(scene: Scene, channels: Mapping[str, Channel]) -> Samples:
     """
     if scene.output is None or not scene.output.samples:
         raise InputError("samples: this run has none; allowed is [output] samples = [crank angles]")
-    turned = channels["crank_angle"].values - scene.start_angle
+    rotation = channels["crank_angle"].values - scene.start_angle
     if scene.drive is None:
         time = channels["time"].values
-        turned = turned[0] + scene.angular_speed * (time - time[0])
-    wanted, number = scene.output.section(scene.start_angle).samples(float(turned.max()) + NEAR)
-    rows = np.searchsorted(turned, wanted)
-    before, after = np.maximum(rows - 1, 0), np.minimum(rows, len(turned) - 1)
-    nearer = np.abs(turned[before] - wanted) < np.abs(turned[after] - wanted)
-    rows = np.where(nearer, before, after)
-    there = np.abs(turned[rows] - wanted) < NEAR
+        rotation = rotation[0] + scene.angular_speed * (time - time[0])
+    requested, number = scene.output.section(scene.start_angle).samples(float(rotation.max()) + NEAR)
+    rows = np.searchsorted(rotation, requested)
+    preceding, following = np.maximum(rows - 1, 0), np.minimum(rows, len(rotation) - 1)
+    nearer = np.abs(rotation[preceding] - requested) < np.abs(rotation[following] - requested)
+    rows = np.where(nearer, preceding, following)
+    is_sampled = np.abs(rotation[rows] - requested) < NEAR
     angles = np.array(scene.output.samples)
-    revolution = np.floor(wanted / (2.0 * np.pi) + 1e-9).astype(int)
-    return Samples(revolution[there], angles[number[there]], rows[there], channels)
+    revolution = np.floor(requested / (2.0 * np.pi) + 1e-9).astype(int)
+    return Samples(revolution[is_sampled], angles[number[is_sampled]], rows[is_sampled], channels)

@@ -6,31 +6,21 @@ import numpy as np
 
 from exu_press.mechanism import Motion
 from exu_press.numerics.arrays import Array
-from exu_press.result.channel import positive
-from exu_press.result.declared import Declared
+from exu_press.result.channel import Declaration, Declarations, direction_text
 from exu_press.result.energy import mechanical_energy
 from exu_press.result.recording import Record, Recording
 
 __all__ = ["CHANNELS", "record"]
 
-CHANNELS = (
-    TIME,
-    CRANK_ANGLE,
-    POSITION,
-    VELOCITY,
-    ACCELERATION,
-    LATERAL,
-    TILT,
-    POSES,
-) = (
-    Declared("time", "s", "time"),
-    Declared("crank_angle", "rad", "crank angle from the mechanism's zero"),
-    Declared("slider_position", "m", "slider position, {way}"),
-    Declared("slider_velocity", "m/s", "slider velocity, {way}"),
-    Declared("slider_acceleration", "m/s^2", "slider acceleration, {way}"),
-    Declared("slider_lateral", "m", "slider beside its guide, {way}"),
-    Declared("slider_tilt", "rad", "slider tilt, counter-clockwise"),
-    Declared("body_position", "m, rad", "centres of mass and angles", "pose"),
+CHANNELS = Declarations(
+    Declaration("time", "s", "time"),
+    Declaration("crank_angle", "rad", "crank angle from the mechanism's zero"),
+    Declaration("slider_position", "m", "slider position, {positive}"),
+    Declaration("slider_velocity", "m/s", "slider velocity, {positive}"),
+    Declaration("slider_acceleration", "m/s^2", "slider acceleration, {positive}"),
+    Declaration("slider_lateral", "m", "slider beside its guide, {positive}"),
+    Declaration("slider_tilt", "rad", "slider tilt, counter-clockwise"),
+    Declaration("body_position", "m, rad", "centres of mass and angles", "pose"),
 )
 
 AT_ONCE = 2048
@@ -41,20 +31,24 @@ def record(run: Recording) -> Record:
     """Return the motion of crank, slider and bodies, and the mechanical energy of rigid bodies."""
     mechanism = run.model.mechanism
     slider, crank = run.motions[mechanism.slider], run.motions[mechanism.crank]
-    up, beside = positive(mechanism.output.direction), positive(mechanism.output.normal)
-    tilt = slider.position[:, 2] - mechanism.body(mechanism.slider).angle
+    output = mechanism.output
     rigid = [body for body in mechanism.bodies if body.name not in run.model.parts]
-    return Record(
-        channels=TIME.record(run.time)
-        | CRANK_ANGLE.record(crank.position[:, 2] - mechanism.body(mechanism.crank).angle)
-        | POSITION.record(mechanism.output_position(slider.position), way=up)
-        | VELOCITY.record(mechanism.output_component(slider.velocity), way=up)
-        | ACCELERATION.record(mechanism.output_component(slider.acceleration), way=up)
-        | LATERAL.record(mechanism.lateral_displacement(slider.position), way=beside)
-        | TILT.record(tilt)
-        | POSES.record(_poses(run.motions)),
-        stored=mechanical_energy(rigid, run.motions, run.model.scene.gravity),
+    channels = CHANNELS.record(
+        time=run.time,
+        crank_angle=crank.position[:, 2] - mechanism.body(mechanism.crank).angle,
+        slider_tilt=slider.position[:, 2] - mechanism.body(mechanism.slider).angle,
+        body_position=_poses(run.motions),
     )
+    channels |= CHANNELS.record(
+        positive=direction_text(output.direction),
+        slider_position=mechanism.output_position(slider.position),
+        slider_velocity=mechanism.output_component(slider.velocity),
+        slider_acceleration=mechanism.output_component(slider.acceleration),
+    )
+    channels |= CHANNELS.record(
+        positive=direction_text(output.normal), slider_lateral=mechanism.lateral_displacement(slider.position)
+    )
+    return Record(channels, stored=mechanical_energy(rigid, run.motions, run.model.scene.gravity))
 
 
 def _poses(motions: Mapping[str, Motion]) -> Array:
@@ -62,7 +56,7 @@ def _poses(motions: Mapping[str, Motion]) -> Array:
     positions = [motion.position for motion in motions.values()]
     poses = np.empty((len(positions[0]), len(positions), 3))
     for first in range(0, len(poses), AT_ONCE):
-        part = slice(first, first + AT_ONCE)
+        block = slice(first, first + AT_ONCE)
         for index, position in enumerate(positions):
-            poses[part, index] = position[part]
+            poses[block, index] = position[block]
     return poses

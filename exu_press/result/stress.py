@@ -4,16 +4,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array
-from exu_press.result.channel import Channel
-from exu_press.result.declared import Declared
+from exu_press.result.channel import Channel, Declaration, Declarations
 from exu_press.result.flexible import modal
 from exu_press.result.info import Stress
 from exu_press.result.recording import Record, Recording
 
 __all__ = ["CHANNELS", "record"]
 
-CHANNELS = (STRESS,) = (
-    Declared(
+CHANNELS = Declarations(
+    Declaration(
         "{body}_stress",
         "Pa",
         "{body}: von Mises stress where it is largest, with the sign of the mean stress",
@@ -42,21 +41,21 @@ def record(run: Recording) -> Record:
     channels: dict[str, Channel] = {}
     worst: dict[str, Stress] = {}
     for name, placed in model.parts.items():
-        part = placed.reduced
-        if not (part.mode_count and len(part.stress)):
+        reduced = placed.reduced
+        if not (reduced.mode_count and len(reduced.stress)):
             continue
-        q, _ = modal(model, name, part, len(time))
-        by_node = part.stress.reshape(-1, 6, part.mode_count)
+        q, _ = modal(model, name, reduced, len(time))
+        by_node = reduced.stress.reshape(-1, 6, reduced.mode_count)
         node, instant = _worst(by_node, q)
         components = q @ by_node[node].T
         size = np.linalg.norm(components @ DEVIATOR.T, axis=1)
-        place = part.nodes[node]
+        point = reduced.nodes[node]
         signed = np.copysign(size, components[:, :3].sum(axis=1))
-        channels |= STRESS.record(signed, name)
+        channels |= CHANNELS.record(name, stress=signed)
         worst[name] = {
             "von_mises": float(size[instant]),
             "time": float(time[instant]),
-            "place": [*placed.point(place), float(place[2])],
+            "place": [*placed.point(point), float(point[2])],
         }
     return Record(channels, info={"stress": worst})
 
@@ -86,12 +85,12 @@ def _worst(by_node: Array, q: Array) -> tuple[int, int]:
 
 def _largest(deviator: Array, q: Array) -> NDArray[np.int64]:
     """Return the nodes of the largest stresses at some instants."""
-    found = []
+    nodes = []
     for begin in range(0, len(q), 20):
         squares = _squares(deviator, q[begin : begin + 20])
         count = min(NODES, len(squares))
-        found.append(np.argpartition(squares, -count, axis=0)[-count:])
-    return np.unique(np.concatenate(found, axis=None))
+        nodes.append(np.argpartition(squares, -count, axis=0)[-count:])
+    return np.unique(np.concatenate(nodes, axis=None))
 
 
 def _squares(deviator: Array, q: Array) -> Array:

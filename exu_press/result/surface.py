@@ -76,17 +76,17 @@ class Surface:
 
 def surfaces_of(parts: Mapping[str, "PlacedPart"]) -> dict[str, Surface]:
     """Return the surfaces of the flexible bodies that have modes, by body."""
-    return {name: _surface(part) for name, part in parts.items() if part.reduced.mode_count}
+    return {name: _surface(placed) for name, placed in parts.items() if placed.reduced.mode_count}
 
 
-def _surface(part: "PlacedPart") -> Surface:
+def _surface(placed: "PlacedPart") -> Surface:
     """Return a surface in the body's frame; the stresses' components stay the solid's."""
-    solid = part.reduced
-    c, s = np.cos(part.angle), np.sin(part.angle)
+    solid = placed.reduced
+    c, s = np.cos(placed.angle), np.sin(placed.angle)
     rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])  # from the body to the solid
     modes = solid.modes.reshape(len(solid.nodes), 3, -1)
     return Surface(
-        nodes=((solid.nodes - (*part.centre, 0.0)) @ rotation).astype(np.float32),
+        nodes=((solid.nodes - (*placed.centre, 0.0)) @ rotation).astype(np.float32),
         triangles=solid.triangles.astype(np.int32),
         modes=np.einsum("nim,ij->njm", modes, rotation).astype(np.float32),
         stress=solid.stress.reshape(-1, 6, solid.mode_count).astype(np.float32),

@@ -11,7 +11,7 @@ from exu_press.model.warm_film import Heat
 from exu_press.numerics.piecewise import integral
 from exu_press.result.result import Result
 
-__all__ = ["to_next_revolution", "warmed"]
+__all__ = ["to_next_revolution", "update_film_temperatures"]
 
 TURN = 2.0 * math.pi
 
@@ -19,25 +19,27 @@ WHOLE = 1e-6
 """Part of a revolution that may be missing of a whole one."""
 
 
-def to_next_revolution(model: Model, left: float) -> tuple[Model, float]:
+def to_next_revolution(model: Model, remaining: float) -> tuple[Model, float]:
     """Return a model that goes on for one revolution, and its revolutions at the scene's speed.
 
     Args:
         model: at its start, which may be within a revolution, or at the end of the last one.
-        left: revolutions of the run that are left, at the scene's speed.
+        remaining: revolutions of the run that are left, at the scene's speed.
     """
     solver = model.scene.solver
     assert solver is not None
     if model.scene.drive is None or solver.tolerance is None:
-        return model, min(left, 1.0)
+        return model, min(remaining, 1.0)
     if model.until is not None:
-        return replace(model, until=model.until + TURN), left
+        return replace(model, until=model.until + TURN), remaining
     start = model.scene.start_angle
-    done = math.floor((model.crank_at_start() - start) / TURN + WHOLE)
-    return replace(model, until=start + TURN * (done + 1)), left  # a motor gets there when it does
+    completed = math.floor((model.crank_at_start() - start) / TURN + WHOLE)
+    return replace(
+        model, until=start + TURN * (completed + 1)
+    ), remaining  # a motor gets there when it does
 
 
-def warmed(model: Model, block: Result) -> Result:
+def update_film_temperatures(model: Model, block: Result) -> Result:
     """Let the films of a model have the temperature that a revolution's heat asks for.
 
     Args:
@@ -48,22 +50,22 @@ def warmed(model: Model, block: Result) -> Result:
         The revolution, with the temperatures with which the next one begins in its state. Where a
         film does not get rid of its heat, it is the last one of the run and says why.
     """
-    turned = float(block["crank_angle"][-1] - block["crank_angle"][0])
+    rotation = float(block["crank_angle"][-1] - block["crank_angle"][0])
     if model.scene.drive is None or model.until is None:
-        turned = float(block.time[-1] - block.time[0]) * model.scene.angular_speed
-    if turned < TURN * (1.0 - WHOLE):
+        rotation = float(block.time[-1] - block.time[0]) * model.scene.angular_speed
+    if rotation < TURN * (1.0 - WHOLE):
         return block
     info, time = block.info, block.time
     for name, film in model.warm.items():
-        lasts = float(time[-1] - time[0])
+        duration = float(time[-1] - time[0])
         flow, pressure = (
-            float(integral(time, values)[-1]) / lasts
+            float(integral(time, values)[-1]) / duration
             for values in (block[f"{name}_side_flow"], film.mean_pressure(block[f"{name}_force"]))
         )
-        heat = Heat(float(block[f"{name}_loss"][-1]) / lasts, flow, pressure, film.viscosity)
+        heat = Heat(float(block[f"{name}_loss"][-1]) / duration, flow, pressure, film.viscosity)
         temperature, pressure = film.balanced(heat)
         if not math.isfinite(temperature):
-            reason = _too_hot(name, heat, film.oil.conductance, float(time[-1]))
+            reason = _reason_of_breakdown(name, heat, film.oil.conductance, float(time[-1]))
             warnings.warn(f"film broke down: {reason}", stacklevel=5)
             info = {**info, "status": SolverStatus.FILM_BROKE_DOWN.value, "reason": reason}
             continue
@@ -74,7 +76,7 @@ def warmed(model: Model, block: Result) -> Result:
     return replace(block, info=info)
 
 
-def _too_hot(name: str, heat: Heat, conductance: float, time: float) -> str:
+def _reason_of_breakdown(name: str, heat: Heat, conductance: float, time: float) -> str:
     """Return why a run goes no further."""
     return (
         f"film too hot at t = {time:.6g} s: below {HOTTEST:g} deg C side flow "

@@ -6,40 +6,44 @@ from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import evaluate, spline
 from exu_press.result.result import Result
 
-__all__ = ["at", "revolutions_of", "settled", "until", "window"]
+__all__ = ["at_instant", "revolutions_of", "settled_part", "up_to", "window"]
 
 
 def window(run: Result, begin: float, end: float) -> Result:
     """Return a run's record between two instants, s, both of them included."""
     first = int(np.searchsorted(run.time, begin * (1.0 - 1e-12)))
     last = int(np.searchsorted(run.time, end * (1.0 + 1e-12), side="right"))
-    return run.changed(lambda _, values: values[first:last])
+    return run.map_values(lambda _, values: values[first:last])
 
 
-def settled(run: Result) -> Result:
+def settled_part(run: Result) -> Result:
     """Return the part that quantities are read from: whole revolutions after those of `settle`.
 
     All of it where the scene has nothing to settle, or where the run has not got so far; energies
     count from where it begins. Of a part of a revolution at the end nothing is read, unless it is
     the only one.
     """
-    turns, start = run.scene.settled, run.scene.start_angle
+    settle_revolutions, start = run.scene.settled, run.scene.start_angle
     angle = run["crank_angle"]
-    if not turns or len(angle) < 2:
+    if not settle_revolutions or len(angle) < 2:
         return run
-    done = (angle[-1] - start) / (2.0 * np.pi) * (1.0 + 1e-9)
-    if done <= turns:
+    completed = (angle[-1] - start) / (2.0 * np.pi) * (1.0 + 1e-9)
+    if completed <= settle_revolutions:
         return run
-    turns = max(turns, (angle[0] - start) / (2.0 * np.pi))
-    whole = np.floor(done - turns + 1e-6)
-    last = turns + whole if whole else done
-    begin, end = np.interp(start + 2.0 * np.pi * np.array([turns, last]), angle, run.time)
-    part = _between(run, float(begin), float(end))
+    settle_revolutions = max(settle_revolutions, (angle[0] - start) / (2.0 * np.pi))
+    whole = np.floor(completed - settle_revolutions + 1e-6)
+    last = settle_revolutions + whole if whole else completed
+    begin, end = np.interp(
+        start + 2.0 * np.pi * np.array([settle_revolutions, last]), angle, run.time
+    )
+    whole_revolutions = _interpolated_window(run, float(begin), float(end))
     energies = [name for name, unit in run.units.items() if unit == "J"]
-    return part.changed(lambda name, values: values - values[0] if name in energies else values)
+    return whole_revolutions.map_values(
+        lambda name, values: values - values[0] if name in energies else values
+    )
 
 
-def _between(run: Result, begin: float, end: float) -> Result:
+def _interpolated_window(run: Result, begin: float, end: float) -> Result:
     """Return a run's record between two instants, s, at which channels are interpolated."""
     time, near = run.time, 1e-9 * (end - begin)
     first, last = np.searchsorted(time, [begin + near, end - near])
@@ -52,15 +56,15 @@ def _between(run: Result, begin: float, end: float) -> Result:
             ends.append(values[i - 1] + share * (values[i] - values[i - 1]))
         return np.concatenate([ends[0][None], values[first:last], ends[1][None]])
 
-    return run.changed(lambda _, values: part(values))
+    return run.map_values(lambda _, values: part(values))
 
 
-def until(run: Result, end: float) -> Result:
+def up_to(run: Result, end: float) -> Result:
     """Return a run's record up to an instant, s."""
     return window(run, float(run.time[0]), end)
 
 
-def at(run: Result, instant: float) -> Result:
+def at_instant(run: Result, instant: float) -> Result:
     """Return a run's record of one instant, s, by a cubic spline through the samples about it.
 
     Straight between long steps an energy misses more than a run is off. Of four samples at least.
@@ -72,7 +76,7 @@ def at(run: Result, instant: float) -> Result:
     def then(_: str, values: Array) -> Array:
         return evaluate(time, spline(time, np.moveaxis(values[about], 0, -1)), instant)[None]
 
-    return run.changed(then)
+    return run.map_values(then)
 
 
 def revolutions_of(run: Result) -> list[Result]:

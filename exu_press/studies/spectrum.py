@@ -13,7 +13,7 @@ from exu_press.numerics.arrays import Array, lengths
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.result.channel import AXES
-from exu_press.result.windows import settled
+from exu_press.result.windows import settled_part
 from exu_press.scene import mechanism_of
 from exu_press.scene.laws import contact_law
 from exu_press.schema.checks import demand_known
@@ -154,7 +154,7 @@ def spectra(
     Raises:
         InputError: a name or the window is not allowed.
     """
-    result = settled(run)
+    result = settled_part(run)
     return [_spectra(result, name, window) for name in names]
 
 
@@ -202,7 +202,7 @@ def marks_of(run: Result) -> list[Mark]:
         for name, solid in run.info.get("solids", {}).items()
         for number, frequency in enumerate(solid.get("frequencies", ()), start=1)
     ]
-    return [*found, *_on_contacts(settled(run))]
+    return [*found, *_on_contacts(settled_part(run))]
 
 
 def _on_contacts(result: Result) -> Iterator[Mark]:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from exu_press.result import Result
-from exu_press.result.windows import until
+from exu_press.result.windows import up_to
 from exu_press.scene.joint import oil_of
 
 __all__ = ["earlier", "warmed_on"]
@@ -20,7 +20,7 @@ def earlier(run: Result) -> Result:
         return run
     last = float(np.interp(angle[-1] - 2.0 * np.pi, angle, run.time))
     sooner = {"revolutions": scene.revolutions - 1.0, "settle": scene.settled - 1.0}
-    before = until(run, last)
+    before = up_to(run, last)
     object.__setattr__(before, "scene", scene.replace(sooner))  # a copy that nobody else has
     return before
 

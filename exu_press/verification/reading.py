@@ -8,7 +8,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.quantities.alternating import LOADS, beside_line
 from exu_press.quantities.energy import has_balance
 from exu_press.result import Result
-from exu_press.result.windows import settled
+from exu_press.result.windows import settled_part
 
 __all__ = ["OF_FIRST_STEP", "overshot", "smoothed", "turned", "unbalanced"]
 
@@ -53,7 +53,7 @@ def overshot(run: Result) -> Result:
             more[1] += soon
         return more
 
-    return _with(run.changed(begun), LOADS, _overshot)
+    return _with(run.map_values(begun), LOADS, _overshot)
 
 
 def turned(run: Result) -> Result:
@@ -75,7 +75,7 @@ def unbalanced(run: Result) -> Result:
     """
     if not has_balance(run):
         return run
-    run = settled(run)
+    run = settled_part(run)
     given = run["energy_input"]
     missed = np.abs(given - run["energy_stored"] - run["energy_dissipated"]).max()
     changed = {"energy_input": np.concatenate([given[:1], given[1:] + missed])}
@@ -87,7 +87,7 @@ def unbalanced(run: Result) -> Result:
 def _with(run: Result, units: frozenset[str], change: Callable[[Array, Array], Array]) -> Result:
     """Return a run with other channels of these units: change(time (n,), values (n, ...))."""
     time, of = run.time, run.units
-    return run.changed(lambda name, old: change(time, old) if of[name] in units else old)
+    return run.map_values(lambda name, old: change(time, old) if of[name] in units else old)
 
 
 def _averaged(time: Array, values: Array) -> Array:

@@ -16,7 +16,7 @@ from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
 from exu_press.result.info import Error, Errors
 from exu_press.result.run import run_once
-from exu_press.result.windows import at, settled, until, window
+from exu_press.result.windows import at_instant, settled_part, up_to, window
 from exu_press.scene import Scene, mechanism_of
 from exu_press.verification.divergence import Divergence, divergence
 from exu_press.verification.drift import earlier, warmed_on
@@ -148,13 +148,13 @@ def errors_of(
         return numbers_of(run, told)
 
     end = float(result.time[-1])
-    complete = {r: until(run, end) for r, run in refinements if run.time[-1] >= end * (1.0 - 1e-9)}
+    complete = {r: up_to(run, end) for r, run in refinements if run.time[-1] >= end * (1.0 - 1e-9)}
     if not complete:
         return {"errors": {}, "horizon": None, "lyapunov_exponent": None}
     diverged = divergence(result, complete)
     horizon = end if diverged.growth.horizon is None else diverged.growth.horizon
     runs = {1.0: result, **complete}
-    by_end = {t: {r: read(until(run, t)) for r, run in runs.items()} for t in {end, horizon}}
+    by_end = {t: {r: read(up_to(run, t)) for r, run in runs.items()} for t in {end, horizon}}
     parted = horizon < end
     after = {r: read(window(run, horizon, end)) for r, run in runs.items()} if parted else {}
     ways = (
@@ -250,13 +250,13 @@ def _late(
     runs: Mapping[float, Result], horizon: float, swings: Mapping[str, QuantityAt]
 ) -> list[Numbers]:
     """Return quantities at instants late in what they are read from, before the horizon (s)."""
-    parts = {ratio: settled(run) for ratio, run in runs.items()}
+    parts = {ratio: settled_part(run) for ratio, run in runs.items()}
     begin, end = parts[1.0].time[0], min(parts[1.0].time[-1], horizon)
     if end <= begin or min(len(part.time) for part in parts.values()) < 4:
         return []
     instants = np.linspace(begin + LATE * (end - begin), end, INSTANTS, endpoint=False)
     return [
-        {ratio: numbers_of(at(part, instant), swings) for ratio, part in parts.items()}
+        {ratio: numbers_of(at_instant(part, instant), swings) for ratio, part in parts.items()}
         for instant in instants
     ]
 

@@ -11,7 +11,7 @@ import pytest
 from exu_press import Result, Scene
 from exu_press.cli import main
 from exu_press.result import run
-from exu_press.result.unfinished import unfinished_of
+from exu_press.result.checkpoint import checkpoint_directory
 
 SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=1.25)
 
@@ -20,7 +20,7 @@ import pathlib, sys, time
 from exu_press.cli import main
 from exu_press.result import blocks, run
 run.BLOCK = 0.35
-keep, stop = blocks.keep, int(sys.argv[1])
+keep, stop = blocks.write_checkpoint, int(sys.argv[1])
 kept = []
 def kept_and_held(*arguments):
     keep(*arguments)
@@ -29,7 +29,7 @@ def kept_and_held(*arguments):
         pathlib.Path("held").touch()
         while pathlib.Path("held").exists():
             time.sleep(0.01)
-blocks.keep = kept_and_held
+blocks.write_checkpoint = kept_and_held
 sys.exit(main(sys.argv[2:]))
 """
 
@@ -103,7 +103,7 @@ def test_a_run_goes_on_in_its_own_directory(killed, start):
     gone_on = Result.load(killed / "run.nc")
     assert gone_on.time[0] == pytest.approx(0.7 / 1.25 * SCENE.duration)
     assert gone_on.time[-1] == pytest.approx(SCENE.duration)
-    assert not unfinished_of(killed / "run.nc").exists()
+    assert not checkpoint_directory(killed / "run.nc").exists()
     with pytest.warns(UserWarning, match=r"has 0\.7 revolutions"):
         assert Result.load(killed / "run.nc.unfinished.1").completed
 

@@ -141,7 +141,7 @@ def test_loads_and_samples_are_where_the_crank_is(changes):
     run = simulate(scene.replace({**changes, "output": {"samples": [100.0]}}), start=state)
     peak = run["crank_angle"][run["load_forming_force"].argmax()]
     assert np.degrees(peak) == pytest.approx(135.0)
-    assert np.degrees(run.samples.at(100.0)["crank_angle"]) == pytest.approx(100.0)
+    assert np.degrees(run.samples.at_angle(100.0)["crank_angle"]) == pytest.approx(100.0)
 
 
 def test_a_bearing_too_small_for_its_journal_is_refused():

@@ -94,7 +94,7 @@ def test_the_start_that_is_excluded_is_not_warned_of():
         """Put the journal near its bearing in a part of the run."""
         angle = result["crank_angle"] / (2.0 * np.pi)
         near = ((angle > turns - 0.2) & (angle < turns + 0.2))[:, None]
-        return result.changed(
+        return result.map_values(
             lambda name, values: (
                 np.where(near, [0.99 * clearance, 0.0], values)
                 if name == "wrist_pin_eccentricity"

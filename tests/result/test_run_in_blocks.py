@@ -14,9 +14,16 @@ from exu_press.cli import main
 from exu_press.report import Kind, find_output
 from exu_press.result import channels, run
 from exu_press.result.channel import Channel
-from exu_press.result.channels import Changed, OnDisk, at_rows, described, on_disk, part_of
-from exu_press.result.unfinished import remove, unfinished_of
-from exu_press.result.windows import settled
+from exu_press.result.channels import (
+    LazyChannels,
+    MemmapChannels,
+    channel_headers,
+    is_on_disk,
+    read_columns,
+    read_rows,
+)
+from exu_press.result.checkpoint import checkpoint_directory, remove
+from exu_press.result.windows import settled_part
 
 FILM = {"crank_pin": {"kind": "lubricated", "clearance": 5e-5, "radius": 0.07}}
 SCENE = Scene.from_dict(
@@ -48,8 +55,8 @@ def short_blocks(monkeypatch):
 
 def test_blocks_are_one_run(whole, blocks):
     """They differ by the steps that end where a block does, within the tolerance."""
-    assert isinstance(blocks.channels, OnDisk)
-    assert not isinstance(whole.channels, OnDisk)
+    assert isinstance(blocks.channels, MemmapChannels)
+    assert not isinstance(whole.channels, MemmapChannels)
     assert blocks.completed
     assert list(blocks) == list(whole)
     assert blocks.time[-1] == pytest.approx(SCENE.duration, rel=1e-12)
@@ -69,16 +76,16 @@ def test_a_long_run_is_saved_and_sent_whole(blocks, tmp_path):
     for again in (Result.load(tmp_path / "run.nc"), pickle.loads(pickle.dumps(blocks))):
         assert again.scene == blocks.scene
         assert all(np.array_equal(again[name], blocks[name]) for name in blocks)
-    assert settled(blocks.changed(lambda _, values: values)).time[0] == blocks.time[0]
+    assert settled_part(blocks.map_values(lambda _, values: values)).time[0] == blocks.time[0]
 
 
 def test_what_is_changed_of_the_disk_stays_there(blocks):
     twice = blocks.with_values({"drive_torque": 2.0 * blocks["drive_torque"]})
-    assert isinstance(twice.channels, Changed)
-    assert on_disk(twice.channels)
+    assert isinstance(twice.channels, LazyChannels)
+    assert is_on_disk(twice.channels)
     assert np.array_equal(twice["drive_torque"], 2.0 * blocks["drive_torque"])
     assert twice["crank_speed"] == pytest.approx(blocks["crank_speed"])
-    assert all(not len(channel.values) for channel in described(twice.channels).values())
+    assert all(not len(channel.values) for channel in channel_headers(twice.channels).values())
     assert twice.units == blocks.units
 
 
@@ -106,13 +113,13 @@ import os, sys
 from exu_press import Scene, simulate
 from exu_press.result import blocks, run
 run.BLOCK = 0.35
-kept, count = blocks.keep, []
+kept, count = blocks.write_checkpoint, []
 def keep(*arguments):
     kept(*arguments)
     count.append(1)
     if len(count) == 2:
         os.kill(os.getpid(), 9)
-blocks.keep = keep
+blocks.write_checkpoint = keep
 simulate(Scene.load(sys.argv[1]), unfinished=sys.argv[2])
 """
 
@@ -122,7 +129,7 @@ def killed(tmp_path_factory):
     """The place of a run whose process was killed within its third block."""
     place = tmp_path_factory.mktemp("killed")
     SCENE.save(place / "scene.toml")
-    left = unfinished_of(place / "run.nc")
+    left = checkpoint_directory(place / "run.nc")
     done = subprocess.run(
         [sys.executable, "-c", KILLED, place / "scene.toml", left], check=False, timeout=300
     )
@@ -160,16 +167,18 @@ def test_commands_read_what_a_killed_run_left(killed, tmp_path):
 
 
 def test_a_killed_run_is_not_taken_for_the_one_before(whole, killed, tmp_path):
-    shutil.copytree(unfinished_of(killed / "run.nc"), unfinished_of(tmp_path / "run.nc"))
+    shutil.copytree(
+        checkpoint_directory(killed / "run.nc"), checkpoint_directory(tmp_path / "run.nc")
+    )
     whole.save(tmp_path / "run.nc")
     with pytest.warns(UserWarning, match="an earlier run's"):
         assert Result.load(tmp_path / "run.nc").scene == SCENE
-    remove(unfinished_of(tmp_path / "run.nc"))
+    remove(checkpoint_directory(tmp_path / "run.nc"))
     assert [file.name for file in tmp_path.iterdir()] == ["run.nc"]
 
 
 def test_finished_blocks_are_not_begun_anew(killed):
-    left = unfinished_of(killed / "run.nc")
+    left = checkpoint_directory(killed / "run.nc")
     before = {file.name: file.read_bytes() for file in left.iterdir()}
     with pytest.raises(InputError, match=r"finished blocks .*`--from .*`--overwrite`"):
         simulate(SCENE.replace({"revolutions": 11.0}), unfinished=left)
@@ -178,7 +187,7 @@ def test_finished_blocks_are_not_begun_anew(killed):
 
 def test_damage_of_a_block_is_noticed_when_it_is_read(killed, tmp_path):
     """A bit of each of 40 places, named by its file; other channels are still there."""
-    left = shutil.copytree(unfinished_of(killed / "run.nc"), tmp_path / "left")
+    left = shutil.copytree(checkpoint_directory(killed / "run.nc"), tmp_path / "left")
     count = (left / "slider_tilt").stat().st_size // 8
     by = random.Random(69)
     for _ in range(40):
@@ -202,7 +211,7 @@ def test_damage_of_a_block_is_noticed_when_it_is_read(killed, tmp_path):
 
 
 def test_a_damaged_head_of_blocks_is_refused(killed, tmp_path):
-    left = shutil.copytree(unfinished_of(killed / "run.nc"), tmp_path / "left")
+    left = shutil.copytree(checkpoint_directory(killed / "run.nc"), tmp_path / "left")
     content = (left / "head.nc").read_bytes()
     place = content.index(b'{"count": ') + 10
     (left / "head.nc").write_bytes(content[:place] + b"9" + content[place + 1 :])
@@ -219,11 +228,11 @@ def test_another_directory_is_not_removed(tmp_path):
 
 def test_instants_are_picked_across_parts(monkeypatch):
     monkeypatch.setattr(channels, "AT_ONCE", 4)
-    found, values = OnDisk(), np.arange(22.0).reshape(11, 2)
+    found, values = MemmapChannels(), np.arange(22.0).reshape(11, 2)
     found.append(
         {"time": Channel(np.arange(11.0), "s", "time"), "x": Channel(values, "m", "x", "plane")}
     )
     rows = np.array([0, 3, 4, 4, 10])
-    assert np.array_equal(at_rows(found, "x", rows), values[rows])
-    assert np.array_equal(at_rows(found, "x", rows[:0]), values[:0])
-    assert np.array_equal(part_of(found, "x", lambda part: part[:, 1]), values[:, 1])
+    assert np.array_equal(read_rows(found, "x", rows), values[rows])
+    assert np.array_equal(read_rows(found, "x", rows[:0]), values[:0])
+    assert np.array_equal(read_columns(found, "x", lambda part: part[:, 1]), values[:, 1])

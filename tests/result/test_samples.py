@@ -26,7 +26,7 @@ def test_steps_end_on_the_angles(change, tmp_path):
     turned = np.degrees(samples["crank_angle"]) - samples.angle_deg
     off = turned - 360.0 * np.round(turned / 360.0)
     assert np.abs(off).max() < (3e-5 if change else 1e-7)
-    assert len(samples.at(90.0)) == 3
+    assert len(samples.at_angle(90.0)) == 3
     assert samples.revolution.tolist() == sorted(samples.revolution.tolist())
     assert samples.angle_deg[:3].tolist() == [90.0, 200.0, 0.0], "from 30 deg on"
     assert samples["slider_position"].shape == (len(samples),)
@@ -53,14 +53,14 @@ def test_samples_of_a_motors_crank_change_no_peak():
 
 def test_a_run_is_sampled_where_it_starts():
     run = simulate(DRY.replace({"start_angle_deg": 0.0, "revolutions": 1.5}))
-    assert run.samples.at(0.0).revolution.tolist() == [0, 1]
-    assert run.samples.at(0.0)["time"][0] == 0.0
+    assert run.samples.at_angle(0.0).revolution.tolist() == [0, 1]
+    assert run.samples.at_angle(0.0)["time"][0] == 0.0
 
 
 def test_samples_at_constant_speed_are_the_closed_forms():
     scene = DRY.replace({"joints.crank_pin": "ideal", "revolutions": 3.0, "start_angle_deg": 0.0})
     run = simulate(scene)
-    positions = run.samples.at(90.0)["slider_position"]
+    positions = run.samples.at_angle(90.0)["slider_position"]
     assert len(positions) == 3
     assert np.ptp(positions) < 1e-9
 
@@ -87,4 +87,4 @@ def test_fixed_steps_and_runs_without_samples_are_refused():
         run.samples  # noqa: B018
     sampled = simulate(Scene(joints={}, revolutions=0.01, output={"samples": [1.0]}))
     with pytest.raises(InputError, match="samples at 7 deg: this run has them at 1"):
-        sampled.samples.at(7.0)
+        sampled.samples.at_angle(7.0)

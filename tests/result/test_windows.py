@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.result.windows import at, revolutions_of, until, window
+from exu_press.result.windows import at_instant, revolutions_of, up_to, window
 
 PERIOD = 0.25
 """s, at 240 rpm."""
@@ -26,13 +26,13 @@ def test_both_ends_of_a_window_are_in_it(run):
 
 
 def test_a_part_of_a_record_is_a_result_that_can_have_another_scene(run):
-    part = until(run, run.time[-4])
+    part = up_to(run, run.time[-4])
     shorter = replace(part, scene=run.scene.replace({"revolutions": 2.0}))
     assert len(shorter.time) == len(run.time) - 3
 
 
 def test_all_of_a_record_is_the_record(run):
-    found = until(run, run.time[-1])
+    found = up_to(run, run.time[-1])
     assert all(np.array_equal(found[name], run[name]) for name in run)
 
 
@@ -40,7 +40,7 @@ def test_all_of_a_record_is_the_record(run):
 def test_between_samples_a_record_is_cubic(run, share):
     cubic = (run.time - 0.1) ** 3 + run.time
     instant = share * run.time[-1]
-    found = at(run.with_values({"energy_stored": cubic}), instant)
+    found = at_instant(run.with_values({"energy_stored": cubic}), instant)
     assert found.time == pytest.approx([instant], abs=1e-12)
     assert found["energy_stored"] == pytest.approx([(instant - 0.1) ** 3 + instant])
     assert found["shaft_force"].shape == (1, 2)
@@ -55,5 +55,5 @@ def test_whole_revolutions_follow_each_other(run):
 
 
 def test_a_revolution_that_is_not_whole_is_none(run):
-    assert revolutions_of(until(run, 0.99 * PERIOD)) == []
-    assert len(revolutions_of(until(run, 1.99 * PERIOD))) == 1
+    assert revolutions_of(up_to(run, 0.99 * PERIOD)) == []
+    assert len(revolutions_of(up_to(run, 1.99 * PERIOD))) == 1

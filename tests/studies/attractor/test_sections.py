@@ -24,7 +24,7 @@ def test_a_motors_sections_lie_where_a_run_is_sampled():
     time = orbit.state["time"]
     orbit.close()
     run = simulate(MOTOR.replace({"revolutions": 1.2, "output": {"samples": [0.0]}}))
-    samples = run.samples.at(0.0)
+    samples = run.samples.at_angle(0.0)
     assert speed == pytest.approx(samples["crank_speed"][1], rel=1e-5)
     assert time == pytest.approx(samples["time"][1], rel=1e-6)
 

@@ -96,7 +96,7 @@ def test_a_curve_over_an_angle_that_falls_back_is_refused():
         back = 2.0 * values[half] - values[half:] if name == "crank_angle" else values[half:]
         return np.concatenate([values[:half], back])
 
-    run, most = forth.changed(swing), np.degrees(forth["crank_angle"][half])
+    run, most = forth.map_values(swing), np.degrees(forth["crank_angle"][half])
     below = CurveFile("crank_angle", -PLACES, "slider_velocity", "m/s", PLACES)
     assert len(computed("a.csv", below, run)[0]) == len(run.time)
     passed = dataclasses.replace(below, at=np.linspace(0.5, 1.0, len(PLACES)) * most)
@@ -139,7 +139,7 @@ def test_values_between_steps_are_those_of_a_finer_record(channel, unit, off):
     """Lines between every fiftieth step are off 2e-5 m, 1e-3 m/s and 1 N m."""
     scene = Scene(mechanism="slider_crank", speed_rpm=600.0, joints={})
     fine = simulate(scene.replace({"solver.tolerance": 1e-7}))
-    few = fine.changed(lambda _, values: values[::50])
+    few = fine.map_values(lambda _, values: values[::50])
     for over in ("time", "crank_angle"):
         file = CurveFile(over, np.array([0.0]), channel, unit, np.array([0.0]))
         places, values, _ = computed("a.csv", file, fine)

@@ -13,19 +13,19 @@ from exu_press.errors import InputError, prefixed
 from exu_press.files.lock import LOCK, locked
 from exu_press.files.output_directory import refuse_link, writing
 from exu_press.result import netcdf
-from exu_press.result.channels import OnDisk
+from exu_press.result.channels import MemmapChannels
 from exu_press.result.contents import Contents
 from exu_press.schema.stored import from_json
 
 __all__ = [
-    "begin",
+    "checkpoint_directory",
     "has_blocks",
-    "keep",
+    "open_checkpoint",
     "read",
     "refuse_blocks",
     "remove",
     "set_aside",
-    "unfinished_of",
+    "write_checkpoint",
 ]
 
 Kind = TypeVar("Kind", bound=Contents)
@@ -53,7 +53,7 @@ class Blocks(TypedDict):
     checksums: dict[str, int]
 
 
-def unfinished_of(path: Path) -> Path:
+def checkpoint_directory(path: Path) -> Path:
     """Return the directory beside a run's file in which the run is while it goes on."""
     return path.with_name(f"{path.name}.unfinished")
 
@@ -78,7 +78,7 @@ def refuse_blocks(directory: Path) -> None:
 
 
 @contextmanager
-def begin(directory: Path | None) -> Iterator[OnDisk]:
+def open_checkpoint(directory: Path | None) -> Iterator[MemmapChannels]:
     """Yield channels that go to a directory, made anew and locked, or to a temporary one.
 
     Raises:
@@ -86,7 +86,7 @@ def begin(directory: Path | None) -> Iterator[OnDisk]:
             cannot be made.
     """
     if directory is None:
-        yield OnDisk()
+        yield MemmapChannels()
         return
     refuse_link(directory)
     _refuse_others(directory)
@@ -100,7 +100,7 @@ def begin(directory: Path | None) -> Iterator[OnDisk]:
                 if file.name != LOCK:
                     file.unlink()
             (directory / MARK).write_text(WORDS, encoding="utf-8")
-        yield OnDisk(directory)
+        yield MemmapChannels(directory)
 
 
 def _refuse_others(directory: Path) -> None:
@@ -110,7 +110,9 @@ def _refuse_others(directory: Path) -> None:
         raise InputError(f"{directory}: has other files; allowed is one that does not exist yet")
 
 
-def keep(directory: Path, run: Contents, revolutions: float, channels: OnDisk) -> None:
+def write_checkpoint(
+    directory: Path, run: Contents, revolutions: float, channels: MemmapChannels
+) -> None:
     """Write the head that makes a run of the channels in a directory.
 
     Args:
@@ -123,10 +125,12 @@ def keep(directory: Path, run: Contents, revolutions: float, channels: OnDisk) -
     if settle is not None and settle >= revolutions:
         settle = 0.0
     scene = run.scene.replace({"revolutions": revolutions, "settle": settle})
-    ends = {name: replace(one, values=one.values[-1:]) for name, one in run.channels.items()}
+    ends = {
+        name: replace(channel, values=channel.values[-1:]) for name, channel in run.channels.items()
+    }
     blocks: Blocks = {"count": channels.count, "checksums": channels.checksums}
-    whole = replace(run, scene=scene, channels=ends)
-    netcdf.write(whole, directory / HEAD, blocks=json.dumps(blocks))
+    head = replace(run, scene=scene, channels=ends)
+    netcdf.write(head, directory / HEAD, blocks=json.dumps(blocks))
 
 
 def read(path: Path, kind: type[Kind]) -> Kind:
@@ -136,12 +140,12 @@ def read(path: Path, kind: type[Kind]) -> Kind:
         InputError: it cannot be read.
     """
     if has_blocks(path):
-        return _left(path, kind)
-    beside = unfinished_of(path)
+        return _read_checkpoint(path, kind)
+    beside = checkpoint_directory(path)
     if not has_blocks(beside):
         return netcdf.read(path, kind)
     if not path.is_file():
-        return _left(beside, kind)
+        return _read_checkpoint(beside, kind)
     warnings.warn(
         f"{path}: an earlier run's; what the last one left, which goes on or was killed, is "
         f"{beside}",
@@ -150,7 +154,7 @@ def read(path: Path, kind: type[Kind]) -> Kind:
     return netcdf.read(path, kind)
 
 
-def _left(directory: Path, kind: type[Kind]) -> Kind:
+def _read_checkpoint(directory: Path, kind: type[Kind]) -> Kind:
     """Return the run in a directory, as one of the revolutions that it has made."""
     run = netcdf.read(directory / HEAD, kind)
     with prefixed(f"{directory / HEAD}: damaged: "):
@@ -160,8 +164,10 @@ def _left(directory: Path, kind: type[Kind]) -> Kind:
         f"{run.scene.revolutions:g} revolutions, from whose end --from goes on",
         stacklevel=4,
     )
-    begun = {name: replace(one, values=one.values[:0]) for name, one in run.channels.items()}
-    return replace(run, channels=OnDisk.found(directory, begun, **blocks))
+    headers = {
+        name: replace(channel, values=channel.values[:0]) for name, channel in run.channels.items()
+    }
+    return replace(run, channels=MemmapChannels.reopen(directory, headers, **blocks))
 
 
 def set_aside(directory: Path) -> Path:

@@ -9,16 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.result.channel import Channel
-from exu_press.result.channels import at_rows, described
+from exu_press.result.channels import channel_headers, read_rows
 from exu_press.result.contents import Contents
 from exu_press.result.info import Figures, Info
 
-__all__ = ["kept"]
+__all__ = ["decimated_copy"]
 
 Kind = TypeVar("Kind", bound=Contents)
 
 
-def kept(run: Kind, samples: NDArray[np.intp], summary: Mapping[str, Any]) -> Kind:
+def decimated_copy(run: Kind, samples: NDArray[np.intp], summary: Mapping[str, Any]) -> Kind:
     """Return a run with the channels and steps that its scene's [output] keeps.
 
     The last step is one of them. Quantities, strokes and warnings of the summary are in
@@ -38,11 +38,11 @@ def kept(run: Kind, samples: NDArray[np.intp], summary: Mapping[str, Any]) -> Ki
     count = len(run.channels["time"].values)
     rows = np.append(np.arange(0, count - 1, output.every), count - 1)
 
-    def at(rows: NDArray[np.intp], names: Iterable[str]) -> dict[str, Channel]:
-        found = described(run.channels)
-        return {n: replace(found[n], values=at_rows(run.channels, n, rows)) for n in names}
+    def read(rows: NDArray[np.intp], names: Iterable[str]) -> dict[str, Channel]:
+        headers = channel_headers(run.channels)
+        return {n: replace(headers[n], values=read_rows(run.channels, n, rows)) for n in names}
 
-    quantities = {name: told["value"] for name, told in summary["quantities"].items()}
+    quantities = {name: entry["value"] for name, entry in summary["quantities"].items()}
     figures: Figures = {
         "quantities": quantities,
         "strokes": summary["strokes"],
@@ -52,8 +52,10 @@ def kept(run: Kind, samples: NDArray[np.intp], summary: Mapping[str, Any]) -> Ki
     info: Info = {**run.info, "figures": figures}
     return dataclasses.replace(
         run,
-        channels=at(rows, names),
-        surfaces={body: one for body, one in run.surfaces.items() if f"{body}_modes" in names},
-        sampled=at(samples, run.channels if len(samples) else ()),
+        channels=read(rows, names),
+        surfaces={
+            body: surface for body, surface in run.surfaces.items() if f"{body}_modes" in names
+        },
+        sampled=read(samples, run.channels if len(samples) else ()),
         info=info,
     )

@@ -40,8 +40,8 @@ import numpy as np
 
 from calibration.scenes import chaotic_scene, groups_of, random_scene
 from exu_press import InputError, Result, Scene, simulate
-from exu_press.verification.compared import compared
 from exu_press.verification.run import with_errors
+from exu_press.verification.stated_errors import compare_errors
 
 REFERENCES = (1e-7, 1e-6, 1e-5)
 """Tolerances, of which the finest is taken whose run is not expected to take longer than LONGEST.
@@ -161,15 +161,15 @@ def held_against(run: Result, others: Sequence[Result]) -> list[list[Any]]:
     every: dict[str, list[Any]] = {}
     for other in others:
         if other.completed:
-            for one in compared(run, other):
+            for one in compare_errors(run, other):
                 every.setdefault(one.name, []).append(one)
     rows = []
     for name, several in every.items():
         if several[0].value != 0.0:
             ratios = [one.ratio for one in several if one.ratio is not None]
-            covered = float(np.mean([one.covered for one in several]))
+            covered = float(np.mean([one.is_covered for one in several]))
             ratio = float(np.median(ratios)) if ratios else None
-            rows.append([name, covered, ratio, several[0].told["determined"]])
+            rows.append([name, covered, ratio, several[0].stated["determined"]])
     return rows
 
 

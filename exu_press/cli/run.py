@@ -28,10 +28,10 @@ from exu_press.result.checkpoint import (
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import assumed_line
 from exu_press.scene.warnings import scene_warnings
+from exu_press.verification.accuracy_report import accuracy_lines
 from exu_press.verification.refine import refinements
 from exu_press.verification.simulate import simulate
-from exu_press.verification.told import delivered_lines
-from exu_press.verification.within import deliver
+from exu_press.verification.within import find_tolerance
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
@@ -186,8 +186,8 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
     unfinished = checkpoint_directory(directory / RESULT)
     _make_room(unfinished, options)
     if options.within is not None:
-        delivered = deliver(scene, options.within, options.figure, quiet=options.quiet)
-        result, found = delivered.result, delivered_lines(delivered, options.within)
+        delivered = find_tolerance(scene, options.within, options.figure, quiet=options.quiet)
+        result, found = delivered.result, accuracy_lines(delivered, options.within)
     elif options.no_error or options.once:
         errors = not options.no_error
         result = simulate(

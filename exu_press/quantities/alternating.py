@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array, lengths
 
-__all__ = ["LOADS", "Largest", "beside_line", "largest", "steady"]
+__all__ = ["LOADS", "Largest", "largest", "second_difference", "steady"]
 
 LOADS = frozenset({"m/s^2", "N", "N m", "W"})
 """Units of the channels that follow from accelerations."""
@@ -132,7 +132,7 @@ def _same(deviation: Array, rows: NDArray[np.intp], at: NDArray[np.intp]) -> NDA
     return np.asarray((alike & (left_value * right_value < 0.0)) | ~there)
 
 
-def beside_line(time: Array, values: Array) -> Array:
+def second_difference(time: Array, values: Array) -> Array:
     """Return values (n, ...) less the line of their neighbours, (n - 2, ...)."""
     return np.asarray(_chord_deviation(time, values.T).T)
 

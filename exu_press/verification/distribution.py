@@ -1,8 +1,8 @@
-"""Figures over revolutions: mean, scatter and percentiles, and how well each of them is known.
+"""Quantities over revolutions: mean, scatter and percentiles, with their errors.
 
-Two parts make the error of each: the statistics of finitely many revolutions, and what the steps of
-a revolution miss, from pairs of revolutions that begin in one state, at the scene's tolerance and
-at a finer one.
+Two parts make each error: the statistics of finitely many revolutions, and the discretization error
+of a revolution, from pairs of revolutions that begin in one state, at the scene's tolerance and at
+a finer one.
 """
 
 import math
@@ -28,52 +28,52 @@ __all__ = [
     "FINER",
     "LEAST_REVOLUTIONS",
     "Distribution",
+    "discretization_error",
     "distributions",
     "finer",
-    "of_steps",
     "percentiles",
 ]
 
 FINER = 0.1
-"""Tolerance (or fixed step) of a revolution that tells what another one misses, over its own."""
+"""Tolerance (or fixed step) of the finer revolution of a pair, over the scene's."""
 
 FINEST = 1e-8
-"""No revolution has a finer tolerance."""
+"""Finest tolerance of a revolution."""
 
 PAIRS = 5
-"""Pairs of revolutions that are compared."""
+"""Pairs of revolutions for the discretization error."""
 
 PERCENTILES = (5.0, 50.0, 95.0)
 
 CONFIDENCE = 0.9
 
 BATCHES = 10
-"""Parts of the revolutions that are left out in turn, to see by how much mean and scatter move."""
+"""Batches of revolutions of the jackknife."""
 
 AT_A_TIME = 8
-"""Revolutions of a run, of which the first is left out: it still knows how the run began."""
+"""Revolutions of a run; the first one, which depends on the start, is left out."""
 
 LEAST_REVOLUTIONS = 59
-"""Revolutions: the largest of fewer is below the 95th percentile in more than one case of twenty,
-so that this has no upper bound of that confidence."""
+"""Revolutions: with fewer, the largest one is no upper bound of the 95th percentile with 95 %
+confidence."""
 
 MOST_REVOLUTIONS = 126
-"""Revolutions after which it is enough, however wide the confidence still is."""
+"""Revolutions at most, however wide the confidence interval still is."""
 
 GOLDEN = 180.0 * (5.0**0.5 - 1.0)
-"""deg; multiples of it lie evenly about a revolution, however many there are."""
+"""deg; its multiples are evenly distributed over a revolution, however many there are."""
 
 
 @dataclass(frozen=True)
 class Distribution:
-    """A figure's values over revolutions, in its unit.
+    """Distribution of a quantity over revolutions, in its unit.
 
     Attributes:
-        revolutions: how many.
+        revolutions: number of them.
         mean: with its error.
         scatter: standard deviation, with its error.
-        percentiles: percentile -> the value, and between which values it lies with a confidence of
-            90 % by the statistics, each further out by what steps miss.
+        percentiles: percentile -> value and its bounds of 90 % confidence, widened by the
+            discretization error.
     """
 
     revolutions: int
@@ -82,33 +82,33 @@ class Distribution:
     percentiles: dict[float, tuple[float, float, float]]
 
     @classmethod
-    def of(cls, values: Sequence[float] | Array, missed: float = 0.0) -> Self:
+    def from_values(cls, values: Sequence[float] | Array, discretization: float = 0.0) -> Self:
         """Return the distribution of values.
 
         Args:
-            values: one a revolution, two at least, in their order.
-            missed: error of each by the steps, as `of_steps` returns it.
+            values: of consecutive revolutions, two at least.
+            discretization: error of each, see `discretization_error`.
         """
-        each = np.asarray(values, dtype=float)
+        array = np.asarray(values, dtype=float)
         return cls(
-            len(each),
-            (float(each.mean()), _jackknife(each, _mean) + missed),
-            (float(each.std(ddof=1)), _jackknife(each, _deviation) + missed),
+            len(array),
+            (float(array.mean()), _jackknife(array, _mean) + discretization),
+            (float(array.std(ddof=1)), _jackknife(array, _deviation) + discretization),
             {
-                percent: (value, low - missed, high + missed)
-                for percent, (value, low, high) in percentiles(each.tolist()).items()
+                percent: (value, low - discretization, high + discretization)
+                for percent, (value, low, high) in percentiles(array.tolist()).items()
             },
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Return it as files have it."""
+        """Return the entry of a file."""
         return {
             "revolutions": self.revolutions,
             "mean": dict(zip(("value", "error"), self.mean, strict=True)),
             "scatter": dict(zip(("value", "error"), self.scatter, strict=True)),
             "percentiles": {
-                f"{percent:g}": dict(zip(("value", "low", "high"), told, strict=True))
-                for percent, told in self.percentiles.items()
+                f"{percent:g}": dict(zip(("value", "low", "high"), bounds, strict=True))
+                for percent, bounds in self.percentiles.items()
             },
         }
 
@@ -122,39 +122,38 @@ def _deviation(values: Array) -> float:
 
 
 def _jackknife(values: Array, statistic: Callable[[Array], float]) -> float:
-    """Return half of a statistic's interval of 95 %, by leaving out one batch after the other.
+    """Return half the 95 % confidence interval of a statistic, by the jackknife over batches.
 
-    Revolutions that follow each other depend on each other, batches of them hardly do (B. Efron,
-    The Jackknife, the Bootstrap and Other Resampling Plans, SIAM 1982, 3). NaN of fewer values
-    than three.
+    Consecutive revolutions are correlated, batches of them hardly are (B. Efron, The Jackknife, the
+    Bootstrap and Other Resampling Plans, SIAM 1982, 3). NaN of fewer values than three.
     """
     if len(values) < 3:
         return math.nan
-    parts = np.array_split(np.arange(len(values)), min(BATCHES, len(values)))
-    found = np.array([statistic(np.delete(values, part)) for part in parts])
-    deviation = math.sqrt((len(parts) - 1) * float(((found - found.mean()) ** 2).mean()))
-    return _student(len(parts)) * deviation
+    batches = np.array_split(np.arange(len(values)), min(BATCHES, len(values)))
+    estimates = np.array([statistic(np.delete(values, batch)) for batch in batches])
+    deviation = math.sqrt((len(batches) - 1) * float(((estimates - estimates.mean()) ** 2).mean()))
+    return _student(len(batches)) * deviation
 
 
 def _student(count: int) -> float:
-    """Return half of the interval of 95 % over the standard error of a mean of so many values."""
+    """Return Student's t of the 95 % confidence interval of a mean of so many values."""
     from scipy.stats import t  # takes as long to import as a short run
 
     return float(t.ppf(0.975, count - 1))
 
 
-def of_steps(apart: Sequence[float]) -> float:
-    """Return what steps miss of a figure in the mean, from its differences in two pairs or more.
+def discretization_error(differences: Sequence[float]) -> float:
+    """Return the mean discretization error of a quantity, from its differences in pairs of runs.
 
-    It is what all of them have in common, and how well that is known: where a motion amplifies
-    errors within a revolution, differences scatter.
+    It is the mean difference and its confidence interval: where a motion amplifies errors within a
+    revolution, differences scatter.
 
-    >>> round(of_steps([1.0, 1.0]), 3)
+    >>> round(discretization_error([1.0, 1.0]), 3)
     1.462
     """
-    values = np.asarray(apart)
-    known = _student(len(values)) * values.std(ddof=1) / math.sqrt(len(values))
-    return (abs(float(values.mean())) + float(known)) / float(1.0 - FINER**ORDER)
+    values = np.asarray(differences)
+    uncertainty = _student(len(values)) * values.std(ddof=1) / math.sqrt(len(values))
+    return (abs(float(values.mean())) + float(uncertainty)) / float(1.0 - FINER**ORDER)
 
 
 def finer(scene: Scene) -> Scene:
@@ -173,94 +172,98 @@ def finer(scene: Scene) -> Scene:
 
 
 def percentiles(values: Sequence[float]) -> dict[float, tuple[float, float, float]]:
-    """Return the percentiles of samples, each with the bounds of its confidence.
+    """Return the percentiles of samples, each with its bounds of confidence.
 
-    As many samples lie below a percentile as successes are among so many trials, whatever the
-    distribution is; so two of the ordered samples are its bounds (H. A. David, H. N. Nagaraja,
-    Order Statistics, Wiley 2003, 7.1). Of fewer than LEAST_REVOLUTIONS samples the outermost ones
-    are, with less confidence. Revolutions that follow each other are not independent of each other
-    for sure; where motion is chaotic, the next one remembers little.
+    The number of samples below a percentile is binomial, so that two of the ordered samples are its
+    bounds, whatever the distribution (H. A. David, H. N. Nagaraja, Order Statistics, Wiley 2003,
+    7.1). Of fewer than LEAST_REVOLUTIONS samples the outermost ones are, with less confidence.
     """
     from scipy.stats import binom  # takes as long to import as a short run
 
     ordered, count = np.sort(values), len(values)
     tail = 0.5 * (1.0 - CONFIDENCE)
-    found = {}
+    bounds_by_percent = {}
     for percent in PERCENTILES:
-        below = binom.cdf(np.arange(count + 1), count, percent / 100.0)
-        low, high = np.searchsorted(below, [tail, 1.0 - tail])
+        cumulative = binom.cdf(np.arange(count + 1), count, percent / 100.0)
+        low, high = np.searchsorted(cumulative, [tail, 1.0 - tail])
         bounds = float(ordered[max(low - 1, 0)]), float(ordered[min(high, count - 1)])
-        found[percent] = float(np.percentile(ordered, percent)), *bounds
-    return found
+        bounds_by_percent[percent] = float(np.percentile(ordered, percent)), *bounds
+    return bounds_by_percent
 
 
 def distributions(
     scene: Scene,
     names: Collection[str],
-    within: float,
+    tolerance: float,
     *,
-    least: int = LEAST_REVOLUTIONS,
-    most: int = MOST_REVOLUTIONS,
+    minimum: int = LEAST_REVOLUTIONS,
+    maximum: int = MOST_REVOLUTIONS,
     quiet: bool = True,
 ) -> dict[str, Distribution]:
-    """Return the distribution of figures over revolutions and starts.
+    """Return the distribution of quantities over revolutions and starts.
 
-    Runs from other crank angles are added until there are `least` revolutions, and the medians are
-    known within what is asked for, or there are `most`.
+    Runs from other crank angles are added until there are `minimum` revolutions and the medians are
+    known within the tolerance, or until there are `maximum`.
 
     Args:
-        scene: with the tolerance to run it at; its own length and start do not count.
-        names: dotted, of figures; those that add up over a run, and those that one revolution does
-            not have, are left out.
-        within: relative.
-        least: revolutions.
-        most: revolutions.
+        scene: its length and start do not count.
+        names: of quantities, dotted; sums over a run, and quantities that one revolution does not
+            have, are left out.
+        tolerance: relative error of the medians.
+        minimum: revolutions.
+        maximum: revolutions.
         quiet: False shows the progress.
 
     Raises:
         InputError: a run stopped early.
     """
     declared = {
-        name: one
-        for name, one in quantities_of(scene).items()
-        if name in names and not one.quantity.cumulative
+        name: placed
+        for name, placed in quantities_of(scene).items()
+        if name in names and not placed.quantity.cumulative
     }
     values: dict[str, list[float]] = {name: [] for name in declared}
-    apart: dict[str, list[float]] = {name: [] for name in declared}
-    found: dict[str, Distribution] = {}
+    differences: dict[str, list[float]] = {name: [] for name in declared}
+    estimates: dict[str, Distribution] = {}
     count, start = 0, 0
-    with Progress("distribution", most, "revolutions", quiet=quiet) as progress:
-        while values and count < most:
+    with Progress("distribution", maximum, "revolutions", quiet=quiet) as progress:
+        while values and count < maximum:
             angle = (scene.start_angle_deg + GOLDEN * start) % 360.0
             run = run_once(scene.replace({"revolutions": AT_A_TIME, "start_angle_deg": angle}))
             _check(run)
             if start < PAIRS:
-                one, two = (numbers_of(each, declared) for each in _pair(run))
-                for name in apart:
-                    apart[name].append(one.get(name, math.nan) - two.get(name, math.nan))
-            new = [numbers_of(one, declared) for one in revolutions_of(run)[1:]]
+                placed, two = (numbers_of(sample, declared) for sample in _pair(run))
+                for name in differences:
+                    differences[name].append(placed.get(name, math.nan) - two.get(name, math.nan))
+            revolutions = [numbers_of(placed, declared) for placed in revolutions_of(run)[1:]]
             values = {
-                name: [*so_far, *(one[name] for one in new)]
+                name: [*so_far, *(placed[name] for placed in revolutions)]
                 for name, so_far in values.items()
-                if all(name in one for one in new)
+                if all(name in placed for placed in revolutions)
             }
-            count, start = count + len(new), start + 1
+            count, start = count + len(revolutions), start + 1
             progress.update(count)
             if start >= 2:
-                found = {
-                    name: Distribution.of(each, 2.0 * of_steps(apart[name]))  # its state, too
-                    for name, each in values.items()
+                estimates = {
+                    name: Distribution.from_values(
+                        sample, 2.0 * discretization_error(differences[name])
+                    )  # its state, too
+                    for name, sample in values.items()
                 }
-            if start > 1 and count >= least and all(_known(one, within) for one in found.values()):
+            if (
+                start > 1
+                and count >= minimum
+                and all(_is_median_known(placed, tolerance) for placed in estimates.values())
+            ):
                 break
-    return found
+    return estimates
 
 
 def _pair(run: Result) -> Iterator[Result]:
     """Yield the revolution after a run at the run's tolerance and at a finer one."""
     scene = run.scene.replace({"revolutions": 1.0, "settle": 0.0})
-    for each in (scene, finer(scene)):
-        revolution = run_once(each, start=run.info["state"])
+    for variant in (scene, finer(scene)):
+        revolution = run_once(variant, start=run.info["state"])
         _check(revolution)
         yield revolution
 
@@ -270,6 +273,6 @@ def _check(run: Result) -> None:
         raise InputError(f"no distribution, as a run {run.info['reason']}")
 
 
-def _known(found: Distribution, within: float) -> bool:
-    median, low, high = found.percentiles[50.0]
-    return max(high - median, median - low) <= within * abs(median)
+def _is_median_known(distribution: Distribution, tolerance: float) -> bool:
+    median, low, high = distribution.percentiles[50.0]
+    return max(high - median, median - low) <= tolerance * abs(median)

@@ -1,4 +1,4 @@
-"""The error of a figure, from the same figure of runs at other tolerances."""
+"""The error of a quantity, from its values in runs at other tolerances."""
 
 import math
 from collections.abc import Sequence
@@ -10,64 +10,70 @@ from exu_press.quantities import Extreme
 from exu_press.quantities.kind import ROUNDING
 from exu_press.result.info import Error
 
-__all__ = ["ORDER", "converging", "of_both", "of_one", "scattered"]
+__all__ = [
+    "ORDER",
+    "convergent_error",
+    "extreme_over_parts",
+    "prediction_interval",
+    "single_difference_factor",
+]
 
 ORDER = 0.5
-"""Power of the tolerance (or step) that errors are taken to go with. Most go with the tolerance
-itself, and are stated three times too large then by runs at half and at 4 times it. But peaks of
-vibrations behind impacts, and what is counted over touches, go with its root, and three runs may
-agree by chance; scripts/calibrate_errors.py has shown ORDER."""
+"""Power of the tolerance (or step) to which errors are taken to be proportional. Most are so to the
+tolerance itself; runs at half and at 4 times it then state them three times too large. But peaks of
+vibrations behind impacts, and counts of touches, go with its root, and three runs may agree by
+chance; scripts/calibrate_errors.py measures ORDER."""
 
-NINETEEN_IN_TWENTY = {1: 11.0, 2: 3.85, 3: 2.9, 4: 2.55}
-"""Over the root mean square of a normal sample's differences to so many others: within this of it
-nineteen in twenty further samples lie (drawn ones; tests/confidence/test_estimate.py)."""
+PREDICTION_FACTORS = {1: 11.0, 2: 3.85, 3: 2.9, 4: 2.55}
+"""Number of differences -> half the width of the interval that holds 95 % of further samples, over
+the root mean square of a normal sample's differences (tests/confidence/test_estimate.py)."""
 
-LITTLE = 0.05
-"""Over the figure: within this a figure counts as determined, however chaotic the motion is."""
+DETERMINED = 0.05
+"""Relative error within which a quantity is determined, however chaotic the motion is."""
 
 
-def converging(
+def convergent_error(
     values: Sequence[float],
     ratios: Sequence[float],
     least: float = 0.0,
     nearest: float = 0.0,
     earlier: Sequence[Sequence[float]] = (),
 ) -> Error:
-    """Return the error of a figure whose error falls with the tolerance (or the step).
+    """Return the error of a quantity that converges with the tolerance (or the step).
 
-    The first value is the figure itself, its ratio 1; of each pair of runs the difference over that
-    of the ratios' powers is an estimate, and the largest counts.
+    Of each pair of runs the difference over that of the ratios' powers is an estimate; the largest
+    one counts.
 
     Args:
-        values: the figure at several tolerances.
+        values: of the quantity at several tolerances; the first one is reported.
         ratios: of these tolerances to the first.
-        least: error, in the figure's unit.
-        nearest: error over the difference from the second run at least, where only this one still
-            has the first one's motion; the others' differences do not go with the tolerance then.
-        earlier: the values at instants before, of a figure that swings: the largest error counts.
+        least: error, in the quantity's unit.
+        nearest: least error over the difference from the second run, where only that one still
+            follows the first one's motion.
+        earlier: values at earlier instants of a quantity that oscillates; the largest error counts.
 
-    >>> round(converging([1.01, 1.02, 1.03], [1.0, 4.0, 9.0])["error"], 6)  # goes with the root
+    >>> round(convergent_error([1.01, 1.02, 1.03], [1.0, 4.0, 9.0])["error"], 6)
     0.01
     """
     powers = [ratio**ORDER for ratio in ratios]
     error = 0.0
-    for found in (values, *earlier):
-        pairs = combinations(zip(found, powers, strict=True), 2)
+    for figures in (values, *earlier):
+        pairs = combinations(zip(figures, powers, strict=True), 2)
         largest = max(abs(a - b) / abs(i - j) for (a, i), (b, j) in pairs)
-        error = max(error, largest, nearest * abs(found[1] - found[0]))
+        error = max(error, largest, nearest * abs(figures[1] - figures[0]))
     return _about(values[0], error + least, determined=True)
 
 
-def of_one(ratio: float) -> float:
-    """Return an error over the difference of the run from one refinement alone.
+def single_difference_factor(ratio: float) -> float:
+    """Return the bound of an error over the run's difference from one refinement alone.
 
-    Two errors that are normal, of either sign, the refinement's `ratio` times as large: nineteen
-    in twenty are within this of their difference (the tails of Cauchy's distribution).
+    Both errors are normal, the refinement's `ratio` times as large: 95 % of errors are within the
+    bound (tails of the Cauchy distribution).
 
     Args:
         ratio: of the tolerances, below 1.
 
-    >>> round(of_one(0.5), 1)
+    >>> round(single_difference_factor(0.5), 1)
     5.2
     """
     mean = 1.0 / (1.0 + ratio**2)  # of the error over the difference, and the scale about it
@@ -75,44 +81,38 @@ def of_one(ratio: float) -> float:
     return scale + math.hypot(scale, mean)
 
 
-def scattered(
+def prediction_interval(
     values: Sequence[float], least: float = 0.0, shares: Sequence[float] | None = None
 ) -> Error:
-    """Return between which bounds a figure lies that depends on what nobody knows.
-
-    Nineteen in twenty further runs lie there, if such figures scatter normally.
+    """Return the 95 % prediction interval of a quantity whose motions have diverged.
 
     Args:
-        values: of runs that have nothing in common any more; the first one is reported.
-        least: error, in the figure's unit, on top.
-        shares: how far each of the others has got from the first, over the distance of motions
-            that have nothing in common: half of it shows half of the scatter. All of it unless
-            told.
+        values: of diverged runs, normally distributed; the first one is reported.
+        least: error, in the quantity's unit, on top.
+        shares: distance of each further run from the first, over that of diverged motions: half of
+            it shows half of the scatter; None: all have diverged.
     """
-    apart = np.asarray(values[1:]) - values[0]
+    differences = np.asarray(values[1:]) - values[0]
     if shares is not None:
-        apart = apart / np.minimum(shares, 1.0)
-    factor = NINETEEN_IN_TWENTY.get(len(apart), 2.4)
-    error = factor * float(np.sqrt(np.mean(apart**2))) + ROUNDING * abs(values[0]) + least
-    return _about(values[0], error, determined=error <= LITTLE * abs(values[0]))
+        differences = differences / np.minimum(shares, 1.0)
+    factor = PREDICTION_FACTORS.get(len(differences), 2.4)
+    error = factor * float(np.sqrt(np.mean(differences**2))) + ROUNDING * abs(values[0]) + least
+    return _about(values[0], error, determined=error <= DETERMINED * abs(values[0]))
 
 
-def of_both(value: float, one: Error, other: Error, extreme: Extreme) -> Error:
-    """Return the error of an extreme over two parts of a motion, each with its own.
-
-    A part whose extreme is far from that of the whole does not count; one that scatters beyond it
-    does, although none of the runs has been there.
+def extreme_over_parts(value: float, first: Error, second: Error, extreme: Extreme) -> Error:
+    """Return the error of an extreme over two parts of a motion.
 
     Args:
-        value: of the whole.
-        one: error of the extreme of one part.
-        other: of the other part.
+        value: extreme over both.
+        first: error of the extreme over the first part.
+        second: error of the extreme over the second part.
         extreme: whether it is the largest or the least.
     """
     outer = max if extreme is Extreme.LARGEST else min
-    low, high = outer(one["low"], other["low"]), outer(one["high"], other["high"])
+    low, high = outer(first["low"], second["low"]), outer(first["high"], second["high"])
     error = max(high - value, value - low)
-    determined = error <= LITTLE * abs(value)
+    determined = error <= DETERMINED * abs(value)
     return {"error": error, "determined": determined, "low": low, "high": high}
 
 

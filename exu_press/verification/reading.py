@@ -1,119 +1,130 @@
-"""The error of reading loads at steps, which all runs share."""
+"""Readings that show how far loads at the ends of steps may be from the true ones.
+
+All runs share this error, so that their differences do not show it.
+"""
 
 from collections.abc import Callable
 
 import numpy as np
 
 from exu_press.numerics.arrays import Array
-from exu_press.quantities.alternating import LOADS, beside_line
+from exu_press.quantities.alternating import LOADS, second_difference
 from exu_press.quantities.energy import has_balance
 from exu_press.result import Result
 from exu_press.result.windows import settled_part
 
-__all__ = ["OF_FIRST_STEP", "overshot", "smoothed", "turned", "unbalanced"]
+__all__ = [
+    "OF_FIRST_STEP",
+    "add_energy_residual",
+    "add_start_overshoot",
+    "average_neighbours",
+    "enlarge_reversing_forces",
+]
 
 SPEEDS = frozenset({"m/s", "rad/s"})
-"""Units of the channels whose peaks lie between steps, too; positions are read as cubics there."""
+"""Units of channels whose peaks lie between steps, too; positions are read as cubics there."""
 
 OF_FIRST_STEP = 0.25
-"""Overshoot over a load's change in the first step: 0.07 to 0.18 were measured with films."""
+"""Overshoot of a load over its change in the first step: 0.07 to 0.18 were measured with films."""
 
-BESIDE = 0.07
-"""Force across, over the change of one that turns round within a step: 0.02 to 0.07 were measured
-of a mixed film behind a blanking pulse, in steps of 0.1 us."""
+TRANSVERSE = 0.07
+"""Transverse force over the change of a force that reverses within a step: 0.02 to 0.07 were
+measured of a mixed film behind a blanking pulse, in steps of 0.1 us."""
 
 AT_ONCE = 1e-6
-"""Part of the first step: an instant so soon after the start."""
+"""Part of the first step after which the repeated start lies."""
 
 
-def smoothed(run: Result) -> Result:
-    """Return a run with loads and speeds averaged, at each step, with the line of its neighbours.
+def average_neighbours(run: Result) -> Result:
+    """Return a run with loads and speeds averaged with the line through their neighbours.
 
     The constraints of generalized-alpha leave loads that alternate from step to step, most so at
-    the start and in the small steps of impacts; this takes the alternating part away. Of a peak
-    that lies between steps it takes twice what it may be higher than the steps say. So the
-    difference of a figure of the two is what reading it leaves open.
+    the start and in the small steps of impacts; averaging removes that oscillation. A peak between
+    steps loses twice the height by which it may exceed the steps. So the change of a quantity
+    bounds its reading error.
     """
-    return _with(run, LOADS | SPEEDS, _averaged)
+    return _transform_units(run, LOADS | SPEEDS, _neighbour_average)
 
 
-def overshot(run: Result) -> Result:
-    """Return a run with a further instant, just after the start, at which films have their loads.
+def add_start_overshoot(run: Result) -> Result:
+    """Return a run with a second instant just after the start, at which films overshoot.
 
-    Within the first step they take them up, none can tell when, with an overshoot that its end does
-    not show: OF_FIRST_STEP of what it changes.
+    Films take up their loads within the first step, with an overshoot of OF_FIRST_STEP of the
+    change that the end of the step does not show.
     """
     if len(run.time) < 2:
         return run
-    soon = AT_ONCE * (run.time[1] - run.time[0])
+    delay = AT_ONCE * (run.time[1] - run.time[0])
 
-    def begun(name: str, values: Array) -> Array:
-        more = np.concatenate([values[:1], values])
+    def repeat_start(name: str, values: Array) -> Array:
+        extended = np.concatenate([values[:1], values])
         if name == "time":
-            more[1] += soon
-        return more
+            extended[1] += delay
+        return extended
 
-    return _with(run.map_values(begun), LOADS, _overshot)
+    return _transform_units(run.map_values(repeat_start), LOADS, _overshoot_of_first_step)
 
 
-def turned(run: Result) -> Result:
-    """Return a run with larger forces where they turn round within a step.
+def enlarge_reversing_forces(run: Result) -> Result:
+    """Return a run with larger forces where they reverse within a step.
 
-    A film whose load is reversed passes it to its other side within microseconds, which no speed
-    feels and no step resolves. The force need not go through zero on its way: BESIDE of its change
-    may act across.
+    A film whose load reverses passes it to its other side within microseconds, which no step
+    resolves. The force need not go through zero: TRANSVERSE of its change may act across.
     """
-    return _with(run, LOADS, _turned)
+    return _transform_units(run, LOADS, _enlarge_reversals)
 
 
-def unbalanced(run: Result) -> Result:
-    """Return a run that is put in as much more energy as its balance misses at worst.
+def add_energy_residual(run: Result) -> Result:
+    """Return a run with its largest energy residual added to its input and to the drive's power.
 
-    The energy put in is the integral of a power that is read at steps. Where it flows back and
-    forth, as over whole revolutions, errors cancel at the end, which is luck. The drive's power is
-    more by as much in the mean.
+    The input is the integral of a power that is read at steps. Where it flows back and forth, as
+    over whole revolutions, errors may cancel at the end by chance.
     """
     if not has_balance(run):
         return run
     run = settled_part(run)
-    given = run["energy_input"]
-    missed = np.abs(given - run["energy_stored"] - run["energy_dissipated"]).max()
-    changed = {"energy_input": np.concatenate([given[:1], given[1:] + missed])}
+    supplied = run["energy_input"]
+    residual = np.abs(supplied - run["energy_stored"] - run["energy_dissipated"]).max()
+    corrected = {"energy_input": np.concatenate([supplied[:1], supplied[1:] + residual])}
     if len(run.time) > 1:
-        changed["drive_power"] = run["drive_power"] + missed / (run.time[-1] - run.time[0])
-    return run.with_values(changed)
+        corrected["drive_power"] = run["drive_power"] + residual / (run.time[-1] - run.time[0])
+    return run.with_values(corrected)
 
 
-def _with(run: Result, units: frozenset[str], change: Callable[[Array, Array], Array]) -> Result:
-    """Return a run with other channels of these units: change(time (n,), values (n, ...))."""
-    time, of = run.time, run.units
-    return run.map_values(lambda name, old: change(time, old) if of[name] in units else old)
+def _transform_units(
+    run: Result, units: frozenset[str], change: Callable[[Array, Array], Array]
+) -> Result:
+    """Return a run whose channels of these units are change(time (n,), values (n, ...))."""
+    time, unit_of = run.time, run.units
+    return run.map_values(
+        lambda name, values: change(time, values) if unit_of[name] in units else values
+    )
 
 
-def _averaged(time: Array, values: Array) -> Array:
-    """Return values (n, ...) averaged with their neighbours', but for the first.
+def _neighbour_average(time: Array, values: Array) -> Array:
+    """Return values (n, ...) without their alternating part, but for the first.
 
-    What alternates has the other sign at the last one, which has one neighbour only.
+    The last one has one neighbour only, and the alternating part with the other sign.
     """
     if len(time) < 3:
         return values
-    taken = 0.5 * beside_line(time, values)
-    last = values[-1:] + taken[-1:]
-    return np.concatenate([values[:1], values[1:-1] - taken, last])
+    alternating = 0.5 * second_difference(time, values)
+    last = values[-1:] + alternating[-1:]
+    return np.concatenate([values[:1], values[1:-1] - alternating, last])
 
 
-def _turned(_: Array, values: Array) -> Array:
-    """Return vectors (n, k), each component larger where they turn round within a step."""
+def _enlarge_reversals(_: Array, values: Array) -> Array:
+    """Return vectors (n, k), each component larger where they reverse within a step."""
     if values.ndim != 2 or values.shape[1] < 2:
         return values
     jump = np.linalg.norm(np.diff(values, axis=0), axis=1)
-    round_ = np.sum(values[1:] * values[:-1], axis=1) < 0.0
-    open_ = np.where(round_, BESIDE * jump, 0.0)
-    larger = np.maximum(np.append(open_, 0.0), np.insert(open_, 0, 0.0))[:, None]
-    return np.asarray(values + np.copysign(larger, values))
+    reverses = np.sum(values[1:] * values[:-1], axis=1) < 0.0
+    enlargement = np.where(reverses, TRANSVERSE * jump, 0.0)
+    increase = np.maximum(np.append(enlargement, 0.0), np.insert(enlargement, 0, 0.0))[:, None]
+    return np.asarray(values + np.copysign(increase, values))
 
 
-def _overshot(_: Array, values: Array) -> Array:
-    """Return values (n, ...) whose second one is the third one, and more."""
+def _overshoot_of_first_step(_: Array, values: Array) -> Array:
+    """Return values (n, ...) whose second one overshoots the third one."""
     second = values[2] + OF_FIRST_STEP * (values[2] - values[0])
     return np.concatenate([values[:1], second[None], values[2:]])

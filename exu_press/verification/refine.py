@@ -1,4 +1,4 @@
-"""A run whose headline quantities are not known well goes on at a finer tolerance."""
+"""Runs at finer tolerances while headline quantities have large errors."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -13,16 +13,16 @@ from exu_press.verification.run import simulate_with_errors
 __all__ = ["doubtful", "refinements"]
 
 ENOUGH = 0.05
-"""Relative error of a quantity: with a larger one it is not known well."""
+"""Largest relative error of a headline quantity that needs no finer run."""
 
 FINER = 4.0
-"""A tolerance is made finer by this factor at a time."""
+"""Factor from one tolerance to the next finer one."""
 
 LONGER = 2.0
-"""A run takes this much longer then."""
+"""Time of a run at the next finer tolerance over that of the last one."""
 
 BUDGET = 3.0
-"""Time that finer runs may take together, over that of the first one."""
+"""Time of all finer runs over that of the first one, at most."""
 
 FINEST = 1e-6
 
@@ -30,13 +30,13 @@ FINEST = 1e-6
 def doubtful(result: Result) -> list[str]:
     """Return the headline quantities that are not determined, or known to worse than ENOUGH."""
     values = values_of(result)
-    found = []
+    names = []
     for name, placed in quantities_of(result.scene).items():
         value = values[name]
         if placed.quantity.headline and value.value and value.error is not None:
-            known = value.determined and value.error <= ENOUGH * abs(value.value)
-            found += [] if known else [name]
-    return found
+            is_known = value.determined and value.error <= ENOUGH * abs(value.value)
+            names += [] if is_known else [name]
+    return names
 
 
 def refinements(
@@ -49,8 +49,8 @@ def refinements(
 ) -> Iterator[tuple[Result, str]]:
     """Run a scene, and again at finer tolerances while that helps and the budget lasts.
 
-    Yields each result, with what the user may do in the end, or an empty text. A finer run that
-    stops early does not replace the one before it.
+    Yields each result with advice, or an empty text. A finer run that stops early does not replace
+    the one before it.
 
     Args:
         scene: to be simulated.
@@ -65,39 +65,39 @@ def refinements(
     """
     begin = time.perf_counter()
     result = simulate_with_errors(scene, start=start, unfinished=unfinished, quiet=quiet)
-    took = first = time.perf_counter() - begin
+    duration = first_duration = time.perf_counter() - begin
     spent = 0.0
     while result.completed and (names := doubtful(result)):
-        which = f"{names[0]}{f' and {len(names) - 1} more' if len(names) > 1 else ''}"
-        unknown = f"{which}: not known within {ENOUGH:.0%}"
+        doubts = f"{names[0]}{f' and {len(names) - 1} more' if len(names) > 1 else ''}"
+        unknown = f"{doubts}: not known within {ENOUGH:.0%}"
         solver = result.scene.solver
         assert solver is not None
         if solver.tolerance is None or solver.tolerance <= FINEST:
             yield result, f"{unknown} with these steps"
             return
         finer = max(solver.tolerance / FINER, FINEST)
-        if spent + LONGER * took > BUDGET * first:
+        if spent + LONGER * duration > BUDGET * first_duration:
             yield (
                 result,
                 f"{unknown}; a tolerance of {finer:.2g} (--set solver.tolerance={finer:.2g}) takes "
-                f"about {LONGER * took:.2g} s, and --within {ENOUGH:.0%} finds the tolerance, or "
-                "the distribution over revolutions",
+                f"about {LONGER * duration:.2g} s, and --within {ENOUGH:.0%} finds the tolerance, "
+                "or the distribution over revolutions",
             )
             return
         yield result, ""
         announce(
             f"{unknown}; goes on at a tolerance of {finer:.2g}, which may take "
-            f"{LONGER * took:.2g} s; Ctrl-C ends that and keeps the finished run"
+            f"{LONGER * duration:.2g} s; Ctrl-C ends that and keeps the finished run"
         )
-        before = time.perf_counter()
-        again = simulate_with_errors(
+        started = time.perf_counter()
+        repeated = simulate_with_errors(
             scene.replace({"solver.tolerance": finer}), start=start, quiet=quiet, interruptible=True
         )
-        if not again.completed:
-            reason = again.info["reason"]
+        if not repeated.completed:
+            reason = repeated.info["reason"]
             yield result, f"{unknown}; at a tolerance of {finer:.2g} the run stops: {reason}"
             return
-        result = again
-        took = time.perf_counter() - before
-        spent += took
+        result = repeated
+        duration = time.perf_counter() - started
+        spent += duration
     yield result, ""

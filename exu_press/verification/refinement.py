@@ -56,17 +56,17 @@ def plan(scene: Scene) -> dict[float, Scene]:
     tolerance = solver.tolerance
     assert tolerance is not None
     room = next(least for least in PLANS if least * tolerance <= LOOSEST)
-    found = {}
+    scenes = {}
     for ratio in PLANS[room]:
         longest = min(math.sqrt(ratio) * solver.max_step_deg, LARGEST_STEP)
-        found[ratio] = scene.replace(
+        scenes[ratio] = scene.replace(
             {
                 "solver.tolerance": ratio * tolerance,
                 "solver.max_step_deg": longest,
                 "solver.max_steps": math.ceil(solver.max_steps / min(ratio, 1.0)),
             }
         )
-    return found
+    return scenes
 
 
 def refine(scene: Scene, start: State | None) -> Result:
@@ -86,12 +86,12 @@ class RefinementRuns(AbstractContextManager["RefinementRuns", None]):
         is there at once; a new one takes as long as a short run to load the package.
         """
         scenes = plan(scene)
-        first, *others = scenes
-        parts = [[first], others] if first < 1.0 else [[first, *others]]
+        first, *remaining = scenes
+        sequences = [[first], remaining] if first < 1.0 else [[first, *remaining]]
         function = refine if may_copy() else f"{__name__}:{refine.__name__}"
         self._children: list[tuple[Child, list[float]]] = []
         try:
-            for ratios in parts:
+            for ratios in sequences:
                 child = Child(function, niceness=0 if first in ratios else GIVES_WAY)
                 self._children.append((child, ratios))
                 for ratio in ratios:

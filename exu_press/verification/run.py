@@ -19,9 +19,18 @@ from exu_press.result.run import run_once
 from exu_press.result.windows import at_instant, settled_part, up_to, window
 from exu_press.scene import Scene, mechanism_of
 from exu_press.verification.divergence import Divergence, divergence
-from exu_press.verification.drift import earlier, warmed_on
-from exu_press.verification.estimate import converging, of_both, scattered
-from exu_press.verification.reading import overshot, smoothed, turned, unbalanced
+from exu_press.verification.drift import read_a_revolution_earlier, with_next_temperatures
+from exu_press.verification.estimate import (
+    convergent_error,
+    extreme_over_parts,
+    prediction_interval,
+)
+from exu_press.verification.reading import (
+    add_energy_residual,
+    add_start_overshoot,
+    average_neighbours,
+    enlarge_reversing_forces,
+)
 from exu_press.verification.refinement import RefinementRuns, plan
 
 __all__ = ["errors_of", "simulate_with_errors", "with_errors"]
@@ -30,22 +39,33 @@ Numbers = Mapping[float, Mapping[str, float]]
 """Quantities of the run and its refinements, by the ratio of their tolerance to the run's."""
 
 OF_THE_START = 1e-4
-"""Least error of loads over themselves where all runs agree: they are from the start then, and what
-the first step leaves of accelerations is in all of them."""
+"""Least relative error of loads where all runs agree: they are then those of the start, whose error
+all runs share."""
 
 OF_READING = 0.75
-"""Part of the loss of a quantity by averaging with its neighbours: a peak between steps may be
-higher by half of it, one of alternating loads is too high by all of it."""
+"""Part of the change by averaging with neighbours: a peak between steps may be higher by half of
+it, one of alternating loads is too high by all of it."""
 
 OF_FLOOR = 3.0
-"""Times the least error of a kind: with a smaller error a figure that is nothing is known."""
+"""Least errors of a kind: with a smaller error a quantity that is zero is known."""
 
 LATE, INSTANTS = 0.5, 16
-"""From this part of a run on, and at so many instants: what swings while surfaces meet, as the
-stored energy does, may be as in the other runs at one instant by chance."""
+"""Part of a run from which on, and number of instants at which, oscillating sums are compared: one
+instant may agree with the other runs by chance."""
 
 SAME = 1e-9
-"""Relative: a figure that has changed by less since the horizon is one from before it."""
+"""Relative change since the horizon below which a quantity is one from before it."""
+
+
+READINGS = (
+    (OF_READING, average_neighbours),
+    (OF_READING, add_start_overshoot),
+    (1.0, enlarge_reversing_forces),
+    (1.0, add_energy_residual),
+    (1.0, read_a_revolution_earlier),
+    (1.0, with_next_temperatures),
+)
+"""Weight of a reading's difference in the error -> the run read that way."""
 
 
 def simulate_with_errors(
@@ -80,7 +100,7 @@ def simulate_with_errors(
         run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet)
         if interruptible and run.info["status"] == SolverStatus.INTERRUPTED.value:
             raise KeyboardInterrupt
-        return _beside(run, refinements, interruptible=interruptible)
+        return _with_refinements(run, refinements, interruptible=interruptible)
 
 
 def with_errors(result: Result, *, start: State | None = None, beside: bool = True) -> Result:
@@ -92,23 +112,25 @@ def with_errors(result: Result, *, start: State | None = None, beside: bool = Tr
         beside: the refinements run in a further process, else in this one.
     """
     if not result.completed:
-        return _told(result, ())
+        return _with_errors_of(result, ())
     if not beside:
         runs = ((r, run_once(scene, start=start)) for r, scene in plan(result.scene).items())
-        return _told(result, runs)
+        return _with_errors_of(result, runs)
     with RefinementRuns(result.scene, start) as refinements:
-        return _beside(result, refinements)
+        return _with_refinements(result, refinements)
 
 
-def _beside(result: Result, refinements: RefinementRuns, *, interruptible: bool = False) -> Result:
-    """Return a result with its errors; the run itself is kept without, if refinements have failed.
+def _with_refinements(
+    result: Result, refinements: RefinementRuns, *, interruptible: bool = False
+) -> Result:
+    """Return a result with its errors, or without any if refinements failed.
 
-    A warning says why, or the reason of the result where a disk is full.
+    A warning says why, or the result's reason where a disk is full.
     """
     try:
-        return _told(result, refinements.results() if result.completed else ())
+        return _with_errors_of(result, refinements.results() if result.completed else ())
     except DiskFullError as error:
-        without = _told(result, ())
+        without = _with_errors_of(result, ())
         reason = f"no errors of the quantities are known: {error}"
         return replace(without, info={**without.info, "reason": reason})
     except (RuntimeError, KeyboardInterrupt) as error:
@@ -116,11 +138,11 @@ def _beside(result: Result, refinements: RefinementRuns, *, interruptible: bool 
             raise
         why = "interrupted" if isinstance(error, KeyboardInterrupt) else str(error)
         warnings.warn(f"no errors of the quantities are known: {why}", stacklevel=3)
-        return _told(result, ())
+        return _with_errors_of(result, ())
 
 
-def _told(result: Result, refinements: Iterable[tuple[float, Result]]) -> Result:
-    """Return a result that tells its errors."""
+def _with_errors_of(result: Result, refinements: Iterable[tuple[float, Result]]) -> Result:
+    """Return a result with the errors of its quantities."""
     return replace(result, info={**result.info, **errors_of(result, refinements)})
 
 
@@ -131,163 +153,159 @@ def errors_of(
 ) -> Errors:
     """Return a summary's entries of errors.
 
-    Refinement runs that stopped before the run itself did are left out; without any nothing is
-    known.
+    Refinement runs that stopped before the run itself are left out; without any, no error is known.
 
     Args:
         result: of a run.
-        refinements: the same at other tolerances or steps, after their ratio to its own; the least
-            ratio, whose run is the nearest one, is first.
-        declared: quantities by name; those of the scene unless told.
+        refinements: ratio of tolerances or steps to the run's own, and the run; the least ratio,
+            whose run is the nearest one, is first.
+        declared: quantities by name; those of the scene if None.
     """
-    if declared is None:
-        declared = quantities_of(result.scene)
-    told = {name: one for name, one in declared.items() if one.quantity.kind.has_error}
-
-    def read(run: Result) -> dict[str, float]:
-        return numbers_of(run, told)
-
+    declared = quantities_of(result.scene) if declared is None else declared
+    declared = {name: q for name, q in declared.items() if q.quantity.kind.has_error}
     end = float(result.time[-1])
     complete = {r: up_to(run, end) for r, run in refinements if run.time[-1] >= end * (1.0 - 1e-9)}
     if not complete:
         return {"errors": {}, "horizon": None, "lyapunov_exponent": None}
-    diverged = divergence(result, complete)
-    horizon = end if diverged.growth.horizon is None else diverged.growth.horizon
+    diverging = divergence(result, complete)
+    horizon = end if diverging.growth.horizon is None else diverging.growth.horizon
     runs = {1.0: result, **complete}
-    by_end = {t: {r: read(up_to(run, t)) for r, run in runs.items()} for t in {end, horizon}}
-    parted = horizon < end
-    after = {r: read(window(run, horizon, end)) for r, run in runs.items()} if parted else {}
-    ways = (
-        (OF_READING, smoothed),
-        (OF_READING, overshot),
-        (1.0, turned),
-        (1.0, unbalanced),
-        (1.0, earlier),
-        (1.0, warmed_on),
-    )
-    reads = [(part, read(changed(result))) for part, changed in ways]
-    before = by_end[horizon]
-    swings = {name: one for name, one in told.items() if _swings(one.quantity)}
-    late = _late(runs, horizon, swings) if diverged.distances else []
+    whole = {r: numbers_of(run, declared) for r, run in runs.items()}
+    until_horizon, beyond_horizon = whole, {}
+    if horizon < end:
+        until_horizon = {r: numbers_of(up_to(run, horizon), declared) for r, run in runs.items()}
+        later = {r: window(run, horizon, end) for r, run in runs.items()}
+        beyond_horizon = {r: numbers_of(run, declared) for r, run in later.items()}
+    rereadings = [(weight, numbers_of(read(result), declared)) for weight, read in READINGS]
+    oscillating = {name: q for name, q in declared.items() if _oscillates(q.quantity)}
+    late = _late_values(runs, horizon, oscillating) if diverging.distances else []
+    sizes, arm = _largest_values(whole[1.0], declared), mechanism_of(result.scene).size
     errors: dict[str, Error] = {}
-    sizes = _sizes(by_end[end][1.0], told)
-    arm = mechanism_of(result.scene).size
-    for name, value in by_end[end][1.0].items():
-        left_open = max(part * abs(value - changed[name]) for part, changed in reads)
-        quantity = told[name].quantity
-        least = _least(
-            quantity, [found[name] for found in by_end[end].values() if name in found], sizes, arm
+    for name, value in whole[1.0].items():
+        quantity = declared[name].quantity
+        of_all_runs = [values[name] for values in whole.values() if name in values]
+        least = _least_error(quantity, of_all_runs, sizes, arm)
+        reading = max(weight * abs(value - values[name]) for weight, values in rereadings)
+        reading += quantity.of_laws(result.scene, declared[name].at, value)
+        begin = [until_horizon, *late] if name in oscillating else [until_horizon]
+        error = _error(
+            name, quantity.extreme, whole, begin, beyond_horizon, least + reading, diverging
         )
-        left_open += quantity.of_laws(result.scene, told[name].at, value)
-        told_values = by_end[end], [before, *late] if name in swings else [before], after
-        error = _error(name, quantity.extreme, *told_values, least + left_open, diverged)
         if value >= 0.0 and not quantity.signed:
             error["low"] = max(error["low"], 0.0)
-            known = error["error"] <= max(value, OF_FLOOR * least)
-            error["determined"] &= known or quantity.kind.may_vanish
+            is_known = error["error"] <= max(value, OF_FLOOR * least)
+            error["determined"] &= is_known or quantity.kind.may_vanish
         if quantity.kind is SHARE:
             error["high"] = min(error["high"], 1.0)
         errors[name] = error
     for name, error in errors.items():
-        above = errors.get(told[name].quantity.at_most)
-        if above is not None:
-            value = by_end[end][1.0][name]
-            error["high"] = max(min(error["high"], above["high"]), value)
+        upper = errors.get(declared[name].quantity.at_most)
+        if upper is not None:
+            value = whole[1.0][name]
+            error["high"] = max(min(error["high"], upper["high"]), value)
             error["error"] = max(error["high"] - value, value - error["low"])
     return {
         "errors": errors,
-        "horizon": diverged.growth.horizon,
-        "lyapunov_exponent": diverged.growth.rate,
+        "horizon": diverging.growth.horizon,
+        "lyapunov_exponent": diverging.growth.rate,
     }
 
 
 def _error(
     name: str,
     extreme: Extreme,
-    now: Numbers,
-    before: Sequence[Numbers],
-    after: Numbers,
+    whole: Numbers,
+    until_horizon: Sequence[Numbers],
+    beyond_horizon: Numbers,
     least: float,
-    diverged: Divergence,
+    diverging: Divergence,
 ) -> Error:
     """Return the error of a quantity.
 
-    Until the horizon an extreme is known, however large the refinements' ones are then; beyond it
-    anything is possible that scatters as they do.
+    Until the horizon an extreme is known, however large the refinements' ones are later; beyond it
+    any value is possible that scatters as theirs do.
 
     Args:
         name: of the quantity.
-        extreme: of what it is an extreme.
-        now: of the whole motion.
-        before: of the motion until the horizon, where there is one, and until instants before it,
-            of which the largest error counts.
-        after: of the motion from then on.
+        extreme: which one it is.
+        whole: values over the whole motion.
+        until_horizon: values until the horizon, and until instants before it; the largest error
+            counts.
+        beyond_horizon: values from the horizon on, if there is one.
         least: least error.
-        diverged: how the run has parted from its refinements.
+        diverging: divergence of the run from its refinements.
     """
-    values = {ratio: found[name] for ratio, found in now.items() if name in found}
+    values = {ratio: numbers[name] for ratio, numbers in whole.items() if name in numbers}
     if len(values) < 2:
-        return scattered([values[1.0], 0.0])
-    begun, *earlier = [{r: found[r].get(name, np.nan) for r in values} for found in before]
-    later = {r: found.get(name, np.nan) for r, found in after.items() if r in values}
-    swung = [list(found.values()) for found in earlier]
-    known = converging(list(begun.values()), list(values), least, diverged.nearest, swung)
-    shares = [diverged.distances.get(r, 1.0) for r in values if r != 1.0]
-    if later and _is_of_both(extreme, values, begun, later):
-        beyond = scattered(list(later.values()), least, shares)
-        return of_both(values[1.0], known, beyond, extreme)
-    if all(abs(begun[r] - value) <= SAME * abs(value) for r, value in values.items()):
-        return known
-    return scattered(list(values.values()), least, shares)
+        return prediction_interval([values[1.0], 0.0])
+    first, *instants = [
+        {r: numbers[r].get(name, np.nan) for r in values} for numbers in until_horizon
+    ]
+    second = {r: n.get(name, np.nan) for r, n in beyond_horizon.items() if r in values}
+    convergent = convergent_error(
+        list(first.values()),
+        list(values),
+        least,
+        diverging.nearest,
+        [list(numbers.values()) for numbers in instants],
+    )
+    distances = [diverging.distances.get(r, 1.0) for r in values if r != 1.0]
+    if second and _is_extreme_over_parts(extreme, values, first, second):
+        interval = prediction_interval(list(second.values()), least, distances)
+        return extreme_over_parts(values[1.0], convergent, interval, extreme)
+    if all(abs(first[r] - value) <= SAME * abs(value) for r, value in values.items()):
+        return convergent
+    return prediction_interval(list(values.values()), least, distances)
 
 
-def _swings(quantity: Quantity) -> bool:
-    """Return whether a quantity is a sum so far that goes up and down."""
+def _oscillates(quantity: Quantity) -> bool:
+    """Return whether a quantity is a running sum that rises and falls."""
     return quantity.cumulative and quantity.signed
 
 
-def _late(
-    runs: Mapping[float, Result], horizon: float, swings: Mapping[str, QuantityAt]
+def _late_values(
+    runs: Mapping[float, Result], horizon: float, declared: Mapping[str, QuantityAt]
 ) -> list[Numbers]:
-    """Return quantities at instants late in what they are read from, before the horizon (s)."""
+    """Return quantities at INSTANTS late in the settled part, before the horizon (s)."""
     parts = {ratio: settled_part(run) for ratio, run in runs.items()}
     begin, end = parts[1.0].time[0], min(parts[1.0].time[-1], horizon)
-    if end <= begin or min(len(part.time) for part in parts.values()) < 4:
+    if end <= begin or min(len(run.time) for run in parts.values()) < 4:
         return []
     instants = np.linspace(begin + LATE * (end - begin), end, INSTANTS, endpoint=False)
     return [
-        {ratio: numbers_of(at_instant(part, instant), swings) for ratio, part in parts.items()}
+        {ratio: numbers_of(at_instant(run, instant), declared) for ratio, run in parts.items()}
         for instant in instants
     ]
 
 
-def _is_of_both(
+def _is_extreme_over_parts(
     extreme: Extreme,
     values: Mapping[float, float],
-    begun: Mapping[float, float],
-    later: Mapping[float, float],
+    first: Mapping[float, float],
+    second: Mapping[float, float],
 ) -> bool:
     """Return whether a quantity is the extreme of its values in two parts of every run."""
-    found: Callable[[float, float], float] = max if extreme is Extreme.LARGEST else min
+    extreme_of: Callable[[float, float], float] = max if extreme is Extreme.LARGEST else min
     return extreme is not Extreme.NONE and all(
-        abs(found(begun[r], later[r]) - value) <= SAME * abs(value) for r, value in values.items()
+        abs(extreme_of(first[r], second[r]) - value) <= SAME * abs(value)
+        for r, value in values.items()
     )
 
 
-def _sizes(
-    values: Mapping[str, float], told: Mapping[str, QuantityAt]
+def _largest_values(
+    values: Mapping[str, float], declared: Mapping[str, QuantityAt]
 ) -> dict[tuple[str, Extreme], float]:
-    """Return the largest value of each unit and extreme in a run; what cancels is left out."""
-    found: dict[tuple[str, Extreme], float] = {}
+    """Return the largest value of each unit and extreme in a run, but for sums that cancel."""
+    sizes: dict[tuple[str, Extreme], float] = {}
     for name, value in values.items():
-        quantity = told[name].quantity
+        quantity = declared[name].quantity
         if quantity.kind is not RESULTANT:
-            which = quantity.unit, quantity.extreme
-            found[which] = max(found.get(which, 0.0), abs(value))
-    return found
+            key = quantity.unit, quantity.extreme
+            sizes[key] = max(sizes.get(key, 0.0), abs(value))
+    return sizes
 
 
-def _least(
+def _least_error(
     quantity: Quantity,
     values: Sequence[float],
     sizes: Mapping[tuple[str, Extreme], float],

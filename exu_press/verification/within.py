@@ -1,4 +1,4 @@
-"""The tolerance that delivers figures within a wanted error, and no finer."""
+"""The loosest tolerance at which quantities are within a required error."""
 
 import math
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from exu_press.scene import Scene
 from exu_press.verification.distribution import Distribution, distributions
 from exu_press.verification.run import simulate_with_errors
 
-__all__ = ["Delivered", "deliver", "headline"]
+__all__ = ["AchievedAccuracy", "find_tolerance", "headline"]
 
 LOOSEST = 2e-2
 FINEST = 1e-6
@@ -19,64 +19,66 @@ FINEST = 1e-6
 ROUNDS = 6
 
 ENOUGH = 0.3
-"""Part of the allowed error: a tolerance that uses this much of it is not made looser."""
+"""Part of the required error from which on a tolerance is not made looser."""
 
 COARSE = 3.0
-"""A tolerance is not looked for more closely than by this factor."""
+"""Factor to which the tolerance is determined."""
 
-AT_MOST = 30.0
-"""By so much a tolerance is made finer at a time: how errors grow at first tells little of how they
-do later on, and a finer run takes longer."""
+LARGEST_FACTOR = 30.0
+"""Largest factor by which a tolerance is made finer at a time: early growth of errors says little
+of the later one, and a finer run takes longer."""
 
 AIM = 0.8
-"""Part of the allowed error that is aimed at."""
+"""Part of the required error that a next tolerance aims at."""
 
 
 @dataclass(frozen=True)
-class Delivered:
-    """The outcome.
+class AchievedAccuracy:
+    """A run at the loosest tolerance with the required accuracy, or at the finest.
 
     Attributes:
-        result: the run at the tolerance that was found, with its errors.
-        tolerance: of that run.
-        missed: figures that no tolerance determines within what was asked for, with what is
-            determined instead; None where that is nothing either.
+        result: of the run, with its errors.
+        tolerance: of the run.
+        unmet: quantities that no tolerance determines within the required error, with their
+            distribution over revolutions; None where there is none.
     """
 
     result: Result
     tolerance: float
-    missed: dict[str, Distribution | None]
+    unmet: dict[str, Distribution | None]
 
 
 def headline(result: Result, name: str | None = None) -> list[str]:
-    """Return the names of the quantities that are asked for.
+    """Return the name of one quantity, or those of the headline quantities that are not zero.
 
     Args:
-        result: whose quantities.
-        name: of one quantity; None: those that everybody looks at first.
+        result: of a run.
+        name: of one quantity, or None.
 
     Raises:
         InputError: there is no such quantity.
     """
     if name is not None:
         return [quantity_of(result.scene, name).name]
-    asked = {n: one for n, one in quantities_of(result.scene).items() if one.quantity.headline}
-    return [key for key, value in numbers_of(result, asked).items() if value]
+    headline_quantities = {
+        n: placed for n, placed in quantities_of(result.scene).items() if placed.quantity.headline
+    }
+    return [key for key, value in numbers_of(result, headline_quantities).items() if value]
 
 
-def deliver(
-    scene: Scene, within: float, name: str | None = None, *, quiet: bool = True
-) -> Delivered:
-    """Find the tolerance that delivers figures within an error, and no finer.
+def find_tolerance(
+    scene: Scene, required: float, name: str | None = None, *, quiet: bool = True
+) -> AchievedAccuracy:
+    """Find the loosest tolerance at which quantities are within a required error.
 
     Args:
-        scene: its own tolerance is where the search begins.
-        within: the error over the figure.
-        name: of a figure, dotted; None: the headline ones.
+        scene: its tolerance begins the search.
+        required: error over value.
+        name: of a quantity, dotted; None: the headline ones.
         quiet: False shows the progress.
 
     Raises:
-        InputError: the scene has fixed steps, or no such figure.
+        InputError: the scene has fixed steps, or no such quantity.
     """
     solver = scene.solver
     assert solver is not None
@@ -85,50 +87,50 @@ def deliver(
     if name is not None:
         quantity_of(scene, name)  # refused before anything is run
     tolerance, best = solver.tolerance, None
-    fails = math.inf
+    failing = math.inf
     for _ in range(ROUNDS):
         result = simulate_with_errors(scene.replace({"solver.tolerance": tolerance}), quiet=quiet)
         names = headline(result, name)
         if not result.completed:
-            return Delivered(result, tolerance, dict.fromkeys(names))
-        off = {key: _error(result, key) / within for key in names}
-        need = max(off.values())
-        if need <= 1.0:
-            best = Delivered(result, tolerance, {})
-            wanted = tolerance * min(AIM / max(need, 1e-3), 20.0)
-            if need >= ENOUGH or fails <= COARSE * tolerance:
+            return AchievedAccuracy(result, tolerance, dict.fromkeys(names))
+        error_ratios = {key: _error(result, key) / required for key in names}
+        largest_ratio = max(error_ratios.values())
+        if largest_ratio <= 1.0:
+            best = AchievedAccuracy(result, tolerance, {})
+            next_tolerance = tolerance * min(AIM / max(largest_ratio, 1e-3), 20.0)
+            if largest_ratio >= ENOUGH or failing <= COARSE * tolerance:
                 return best
-            if wanted >= fails:
-                wanted = math.sqrt(fails * tolerance)
+            if next_tolerance >= failing:
+                next_tolerance = math.sqrt(failing * tolerance)
         else:
-            fails = min(fails, tolerance)
+            failing = min(failing, tolerance)
             if best is not None:
-                if fails <= COARSE * best.tolerance:
+                if failing <= COARSE * best.tolerance:
                     return best
-                tolerance = math.sqrt(fails * best.tolerance)
+                tolerance = math.sqrt(failing * best.tolerance)
                 continue
             if tolerance <= FINEST:
                 break
-            wanted = tolerance * min(AIM / need, _for_horizon(result))
-            wanted = max(wanted, tolerance / AT_MOST, FINEST)
-        if min(wanted, LOOSEST) == tolerance:
+            next_tolerance = tolerance * min(AIM / largest_ratio, _for_horizon(result))
+            next_tolerance = max(next_tolerance, tolerance / LARGEST_FACTOR, FINEST)
+        if min(next_tolerance, LOOSEST) == tolerance:
             break
-        tolerance = min(wanted, LOOSEST)
+        tolerance = min(next_tolerance, LOOSEST)
     if best is not None:
         return best
-    missed = [key for key, error in off.items() if error > 1.0]
-    found = distributions(scene, missed, within, quiet=quiet)
-    return Delivered(result, tolerance, {key: found.get(key) for key in missed})
+    unmet = [key for key, error in error_ratios.items() if error > 1.0]
+    alternatives = distributions(scene, unmet, required, quiet=quiet)
+    return AchievedAccuracy(result, tolerance, {key: alternatives.get(key) for key in unmet})
 
 
 def _error(result: Result, name: str) -> float:
-    """Return an error over the value; values that are not determined count by their bounds."""
-    told, value = result.info["errors"].get(name), value_of(result, name).value
-    return math.inf if told is None else float(told["error"] / abs(value)) if value else 0.0
+    """Return a quantity's error over its value; infinity where it has none."""
+    stated, value = result.info["errors"].get(name), value_of(result, name).value
+    return math.inf if stated is None else float(stated["error"] / abs(value)) if value else 0.0
 
 
 def _for_horizon(result: Result) -> float:
-    """Return by how much the tolerance would have to fall for the horizon to reach the end."""
+    """Return the factor on the tolerance with which the horizon would reach the end."""
     horizon, rate = result.info["horizon"], result.info["lyapunov_exponent"]
     if horizon is None or rate is None:
         return 1.0

@@ -134,7 +134,7 @@ def motion():
             **exponent, "per_second": -4.0, "low_per_second": None, "high_per_second": -2.0,
         },
         "figures": figures, "units": {"stroke": "m", "peak_velocity": "m/s"},
-        "distributions": {n: Distribution.of(each).to_dict() for n, each in known.items()},
+        "distributions": {n: Distribution.from_values(each).to_dict() for n, each in known.items()},
         "points": [[0.1 * k, -0.1 * k] for k in range(4)],
     }  # fmt: skip
 

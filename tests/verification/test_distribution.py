@@ -7,8 +7,8 @@ from exu_press import InputError, Scene
 from exu_press.verification.distribution import (
     LEAST_REVOLUTIONS,
     Distribution,
+    discretization_error,
     distributions,
-    of_steps,
     percentiles,
 )
 
@@ -21,7 +21,7 @@ def test_distribution_of_revolutions(monkeypatch):
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, solver={"tolerance": 2e-2})
     names = [NAME, "peak_velocity", "energy.dissipated", "strokes.range"]
     monkeypatch.setattr("exu_press.verification.distribution.AT_A_TIME", 3)
-    found = distributions(scene, names, within=1e-9, least=2, most=4)
+    found = distributions(scene, names, tolerance=1e-9, minimum=2, maximum=4)
     assert found.keys() == {NAME, "peak_velocity"}
     assert found[NAME].revolutions == 4
     (low, *_), (median, *bounds), (high, *_) = found[NAME].percentiles.values()
@@ -50,7 +50,7 @@ def test_of_fewer_samples_the_largest_may_be_below_the_percentile():
 def test_a_run_that_stops_early_leaves_none():
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, solver={"max_steps": 20})
     with pytest.raises(InputError, match=r"no distribution, as a run .*20 steps"):
-        distributions(scene, [NAME], within=0.01)
+        distributions(scene, [NAME], tolerance=0.01)
 
 
 def test_percentiles_of_thousands_of_revolutions():
@@ -63,18 +63,20 @@ def test_percentiles_of_thousands_of_revolutions():
 def test_errors_of_mean_and_scatter_are_those_of_many_samples():
     """They are within it in nineteen of twenty; also of values that come in runs of ten."""
     random = np.random.default_rng(3)
-    found = [Distribution.of(random.normal(5.0, 2.0, 200).tolist()) for _ in range(200)]
+    found = [Distribution.from_values(random.normal(5.0, 2.0, 200).tolist()) for _ in range(200)]
     for name, expected in (("mean", 2.0 / 200**0.5), ("scatter", 2.0 / 398**0.5)):
         told = np.array([getattr(one, name) for one in found])
         true = 5.0 if name == "mean" else 2.0
         assert told[:, 0].std() == pytest.approx(expected, rel=0.15)
         assert 0.91 < np.mean(np.abs(told[:, 0] - true) <= told[:, 1]) < 0.98
-    runs = [Distribution.of(np.repeat(random.normal(size=20), 10).tolist()) for _ in range(200)]
+    runs = [
+        Distribution.from_values(np.repeat(random.normal(size=20), 10).tolist()) for _ in range(200)
+    ]
     assert 0.91 < np.mean([abs(one.mean[0]) <= one.mean[1] for one in runs]) < 0.98
 
 
 def test_what_does_not_scatter_has_no_error():
-    told = Distribution.of([2.0] * 30).to_dict()
+    told = Distribution.from_values([2.0] * 30).to_dict()
     assert told["mean"] == {"value": 2.0, "error": 0.0}
     assert told["scatter"] == {"value": 0.0, "error": 0.0}
     assert told["percentiles"]["95"] == {"value": 2.0, "low": 2.0, "high": 2.0}
@@ -82,7 +84,7 @@ def test_what_does_not_scatter_has_no_error():
 
 def test_what_steps_miss_is_in_all_of_it():
     values = np.random.default_rng(3).normal(5.0, 2.0, 100)
-    exact, told = (Distribution.of(values, missed) for missed in (0.0, 0.3))
+    exact, told = (Distribution.from_values(values, missed) for missed in (0.0, 0.3))
     assert told.mean == pytest.approx((exact.mean[0], exact.mean[1] + 0.3))
     assert told.scatter == pytest.approx((exact.scatter[0], exact.scatter[1] + 0.3))
     for percent, (value, low, high) in exact.percentiles.items():
@@ -91,8 +93,8 @@ def test_what_steps_miss_is_in_all_of_it():
 
 def test_differences_of_pairs_that_scatter_are_known_the_worse():
     random = np.random.default_rng(3)
-    assert of_steps([0.2] * 5) == pytest.approx(0.2 / (1.0 - 0.1**0.5))
-    inside = [of_steps(random.normal(0.2, 1.0, 5)) > 0.2 for _ in range(200)]
+    assert discretization_error([0.2] * 5) == pytest.approx(0.2 / (1.0 - 0.1**0.5))
+    inside = [discretization_error(random.normal(0.2, 1.0, 5)) > 0.2 for _ in range(200)]
     assert np.mean(inside) > 0.95
 
 
@@ -101,9 +103,9 @@ def test_means_over_revolutions_are_those_of_a_finer_tolerance():
     """The statistics alone said +- 0.0013 m/s^2, for 0.18 from runs at a hundredth of it."""
     scene = Scene(mechanism="slider_crank")
     names = [NAME, "joints.wrist_pin.peak_force", "peak_acceleration.mean_1ms", "peak_velocity"]
-    rough = distributions(scene, names, within=1.0, least=10, most=10)
+    rough = distributions(scene, names, tolerance=1.0, minimum=10, maximum=10)
     fine = distributions(
-        scene.replace({"solver.tolerance": 1e-5}), names, within=1.0, least=10, most=10
+        scene.replace({"solver.tolerance": 1e-5}), names, tolerance=1.0, minimum=10, maximum=10
     )
     for name in names:
         (value, error), (true, _) = rough[name].mean, fine[name].mean

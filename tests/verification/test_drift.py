@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.verification.drift import earlier, warmed_on
+from exu_press.verification.drift import read_a_revolution_earlier, with_next_temperatures
 
 OIL = {"viscosity_cst": (68.0, 8.7), "density": 870.0, "supply_celsius": 40.0, "conductance": 5.0}
 FILM = {"oil": OIL, "at_contact": "mixed", "roughness": 4e-7}
@@ -40,7 +40,7 @@ def test_a_pin_that_sinks_for_nine_revolutions_is_read_when_it_has_settled(warm)
 
 
 def test_the_drift_of_the_last_revolution_is_part_of_every_error(warm):
-    before = earlier(warm)
+    before = read_a_revolution_earlier(warm)
     assert before.scene.settled == warm.scene.settled - 1.0
     for name in ("film.viscosity", "mean_power", "film.side_flow"):
         full = f"joints.wrist_pin.{name}"
@@ -53,7 +53,7 @@ def test_what_heat_asks_for_is_part_of_the_temperatures_error(warm):
     state = warm.info["state"]
     films = {"wrist_pin": (warm["wrist_pin_temperature"][-1] + 3.0, 1e6)}
     asked = ending_with(warm, {**state, "films": films})
-    found = warmed_on(asked)
+    found = with_next_temperatures(asked)
     changed = found["wrist_pin_temperature"] - warm["wrist_pin_temperature"]
     assert changed == pytest.approx(3.0)
     oil = warm.scene.joints["wrist_pin"].film.oil
@@ -69,5 +69,5 @@ def ending_with(run, state):
 
 def test_runs_without_warm_oil_have_no_such_part():
     run = simulate(Scene(mechanism="slider_crank", revolutions=0.1))
-    assert earlier(run) is run
-    assert warmed_on(run) is run
+    assert read_a_revolution_earlier(run) is run
+    assert with_next_temperatures(run) is run

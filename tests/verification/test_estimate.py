@@ -3,7 +3,12 @@
 import numpy as np
 import pytest
 
-from exu_press.verification.estimate import ORDER, converging, of_one, scattered
+from exu_press.verification.estimate import (
+    ORDER,
+    convergent_error,
+    prediction_interval,
+    single_difference_factor,
+)
 
 
 @pytest.mark.parametrize(("order", "least", "most"), [(ORDER, 1.0, 1.0), (1.0, 2.5, 5.0)])
@@ -11,21 +16,21 @@ def test_errors_that_fall_with_the_tolerance_are_found(order, least, most):
     """They are stated three to five times too large where they go with it itself."""
     true, slope = 5.0, 0.01
     for ratios in ([1.0, 0.5, 4.0], [1.0, 2.0, 3.0, 4.0], [1.0, 4.0, 8.0]):
-        found = converging([true + slope * ratio**order for ratio in ratios], ratios)
+        found = convergent_error([true + slope * ratio**order for ratio in ratios], ratios)
         assert (1.0 - 1e-9) * least <= found["error"] / slope <= (1.0 + 1e-9) * most
         assert found["determined"]
         assert found["low"] <= true + 1e-12 and true < found["high"]
 
 
 def test_two_values_that_agree_by_chance_do_not_hide_the_error():
-    assert converging([5.0, 5.0, 5.04], [1.0, 4.0, 8.0])["error"] >= 0.02
+    assert convergent_error([5.0, 5.0, 5.04], [1.0, 4.0, 8.0])["error"] >= 0.02
 
 
 def test_levels_of_a_slow_cut():
     """The peak of a dry pin behind a slow cut (168 kN) is 212, -1077, 61, 247, 240, 179 and 96 N
     off at 8, 4, 2, 1, 0.5, 0.25 and 0.1 thousandths: runs at 8, 1 and 0.5 agree by chance."""
     off = {4.0: -1077.0, 1.0: 247.0, 0.5: 240.0}
-    assert converging([off[r] for r in (1.0, 0.5, 4.0)], [1.0, 0.5, 4.0])["error"] > 247.0
+    assert convergent_error([off[r] for r in (1.0, 0.5, 4.0)], [1.0, 0.5, 4.0])["error"] > 247.0
 
 
 @pytest.mark.parametrize("refinements", [1, 2, 3])
@@ -34,7 +39,7 @@ def test_nineteen_in_twenty_further_runs_lie_within_the_bounds(refinements):
     inside = 0
     for _ in range(2000):
         *runs, further = random.normal(1000.0, 50.0, refinements + 2)
-        found = scattered(runs)
+        found = prediction_interval(runs)
         assert not found["determined"] or found["error"] <= 0.05 * runs[0]
         inside += found["low"] <= further <= found["high"]
     assert 0.935 < inside / 2000 < 0.965
@@ -44,19 +49,19 @@ def test_nineteen_in_twenty_further_runs_lie_within_the_bounds(refinements):
 def test_one_difference_covers_nineteen_errors_in_twenty(ratio):
     """Errors of both are normal, of either sign."""
     mine, other = np.random.default_rng(1).normal(size=(2, 200_000))
-    inside = np.abs(mine) <= of_one(ratio) * np.abs(mine - ratio * other)
+    inside = np.abs(mine) <= single_difference_factor(ratio) * np.abs(mine - ratio * other)
     assert 0.94 < inside.mean() < 0.96
 
 
 def test_a_run_that_has_no_motion_in_common_any_more_does_not_hide_the_error():
     values, ratios = [5.0, 5.01, 5.011], [1.0, 0.5, 4.0]
-    error = converging(values, ratios)["error"]
-    assert converging(values, ratios, nearest=5.2)["error"] == pytest.approx(5.2 * 0.01)
+    error = convergent_error(values, ratios)["error"]
+    assert convergent_error(values, ratios, nearest=5.2)["error"] == pytest.approx(5.2 * 0.01)
     assert error < 5.2 * 0.01
 
 
 def test_motions_that_have_half_parted_show_half_of_the_scatter():
     values = [5.0, 5.1, 4.8]
-    parted = scattered(values)["error"]
-    assert scattered(values, shares=[0.5, 0.5])["error"] == pytest.approx(2.0 * parted)
-    assert scattered(values, shares=[1.5, 2.0])["error"] == parted
+    parted = prediction_interval(values)["error"]
+    assert prediction_interval(values, shares=[0.5, 0.5])["error"] == pytest.approx(2.0 * parted)
+    assert prediction_interval(values, shares=[1.5, 2.0])["error"] == parted

@@ -27,7 +27,7 @@ def test_lorenz_system():
     run = solve_ivp(lorenz, (0.0, 20.0), both.ravel(), t_eval=time, rtol=1e-12, atol=1e-12)
     states = run.y.reshape(3, pairs, 2, -1)
     distance = np.linalg.norm(states[:, :, 0] - states[:, :, 1], axis=0)
-    found = growth(time, distance, apart=1.0)
+    found = growth(time, distance, diverged_distance=1.0)
     assert found.rate == pytest.approx(LORENZ_EXPONENT, rel=0.05)
     assert found.horizon == pytest.approx(np.log(1.0 / 2e-9) / LORENZ_EXPONENT, rel=0.1) or (
         found.horizon is None
@@ -36,18 +36,18 @@ def test_lorenz_system():
 
 def test_motions_that_stay_together_have_no_horizon():
     time = np.linspace(0.0, 1.0, 100)
-    found = growth(time, np.full(100, 1e-6), apart=0.3)
+    found = growth(time, np.full(100, 1e-6), diverged_distance=0.3)
     assert found.rate is None
     assert found.horizon is None
 
 
 def test_motions_that_are_apart_at_once():
     time = np.linspace(0.0, 1.0, 100)
-    assert growth(time, np.ones(100), apart=0.3).horizon == 0.0
+    assert growth(time, np.ones(100), diverged_distance=0.3).horizon == 0.0
 
 
 def test_motions_that_stay_together_say_nothing():
     """Two runs never more than 1e-9 m apart, in a clearance of 1e-4 m, gave 3.9 1/s."""
     time = np.linspace(0.0, 1.0, 1001)
-    found = growth(time, 1e-9 / 1e-4 * np.exp(3.9 * (time - 1.0)) * 1.0, apart=0.3)
+    found = growth(time, 1e-9 / 1e-4 * np.exp(3.9 * (time - 1.0)) * 1.0, diverged_distance=0.3)
     assert found.rate is None and found.horizon is None

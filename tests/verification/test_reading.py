@@ -5,12 +5,12 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.verification.reading import (
-    BESIDE,
     OF_FIRST_STEP,
-    overshot,
-    smoothed,
-    turned,
-    unbalanced,
+    TRANSVERSE,
+    add_energy_residual,
+    add_start_overshoot,
+    average_neighbours,
+    enlarge_reversing_forces,
 )
 from exu_press.verification.run import errors_of
 
@@ -29,7 +29,7 @@ def with_force(result, values):
 def test_what_alternates_is_taken_away(run):
     signs = np.where(np.arange(len(run.time)) % 2, 1.0, -1.0)[:, None]
     alternating = with_force(run, np.full((len(run.time), 2), 500.0) + 40.0 * signs)
-    found = smoothed(alternating)["shaft_force"]
+    found = average_neighbours(alternating)["shaft_force"]
     assert found[1:] == pytest.approx(500.0)
 
 
@@ -37,8 +37,8 @@ def test_a_force_that_turns_round_within_a_step_may_act_across_it(run):
     """A film behind a load that goes away: 7 kN to one side, 5 kN to the other one step later."""
     force = np.tile([200.0, 7000.0], (len(run.time), 1))
     force[50:] = [-90.0, -5000.0]
-    found = turned(with_force(run, force))["shaft_force"]
-    beside = BESIDE * np.hypot(290.0, 12000.0)
+    found = enlarge_reversing_forces(with_force(run, force))["shaft_force"]
+    beside = TRANSVERSE * np.hypot(290.0, 12000.0)
     assert found[49:51, 0] == pytest.approx([200.0 + beside, -90.0 - beside])
     assert np.array_equal(found[:49], force[:49]) and np.array_equal(found[51:], force[51:])
 
@@ -47,14 +47,14 @@ def test_of_a_smooth_peak_twice_what_lies_between_steps_is_taken(run):
     """A parabola is higher between two steps than at them by an eighth of its second difference."""
     curve = np.stack([1000.0 - 1e8 * (run.time - run.time[100]) ** 2] * 2, axis=1)
     before, after = np.diff(run.time)[99:101]
-    taken = curve[100] - smoothed(with_force(run, curve))["shaft_force"][100]
+    taken = curve[100] - average_neighbours(with_force(run, curve))["shaft_force"][100]
     assert taken == pytest.approx(0.5 * 1e8 * before * after)
 
 
 def test_what_a_film_may_do_within_the_first_step_is_open(run):
     rising = np.full((len(run.time), 2), 500.0)
     rising[0] = 100.0
-    found = overshot(with_force(run, rising))["shaft_force"]
+    found = add_start_overshoot(with_force(run, rising))["shaft_force"]
     assert np.abs(found).max() == pytest.approx(500.0 + OF_FIRST_STEP * 400.0)
 
 
@@ -62,7 +62,7 @@ def test_a_film_may_take_up_its_load_at_once(run):
     """Then the first step's area below the load is the second value's, not that of a triangle."""
     falling = np.zeros((len(run.time), 2))
     falling[0] = 100.0
-    found = overshot(with_force(run, falling))
+    found = add_start_overshoot(with_force(run, falling))
     area = np.trapezoid(found["shaft_force"][:, 0], found.time)
     assert abs(area) < OF_FIRST_STEP * np.trapezoid(falling[:, 0], run.time) * 1.001
     assert found["slider_position"][1] == run["slider_position"][0]
@@ -71,13 +71,13 @@ def test_a_film_may_take_up_its_load_at_once(run):
 
 def test_energy_is_as_unsure_as_its_balance(run):
     missed = run["energy_input"] - run["energy_stored"] - run["energy_dissipated"]
-    more = unbalanced(run)["energy_input"] - run["energy_input"]
+    more = add_energy_residual(run)["energy_input"] - run["energy_input"]
     assert more[1:] == pytest.approx(np.abs(missed).max())
 
 
 def test_the_mean_power_is_as_unsure_as_the_energy_put_in(run):
     missed = run["energy_input"] - run["energy_stored"] - run["energy_dissipated"]
-    more = unbalanced(run)["drive_power"] - run["drive_power"]
+    more = add_energy_residual(run)["drive_power"] - run["drive_power"]
     assert np.trapezoid(more, run.time) == pytest.approx(np.abs(missed).max())
 
 
@@ -102,7 +102,7 @@ def test_what_the_balance_misses_is_stated():
 
 def test_positions_are_left_alone(run):
     """They are read as cubics between steps."""
-    found = smoothed(run)
+    found = average_neighbours(run)
     for name in ("slider_position", "crank_pin_eccentricity", "energy_input"):
         assert found[name] is run[name]
 

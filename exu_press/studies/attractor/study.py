@@ -22,7 +22,7 @@ from exu_press.studies.attractor.orbit import NoMotion, Orbit
 from exu_press.studies.attractor.period import MOST, Period, period_of
 from exu_press.studies.spectrum import column_of
 from exu_press.terminal.progress import Progress
-from exu_press.verification.distribution import Distribution, finer, of_steps
+from exu_press.verification.distribution import Distribution, discretization_error, finer
 
 __all__ = ["DISTANCES", "Attractor", "attractor"]
 
@@ -94,7 +94,7 @@ class Attractor:
         """Mean, scatter and percentiles of the figures that three revolutions at least have."""
         known = {name: each[np.isfinite(each)] for name, each in self.figures.items()}
         return {
-            name: Distribution.of(each, self.missed[name])
+            name: Distribution.from_values(each, self.missed[name])
             for name, each in known.items()
             if len(each) > 2
         }
@@ -274,7 +274,7 @@ def _missed(apart: Sequence[float], values: Array, exponent: Exponent) -> float:
     Errors of the state are those of all revolutions before. Where neighbours part, the scatter of
     the figure has them; where they may, they do not move it by more than it scatters.
     """
-    missed = of_steps(apart)
+    missed = discretization_error(apart)
     before = _amplified(exponent) * missed
     if exponent.high >= 0.0:
         before = min(before, max(float(np.ptp(values)), missed))

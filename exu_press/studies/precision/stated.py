@@ -6,8 +6,8 @@ from statistics import median
 
 from exu_press.quantities.catalogue import PEAK_ACCELERATION
 from exu_press.scene import Scene
-from exu_press.verification.compared import compared
 from exu_press.verification.simulate import simulate
+from exu_press.verification.stated_errors import compare_errors
 
 __all__ = ["Stated", "stated_errors"]
 
@@ -47,9 +47,9 @@ def stated_errors(
         run = simulate(scene.replace({"solver.tolerance": tolerance}), errors=True, beside=False)
         if not run.completed:
             continue
-        every = list(compared(run, true))
+        every = list(compare_errors(run, true))
         shares = {
-            one.name: (one.told["error"] / abs(one.value), one.off / abs(one.value))
+            one.name: (one.stated["error"] / abs(one.value), one.true_error / abs(one.value))
             for one in every
             if one.value and one.ratio is not None
         }
@@ -59,7 +59,7 @@ def stated_errors(
                 case=case,
                 tolerance=tolerance,
                 figures=len(every),
-                covered=sum(one.covered for one in every),
+                covered=sum(one.is_covered for one in every),
                 ratio=median(ratios) if ratios else None,
                 errors=tuple(shares.values()),
                 peak=shares.get(PEAK_ACCELERATION.name),

@@ -15,7 +15,7 @@ from exu_press.quantities.energy import energy_residual, energy_scale, kinetic_e
 from exu_press.result import Result
 from exu_press.scene import LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.laws import contact_law, film_scale_of
-from exu_press.verification.compared import compared
+from exu_press.verification.stated_errors import compare_errors
 
 __all__ = ["RESIDUAL_LIMIT", "Check", "agreement", "checks_of"]
 
@@ -110,19 +110,19 @@ def agreement(result: Result, finer: Result) -> Check:
     """
     worst, which = 0.0, ""
     of_finer = finer.info.get("errors", {})
-    for one in compared(result, finer):
-        told, stated = one.told, one.told["error"]
+    for one in compare_errors(result, finer):
+        told, stated = one.stated, one.stated["error"]
         if not told["determined"]:
-            more = one.true > one.value
+            more = one.reference > one.value
             stated = 1.5 * (told["high"] - one.value if more else one.value - told["low"])
         if one.name in of_finer:
             stated += of_finer[one.name]["error"]
-        allowed = max(stated + one.reading, _little(result.scene, one.name, one.true))
-        if one.off == 0.0:
+        allowed = max(stated + one.reading_error, _little(result.scene, one.name, one.reference))
+        if one.true_error == 0.0:
             continue  # also of a figure that is zero, with nothing allowed
-        ratio = one.off / allowed if allowed else math.inf
+        ratio = one.true_error / allowed if allowed else math.inf
         if not ratio <= worst:
-            words = f"{one.value:.5g} +- {told['error']:.2g} for {one.true:.5g}"
+            words = f"{one.value:.5g} +- {told['error']:.2g} for {one.reference:.5g}"
             worst, which = ratio, f"{one.name}: {words}"
     return _check(AGREEMENT, worst, OF_BOTH, which)
 

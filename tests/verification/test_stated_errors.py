@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.verification.compared import NOTHING, compared
+from exu_press.verification.stated_errors import NOTHING, compare_errors
 
 STROKE = "stroke"
 
@@ -26,7 +26,7 @@ def of_stroke(run, reference, error):
         "high": value * (1.0 + error),
     }
     stating = dataclasses.replace(run, info={**run.info, "errors": {STROKE: told}})
-    (found,) = compared(stating, reference)
+    (found,) = compare_errors(stating, reference)
     return found
 
 
@@ -39,22 +39,22 @@ def longer(run, part):
 @pytest.mark.parametrize("part", [0.01, -0.01])
 def test_a_stated_error_covers_what_is_within_it(run, part):
     reference = longer(run, part)
-    assert of_stroke(run, reference, 0.011).covered
-    assert not of_stroke(run, reference, 0.009).covered
+    assert of_stroke(run, reference, 0.011).is_covered
+    assert not of_stroke(run, reference, 0.009).is_covered
 
 
 def test_the_true_error_and_its_ratio(run):
     found = of_stroke(run, longer(run, 0.01), 0.05)
-    assert found.off == pytest.approx(0.01 * found.value)
+    assert found.true_error == pytest.approx(0.01 * found.value)
     assert found.ratio == pytest.approx(5.0)
 
 
 def test_errors_next_to_nothing_are_no_matter(run):
     """They are covered whatever is stated, and have no ratio."""
     found = of_stroke(run, longer(run, 0.5 * NOTHING), 0.0)
-    assert found.covered
+    assert found.is_covered
     assert found.ratio is None
-    assert not of_stroke(run, longer(run, 2.0 * NOTHING), 0.0).covered
+    assert not of_stroke(run, longer(run, 2.0 * NOTHING), 0.0).is_covered
 
 
 def test_what_alternates_in_the_reference_is_open(run):
@@ -65,7 +65,7 @@ def test_what_alternates_in_the_reference_is_open(run):
     reference = run.with_values({"shaft_force": run["shaft_force"] * (1.0 + 0.04 * signs)})
     told = {"error": 0.0, "determined": True, "low": value, "high": value}
     stating = dataclasses.replace(run, info={**run.info, "errors": {name: told}})
-    (found,) = compared(stating, reference)
-    assert found.reading == pytest.approx(0.04 * value, rel=0.3)
-    assert found.covered
+    (found,) = compare_errors(stating, reference)
+    assert found.reading_error == pytest.approx(0.04 * value, rel=0.3)
+    assert found.is_covered
     assert found.ratio is None

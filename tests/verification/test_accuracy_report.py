@@ -6,9 +6,9 @@ import math
 import pytest
 
 from exu_press import Scene, simulate
+from exu_press.verification.accuracy_report import accuracy_lines
 from exu_press.verification.distribution import Distribution
-from exu_press.verification.told import delivered_lines
-from exu_press.verification.within import Delivered
+from exu_press.verification.within import AchievedAccuracy
 
 NAME = "peak_acceleration.resolved"
 
@@ -24,13 +24,13 @@ def calm():
 
 
 def test_a_tolerance_that_delivers_is_named(calm):
-    (line,) = delivered_lines(Delivered(calm, 3.3e-5, {}), 0.01)
+    (line,) = accuracy_lines(AchievedAccuracy(calm, 3.3e-5, {}), 0.01)
     assert line == "every figure asked for within 1 %: tolerance 3.3e-05"
 
 
 def test_what_no_tolerance_delivers_is_told_with_its_distribution(calm):
     missed = {NAME: Distribution(63, (220.0, 5.0), (120.0, 9.0), SPREAD), "energy.dissipated": None}
-    assert delivered_lines(Delivered(calm, 1e-6, missed), 0.001) == [
+    assert accuracy_lines(AchievedAccuracy(calm, 1e-6, missed), 0.001) == [
         f"{NAME}: not within 0.1 %, down to a tolerance of 1e-06",
         "  over 63 revolutions: 5 % below 90 (80 to 95); 50 % below 200 (190 to 210); "
         "95 % below 500 (450 to 600)",
@@ -43,7 +43,7 @@ def test_where_the_motion_is_chaotic_the_horizon_is_told(calm):
     """240 rpm: 1.44 deg a millisecond; exp(1000 t) is tenfold in 2.3 ms."""
     info = {**calm.info, "horizon": 0.004, "lyapunov_exponent": 1000.0}
     chaotic = dataclasses.replace(calm, info=info)
-    line, _, _ = delivered_lines(Delivered(chaotic, 1e-6, {NAME: None}), 0.01)
+    line, _, _ = accuracy_lines(AchievedAccuracy(chaotic, 1e-6, {NAME: None}), 0.01)
     assert "from t = 4 ms on, 6 deg of the crank after the start" in line
     assert "grow tenfold in 2.3 ms" in line
     impacts = calm.quantity("joints.crank_pin.impacts").value

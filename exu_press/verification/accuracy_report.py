@@ -1,4 +1,4 @@
-"""The outcome of a wanted error, in words."""
+"""Text that says which quantities reached the required accuracy."""
 
 import math
 
@@ -6,34 +6,34 @@ from exu_press.quantities import quantities_of
 from exu_press.quantities.joints import IMPACTS
 from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
-from exu_press.verification.within import Delivered
+from exu_press.verification.within import AchievedAccuracy
 
-__all__ = ["delivered_lines"]
+__all__ = ["accuracy_lines"]
 
 
-def delivered_lines(delivered: Delivered, within: float) -> list[str]:
-    """Return the figures that a tolerance delivers, and those that none does, for the terminal."""
-    tolerance = delivered.tolerance
-    if not delivered.missed:
-        return [f"every figure asked for within {100 * within:.3g} %: tolerance {tolerance:.2g}"]
-    lines = _chaos(delivered.result)
-    for name, found in delivered.missed.items():
+def accuracy_lines(achieved: AchievedAccuracy, required: float) -> list[str]:
+    """Return the quantities with and without the required error, for the terminal."""
+    tolerance = achieved.tolerance
+    if not achieved.unmet:
+        return [f"every figure asked for within {100 * required:.3g} %: tolerance {tolerance:.2g}"]
+    lines = _horizon_lines(achieved.result)
+    for name, distribution in achieved.unmet.items():
         lines.append(
-            f"{name}: not within {100 * within:.3g} %, down to a tolerance of {tolerance:.2g}"
+            f"{name}: not within {100 * required:.3g} %, down to a tolerance of {tolerance:.2g}"
         )
-        if found is None:
+        if distribution is None:
             lines.append("  no distribution: it adds up, or one revolution does not have it")
             continue
-        shown = "; ".join(
+        text = "; ".join(
             f"{percent:.0f} % below {value:.4g} ({low:.4g} to {high:.4g})"
-            for percent, (value, low, high) in found.percentiles.items()
+            for percent, (value, low, high) in distribution.percentiles.items()
         )
-        lines.append(f"  over {found.revolutions} revolutions: {shown}")
+        lines.append(f"  over {distribution.revolutions} revolutions: {text}")
     return lines
 
 
-def _chaos(result: Result) -> list[str]:
-    """Return the instant after which errors are larger than the figures, and their growth."""
+def _horizon_lines(result: Result) -> list[str]:
+    """Return the predictability horizon and the growth of errors."""
     horizon, rate = result.info["horizon"], result.info["lyapunov_exponent"]
     if horizon is None:
         return []

@@ -67,7 +67,9 @@ def samples_of(scene: Scene, channels: Mapping[str, Channel]) -> Samples:
     if scene.drive is None:
         time = channels["time"].values
         rotation = rotation[0] + scene.angular_speed * (time - time[0])
-    requested, number = scene.output.section(scene.start_angle).samples(float(rotation.max()) + NEAR)
+    requested, number = scene.output.section(scene.start_angle).samples(
+        float(rotation.max()) + NEAR
+    )
     rows = np.searchsorted(rotation, requested)
     preceding, following = np.maximum(rows - 1, 0), np.minimum(rows, len(rotation) - 1)
     nearer = np.abs(rotation[preceding] - requested) < np.abs(rotation[following] - requested)

@@ -46,7 +46,8 @@ def record(run: Recording) -> Record:
         slider_acceleration=mechanism.output_component(slider.acceleration),
     )
     channels |= CHANNELS.record(
-        positive=direction_text(output.normal), slider_lateral=mechanism.lateral_displacement(slider.position)
+        positive=direction_text(output.normal),
+        slider_lateral=mechanism.lateral_displacement(slider.position),
     )
     return Record(channels, stored=mechanical_energy(rigid, run.motions, run.model.scene.gravity))
 

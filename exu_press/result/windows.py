@@ -47,16 +47,16 @@ def _interpolated_window(run: Result, begin: float, end: float) -> Result:
     """Return a run's record between two instants, s, at which channels are interpolated."""
     time, near = run.time, 1e-9 * (end - begin)
     first, last = np.searchsorted(time, [begin + near, end - near])
-    at = [(max(i, 1), instant) for i, instant in ((first, begin), (last, end))]
+    bounds = [(max(i, 1), instant) for i, instant in ((first, begin), (last, end))]
 
-    def part(values: Array) -> Array:
+    def interpolate(values: Array) -> Array:
         ends = []
-        for i, instant in at:
+        for i, instant in bounds:
             share = (instant - time[i - 1]) / (time[i] - time[i - 1])
             ends.append(values[i - 1] + share * (values[i] - values[i - 1]))
         return np.concatenate([ends[0][None], values[first:last], ends[1][None]])
 
-    return run.map_values(lambda _, values: part(values))
+    return run.map_values(lambda _, values: interpolate(values))
 
 
 def up_to(run: Result, end: float) -> Result:

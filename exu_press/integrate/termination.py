@@ -73,11 +73,11 @@ class Advice:
     def convergence(self) -> str:
         """Return what helps where Newton's method did not converge.
 
-        A larger tolerance asks it for less, and its longer steps leap over stiff transients; a
-        smaller one has stopped runs that a larger one completes.
+        A larger tolerance asks it for less, and its longer steps leap over stiff transients, which
+        shorter steps resolve; a smaller one has stopped runs that a larger one completes.
         """
         if self.by_tolerance:
-            return f"a larger {self.setting}"
+            return self.smallest()
         return f"another {self.setting}, or a tolerance instead"
 
     def redundancy(self, redundant: int) -> str:

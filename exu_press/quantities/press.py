@@ -216,7 +216,7 @@ GUIDES = (
              "coefficient of power that the guide dissipates by friction",
              RESULTANT, lambda run, body: run.once(_sliding_powers)[body], Place.GUIDE),
     Quantity("peak_friction", "N", "largest friction along the guide",
-             LOAD, _guide_peak("friction"), Place.GUIDE,
+             RESULTANT, _guide_peak("friction"), Place.GUIDE,
              extreme=Extreme.LARGEST, curve="friction"),
     Quantity("min_film", "m",
              "least film thickness of the guide, 0 where surfaces lie in each other",
@@ -230,6 +230,6 @@ GUIDES = (
              ENERGY, lambda run, body: float(_guide_loss(run, body)[-1]), Place.GUIDE, _losing,
              title="energy dissipated in guides", cumulative=True),
     Quantity("mean_power", "W", "mean power that the guide dissipates, over whole revolutions",
-             LOAD, lambda run, body: run.rate(_guide_loss(run, body)), Place.GUIDE, _losing,
+             RESULTANT, lambda run, body: run.rate(_guide_loss(run, body)), Place.GUIDE, _losing,
              signed=True),
 )  # fmt: skip

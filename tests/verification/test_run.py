@@ -330,6 +330,18 @@ def test_a_power_of_such_a_force_is_known():
     assert 1e-7 * others < told["error"] < 1e-5 * others
 
 
+def test_the_friction_of_such_a_force_is_known():
+    """Finer steps leave more than coarser ones of a guide's side forces that cancel."""
+    guide = {"friction": "coulomb", "mu_kinetic": 0.2}
+    scene = Scene(mechanism="press", joints={}, revolutions=0.04, guide=guide)
+    run = simulate(scene, errors=True, beside=False)
+    finer = simulate(scene.replace({"solver.tolerance": 1e-5}))
+    friction = run.quantity("guides.slider.peak_friction")
+    assert friction.determined
+    assert abs(finer.quantity(friction.name).value - friction.value) < friction.error
+    assert friction.error < 1e-3 * run.quantity("guides.counterweight.peak_friction").value
+
+
 @pytest.mark.parametrize(
     "tolerance", [3e-3, *(pytest.param(t, marks=pytest.mark.long) for t in (1e-3, 3e-4))]
 )

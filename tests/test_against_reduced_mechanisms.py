@@ -170,42 +170,11 @@ def test_press_over_its_first_revolution(pin, clearance, rpm):
     assert peaks_of(result, rpm) == pytest.approx(expected, rel=1e-3)
 
 
-@pytest.mark.long
-def test_dry_press_at_fixed_steps_leaves_errors_of_second_order_alone():
-    """The two models are the same one: 3.4e-8, 6.3e-9 and 1.4e-9 m with 4, 2 and 1 us."""
-    times, states, _ = press("lugre_steady", 1e-4, 240, 0.5, 1e-13)
-    coarse, fine = (
-        difference(exudyn_press("lugre_steady", 1e-4, 240, 0.5, step=step), times, states).max()
-        for step in (4e-6, 2e-6)
-    )
-    assert fine < 1e-8
-    assert fine < coarse / 3.5
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("rpm", [240, 500])
-@pytest.mark.parametrize("clearance", [1e-4, 1e-5])
-def test_lubricated_press_over_two_revolutions(clearance, rpm):
-    """The oil keeps the motion determined."""
-    times, states, _ = press("pinkus", clearance, rpm, 2.0, 1e-12)
-    result = exudyn_press("pinkus", clearance, rpm, 2.0, tolerance=1e-5)
-    assert difference(result, times, states).max() < 1e-7
-
-
 def test_press_at_the_default_tolerance():
     """Lubricated pin, dry balls, over half a revolution."""
     _, _, expected = press("pinkus", 1e-4, 240, 0.5, 1e-10)
     result = exudyn_press("pinkus", 1e-4, 240, 0.5)
     assert peaks_of(result, 240)[0] == pytest.approx(expected[0], rel=2e-3)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("clearance", [1e-4, 2e-4])
-def test_dry_press_at_a_tenth_of_the_default_tolerance(clearance):
-    """Measured within 2e-4."""
-    _, _, expected = press("lugre_steady", clearance, 240, 1.0, 1e-11)
-    result = exudyn_press("lugre_steady", clearance, 240, 1.0, tolerance=1e-4)
-    assert peaks_of(result, 240) == pytest.approx(expected, rel=2e-3)
 
 
 @pytest.mark.long

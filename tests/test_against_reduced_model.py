@@ -88,11 +88,6 @@ def test_second_order_where_lubricated(pin):
 
 
 @pytest.mark.long
-def test_reference_is_converged_where_dry():
-    assert radau("none", 1e-8) == pytest.approx(radau("none", 1e-7), abs=1e-8)
-
-
-@pytest.mark.long
 @pytest.mark.parametrize("law", ["none", "lugre_steady", "lugre"])
 def test_slider_position_where_dry(law):
     """Within 5e-6 m; 1e-6 m is attained throughout (1e-7 .. 3e-7).

@@ -2,7 +2,6 @@
 
 import sys
 import threading
-from pathlib import Path
 
 import exudyn as exu
 import numpy as np
@@ -139,11 +138,3 @@ def test_threads_of_exudyn_ask_for_a_function():
     asked.parallel.numberOfThreads = 2
     with pytest.raises(InputError, match="numberOfThreads = 2; pass a function"):
         solve_dynamic(oscillator()[0], asked)
-
-
-def test_no_copy_is_left_behind():
-    mbs, _, _ = oscillator()
-    solve_dynamic(mbs, settings(2.0, 100))
-    children = Path("/proc/self/task")
-    text = "".join(path.read_text() for path in children.glob("*/children"))
-    assert text.strip() == ""

@@ -74,12 +74,6 @@ def test_explicit_solvers_stay_with_exudyn(solver):
         solve_dynamic(oscillator()[0], chosen)
 
 
-def test_the_trapezoidal_rule_is_refined_too():
-    chosen = settings(1.0, 100)
-    chosen.timeIntegration.solverType = exu.DynamicSolverType.TrapezoidalIndex2
-    assert solve_dynamic(oscillator()[0], chosen).status is SolverStatus.COMPLETED
-
-
 def test_what_is_no_system_or_no_run_is_refused():
     mbs = exu.SystemContainer().AddSystem()
     mbs.AddObject(ObjectGround())

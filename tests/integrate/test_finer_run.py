@@ -6,7 +6,6 @@ import sys
 import threading
 import time
 from pathlib import Path
-from types import SimpleNamespace
 
 import exudyn as exu
 import exudyn.utilities as items
@@ -116,31 +115,6 @@ def test_an_interrupt_ends_the_finer_run_alone():
         outcome = solve_dynamic(mbs, settings(1.0), errors=True)
     assert outcome.status is SolverStatus.COMPLETED
     assert not children()
-
-
-def test_a_sensor_that_keeps_nothing_has_no_error():
-    mbs = mass_on_spring()
-    mbs.SetSensorParameter(0, "storeInternal", False)
-    error = solve_dynamic(mbs, settings(1.0), errors=True).error
-    assert [found.shape for found in (*error.sensors, *error.peaks)] == [(0,), (0,)]
-
-
-NO_COPIES = {
-    "on Linux": (sys, "platform", "win32"),
-    "without a window": (
-        exu.MainSystem,
-        "GetSystemContainer",
-        lambda mbs: SimpleNamespace(renderer=SimpleNamespace(IsActive=lambda: True)),
-    ),
-}
-
-
-@pytest.mark.parametrize("said", NO_COPIES)
-def test_where_no_copy_will_do_it_is_refused(monkeypatch, said):
-    mbs = mass_on_spring()
-    monkeypatch.setattr(*NO_COPIES[said])
-    with pytest.raises(InputError, match=said):
-        solve_dynamic(mbs, settings(1.0), errors=True)
 
 
 def test_a_motion_that_amplifies_errors_is_reported():

@@ -125,13 +125,6 @@ def test_a_start_that_is_moved_by_much_is_reported(position, velocity, changed, 
 
 
 @pytest.mark.filterwarnings("error::UserWarning")
-def test_nothing_is_reported_where_a_motion_takes_along_what_is_at_rest():
-    mbs = swing(offset=lambda mbs, t, item, offset: 2.0 * t)
-    (_, velocity, _), _, _ = states(mbs)
-    assert velocity[0] == pytest.approx(2.0, rel=1e-6)
-
-
-@pytest.mark.filterwarnings("error::UserWarning")
 def test_a_start_that_fits_is_left_alone():
     mbs = swing(position=(0.6, 0.8), velocity=(0.8, -0.6))
     (position, velocity, _), _, _ = states(mbs)

@@ -1,15 +1,13 @@
 """What a run is asked for, and what it sets in Exudyn's settings and puts back."""
 
-import re
-
 import exudyn as exu
 import pytest
 from stand_in_system import settings
 
-from exu_press import InputError, Scene
+from exu_press import Scene
 from exu_press.integrate.scales import ErrorScales
 from exu_press.integrate.system import System
-from exu_press.integrate.task import SolverTuning, Task, prepared_settings, refuse_unusable
+from exu_press.integrate.task import SolverTuning, Task, prepared_settings
 
 LUBRICATED = Scene(mechanism="slider_crank", joints={"crank_pin": "lubricated"})
 IDEAL = Scene(mechanism="slider_crank", joints={})
@@ -56,15 +54,3 @@ def test_settings_are_put_back_even_after_an_error():
         assert chosen.timeIntegration.discontinuous.maxIterations == 1
         raise ZeroDivisionError
     assert chosen.GetDictionary() == before
-
-
-@pytest.mark.parametrize("tolerance", [1e-8, 0.1, None])
-def test_tolerances_at_their_limits_are_allowed(tolerance):
-    refuse_unusable(settings(), tolerance)
-
-
-@pytest.mark.parametrize("tolerance", [0.99e-8, 0.101, 1, -1e-3])
-def test_tolerances_beyond_their_limits_are_refused(tolerance):
-    message = f"tolerance = {tolerance}: allowed is a number from 1e-08 to 0.1"
-    with pytest.raises(InputError, match=re.escape(message)):
-        refuse_unusable(settings(), tolerance)

@@ -70,6 +70,7 @@ def test_it_changes_the_cost_and_not_the_result(flexible, monkeypatch):
 
 
 @NGSOLVE
+@pytest.mark.long
 def test_no_alternation_grows_from_what_newtons_method_leaves_in_the_constraints():
     """One iteration a step ends with the counterweight at +-11 m/s^2 about -10, and worse."""
     result = simulate(Scene(bodies=flexible_press(), joints={}, revolutions=0.55))

@@ -121,11 +121,3 @@ def test_the_system_keeps_its_own_mass():
     run(mbs, sensor, 100)
     matrix = mbs.GetObject(modal_item(mbs))["massMatrix"].Convert2DenseMatrix()
     assert not np.any(matrix)
-
-
-def test_systems_without_modes_get_no_item():
-    mbs = exu.SystemContainer().AddSystem()
-    mbs.AddNode(items.NodePoint())
-    follow_modes(mbs)
-    assert modal_item(mbs) is None
-    assert mbs.systemData.NumberOfObjects() == 0

@@ -101,13 +101,6 @@ def test_a_corner_at_the_end_of_a_block_cuts_no_step_to_pieces(number, apart):
 
 
 @PATCHED
-def test_a_corner_shortly_before_the_end_costs_one_step():
-    sizes, _ = steps(good=1.0, corner=4.5e-3, end=5.0e-3)
-    assert sizes[-1] == pytest.approx(0.5e-3)
-    assert len(sizes) == 6 and min(sizes[:-1]) > 0.7e-3
-
-
-@PATCHED
 def test_a_discontinuity_is_passed_by_a_step_that_cannot_be_shorter():
     """Its error is then that of the jump, which is held against the tolerance itself."""
     estimate = Estimate(1e-12)

@@ -12,14 +12,11 @@ from exudyn.itemInterface import (
     NodePointGround,
     ObjectConnectorCoordinateVector,
 )
-from hypothesis import given
-from hypothesis import strategies as st
 from solving import completed, planar_body, recorded
 
 from exu_press.joints.guide_friction import (
     GuideFriction,
     HeldSide,
-    SlidingFriction,
     SpringSide,
 )
 from exu_press.laws.friction import LuGre, coulomb, no_friction, stribeck
@@ -134,23 +131,3 @@ def test_the_jacobian_is_the_derivative_of_the_force(law):
     eps = 1e-7
     expected = [-(force(eps * row) - force(-eps * row)) / (2 * eps) for row in np.eye(3)]
     assert found == pytest.approx(np.transpose(expected), rel=1e-5, abs=1e-3)
-
-
-@given(
-    law=st.sampled_from(sorted(LAWS)),
-    speeds=st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=40),
-    step=st.floats(1e-6, 1e-2),
-)
-def test_friction_makes_no_energy(law, speeds, step):
-    """At a side force of 1 N; bristles give back what they store, sigma_0 z^2 / 2 at most."""
-    time = step * np.arange(len(speeds))
-    mu = SlidingFriction(LAWS[law]).coefficients(time, np.array(speeds))
-    if law == "lugre":
-        stored = 0.5 * 0.3**2 / 1e5
-        spent = np.cumsum(
-            0.5 * (mu[1:] + mu[:-1]) * np.diff(time) * np.convolve(speeds, [0.5, 0.5], "valid")
-        )
-        constant = np.ptp(speeds) == 0.0
-        assert spent.min() >= -stored or not constant
-    else:
-        assert (mu * speeds).min() >= 0.0

@@ -95,15 +95,6 @@ def test_with_bristles_it_stays():
     assert abs(np.trapezoid(speed, data[late, 0])) < 1e-9
 
 
-def test_a_sliding_block_comes_to_rest_after_v_over_mu_g():
-    _container, mbs, _, motion, _ = block(0.0, coulomb(0.3, 1e-4), speed=0.5)
-    completed(mbs, 0.5)
-    data = np.asarray(mbs.GetSensorStoredData(motion))
-    rest = data[np.argmax(data[:, 1] < 1e-3), 0]
-    assert rest == pytest.approx(0.5 / (0.3 * GRAVITY), rel=2e-2)  # it falls on its way first
-    assert abs(data[-1, 1]) < 1e-6
-
-
 def test_a_moment_is_borne_by_opposite_corners():
     """N (L) = M, one end on either side: the tilt is 2 (c + N / k) / L."""
     moment = 300.0

@@ -24,7 +24,6 @@ MASS, INERTIA = 4.0, 0.02
 POINT = (0.1, 0.05)
 SPEED = 0.3
 UPWARDS = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
-ALONG = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 OBLIQUE = [[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]]
 TILTED = [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
 
@@ -90,20 +89,15 @@ class OneJoint:
         return [np.asarray(self.mbs.GetSensorStoredData(s))[:, 1:] for s in sensors]
 
 
-@pytest.mark.parametrize(
-    ("rotation", "column", "free"), [(UPWARDS, 1, (0, 2)), (ALONG, 0, (1, 2))], ids=["y", "x"]
-)
-def test_a_sliding_body_is_hit_as_a_held_one(rotation, column, free):
-    place, velocity = [0.3, 0.2, 0.0], [0.0, 0.0, 0.0]
-    place[column] += 0.02
-    velocity[column] = SPEED
+def test_a_sliding_body_is_hit_as_a_held_one():
+    place, velocity = [0.3, 0.22, 0.0], [0.0, SPEED, 0.0]
     centre = (place[0] + POINT[0], place[1] + POINT[1])
     one = OneJoint()
-    slid, hit = one.run(*one.slide(rotation), centre)
+    slid, hit = one.run(*one.slide(UPWARDS), centre)
     other = OneJoint()
-    constrained, expected = other.run(*other.held(place, velocity, free), centre)
+    constrained, expected = other.run(*other.held(place, velocity, (0, 2)), centre)
     assert np.abs(expected).max() > 1e-4  # it was hit
-    assert slid[:, 0] == pytest.approx(constrained[:, column], abs=1e-11)
+    assert slid[:, 0] == pytest.approx(constrained[:, 1], abs=1e-11)
     assert hit == pytest.approx(expected, abs=1e-9)
 
 

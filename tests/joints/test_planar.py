@@ -46,6 +46,7 @@ DRY = {
     "without friction": lambda: [dry(no_friction())],
     "steady friction": lambda: [dry(STEADY)],
     "hysteretic": lambda: [dry(STEADY, hunt_crossley(hertz(2.5545e10), 0.7))],
+    "with tension": lambda: [dry(STEADY, step_damping(hertz(2.5545e10), 2.5545e6, 1e-5, True))],
     "bristle": lambda: [bristle()],
 }
 LAWS = {"pinkus": pinkus(), "pi_film": pi_film(), "short": short(0.7), "finite": finite(0.7)}

@@ -42,13 +42,6 @@ def test_hysteretic_laws(law, wanted):
     assert bounce(contact, 1.0, 0.5, 1.2e-3) == pytest.approx(expected, abs=1e-3)
 
 
-@pytest.mark.parametrize("speed", [0.1, 1.0])
-def test_step_damping(speed):
-    contact = step_damping(hertz(1e8), damping_max=1e3, damping_depth=1e-4)
-    expected = delivered_restitution(contact, 1.0, speed)
-    assert bounce(contact, 1.0, speed, 6e-3, step=2e-6) == pytest.approx(expected, abs=1e-3)
-
-
 @pytest.mark.parametrize("speed", [0.1, 0.5])
 def test_an_almost_undamped_contact_gives_everything_back(speed):
     """c_max = 0.01 N s/m at the press's stiffness and the slider's mass."""

@@ -176,14 +176,6 @@ def assert_newton(bodies, joint, journal, bearing):
         assert np.abs(error[1:]).max() < 1e-5 * 0.1 * scale
 
 
-def test_bristle_of_the_run_is_the_bristle_of_its_history():
-    """The state is committed once per accepted step, not once per Newton iteration."""
-    bodies, journal, bearing = free_pair(relative=(0.05, 0.5))
-    joint = add_joint("dry", bodies.mbs, journal, bearing, SOFT_BRISTLE)
-    bodies.run(0.004, 2e-6)
-    assert_newton(bodies, joint, journal, bearing)
-
-
 def test_bristle_is_committed_only_for_accepted_steps():
     """A film that fails at times has steps rejected and halved; the bristle must not notice.
 
@@ -229,22 +221,6 @@ def test_several_joints_share_one_item():
     item = bodies.mbs.GetObject(user_force.item)
     assert item["objectType"] == "GenericODE2"
     assert len(item["nodeNumbers"]) == 4
-
-
-def test_joints_in_one_item_act_as_if_each_were_alone():
-    """Two independent interfaces of bodies in one system against one of them by itself."""
-    alone, journal, bearing = free_pair()
-    add_joint("dry", alone.mbs, journal, bearing)
-    alone.run(0.003, 2e-6)
-    both, journal, bearing = free_pair()
-    other_a = both.add(2.0, 0.01, [1.0, 0.0, 0.0], [0.0, 0.0, 1.0])
-    other_b = both.add(3.0, 0.02, [1.0, 0.0, 0.0], [0.01, 0.02, 0.0])
-    add_joint("lubricated", both.mbs, (other_a, (0.0, 0.0)), (other_b, (0.0, 0.0)))
-    add_joint("dry", both.mbs, journal, bearing)
-    both.run(0.003, 2e-6)
-    first, second = alone.recorded("position"), both.recorded("position")[:, :2]
-    assert np.abs(first - second).max() < 1e-9
-    assert np.abs(first[-1] - first[0]).max() > 1e-3
 
 
 @pytest.mark.parametrize("journal_on_ground", [False, True])

@@ -89,19 +89,6 @@ def test_contact_beginning_at_rest_is_regular(name: str) -> None:
     assert slower == pytest.approx(restitution_of(chi_of(contact) / 100), abs=1e-6)
 
 
-def test_step_does_not_read_the_impact_speed() -> None:
-    contact = contacts()["step"]
-    assert not contact.needs_impact_speed
-    assert contact.force(1e-5, 0.1, math.nan) == contact.force(1e-5, 0.1, 0.0)
-
-
-def test_a_not_a_number_state_stays_visible() -> None:
-    """Exudyn halves the step on NaN; a law must not turn it into a force."""
-    for contact in contacts().values():
-        assert math.isnan(contact.force(math.nan, 0.1, 0.1)[0])
-        assert math.isnan(contact.force(1e-5, math.nan, 0.1)[0])
-
-
 @pytest.mark.parametrize("law", list(DELIVERED))
 @pytest.mark.parametrize("restitution", [0.0, -0.1, 1.01, math.nan])
 def test_restitution_out_of_range_is_refused_by_name(law: str, restitution: float) -> None:

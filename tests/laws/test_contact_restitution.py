@@ -47,14 +47,6 @@ def test_restitution_of_meets_its_equation_and_its_limits() -> None:
     assert restitution_of(1e6) == pytest.approx(1e-6)
 
 
-@pytest.mark.parametrize(("speed", "delivered"), [(0.1, 0.51842), (1.0, 0.41655)])
-def test_bounce_with_step_damping(speed: float, delivered: float) -> None:
-    contact = step_damping(hertz(1e8), damping_max=1e3, damping_depth=1e-4)
-    assert delivered_restitution(contact, mass=1.0, speed=speed) == pytest.approx(
-        delivered, abs=1e-5
-    )
-
-
 @pytest.mark.parametrize(
     ("mass", "speed", "delivered"),
     [

@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from exu_press import Scene, simulate
 from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
-from exu_press.mechanism.press import PAPER_LAWS, TABLE_2
 
 # Canudas de Wit et al. 1995, Table I, with a unit normal force.
 CANUDAS = LuGre(1.5, 1.0, 1e5, math.sqrt(1e5), 0.4, stribeck_velocity=1e-3, stribeck_exponent=2.0)
@@ -44,30 +42,6 @@ def test_canudas_de_wit_1995_stick_slip() -> None:
     x, v, _ = unit_mass(pulled, 25.0).y[:, -1]
     assert x == pytest.approx(1.9088391992, abs=2e-9)
     assert v == pytest.approx(9.4241546e-6, rel=1e-7)
-
-
-def test_canudas_de_wit_1995_stick_slip_by_advance_is_first_order() -> None:
-    def stepped(h: float) -> float:
-        x = v = z = 0.0
-        for i in range(1, round(25.0 / h) + 1):
-            start = v
-            for _ in range(20):
-                mu, slope, _ = CANUDAS.advance(v, z, h)
-                residual = v - start - h * (pulled(i * h, x + h * v) - mu)
-                correction = residual / (1.0 + 2.0 * h * h + h * slope)
-                v -= correction
-                if abs(correction) < 1e-13:
-                    break
-            else:
-                pytest.fail(f"Newton did not converge at t = {i * h}")
-            x += h * v
-            z = CANUDAS.advance(v, z, h)[2]
-        return x
-
-    errors = [abs(stepped(h) - 1.9088391992) for h in (2e-3, 1e-3, 5e-4)]
-    assert errors[-1] < 1.5e-3
-    orders = [math.log2(a / b) for a, b in itertools.pairwise(errors)]
-    assert orders == pytest.approx([1.0, 1.0], abs=0.06)
 
 
 def test_the_bristle_is_of_second_order() -> None:
@@ -122,15 +96,6 @@ def test_presliding_stiffness_is_sigma_0() -> None:
     assert z == pytest.approx(displacement, rel=1e-3)
 
 
-def test_presliding_at_constant_speed_follows_dahls_exponential() -> None:
-    """At constant v: mu = g (1 - exp(-sigma_0 x / g)), stepped."""
-    friction = LuGre(1.5, 1.0, 1e5, 0.0, 0.0, 1e-3, 2.0)
-    v, h, z, g = 1e-6, 2e-3, 0.0, 1.0 + 0.5 * math.exp(-1e-6)
-    for _ in range(10_000):
-        mu, _, z = friction.advance(v, z, h)
-    assert mu == pytest.approx(g * (1.0 - math.exp(-1e5 * 2e-5 / g)), rel=1e-4)
-
-
 def test_canudas_de_wit_1995_break_away_falls_with_force_rate() -> None:
     def moving(_t, y):
         return y[1] - 1e-2
@@ -168,28 +133,6 @@ def test_bristle_with_no_step_is_its_own_instant_value() -> None:
         damping = CANUDAS.sigma_1 * math.exp(-((v / limit) ** 2))
         assert z1 == z
         assert mu == pytest.approx(1e5 * z + damping * CANUDAS.rate(v, z) + 0.4 * v, rel=1e-12)
-
-
-def test_the_scene_that_made_energy() -> None:
-    """With a constant sigma_1 it stopped at every tolerance, with -4.7 J dissipated."""
-    scene = Scene(
-        mechanism="six_bar",
-        speed_rpm=80.0,
-        revolutions=0.1,
-        joints={"wrist_pin": {"kind": "dry", "clearance": 4e-5, "radius": 0.02}},
-        contact=PAPER_LAWS["contact"],
-        friction={
-            **TABLE_2["friction"],
-            "law": "lugre",
-            "mu_static": 0.24,
-            "mu_kinetic": 0.21,
-            "sigma_0": 2e4,
-        },
-    )
-    result = simulate(scene)
-    lost = result["energy_dissipated"]
-    assert result.info["status"] == "completed"
-    assert lost[-1] > 0.0 and np.diff(lost).min() > -1e-5 * lost[-1]
 
 
 def test_bristle_derivative_against_finite_differences() -> None:
@@ -245,12 +188,6 @@ def test_stribeck_limits() -> None:
     assert friction(10.0) == (pytest.approx(0.3), pytest.approx(0.02))  # kinetic and viscous
     flat = stribeck(0.1, 0.1, 0.1, 2.0, 1e-3)
     assert flat(2e-3) == pytest.approx(coulomb(0.1, 1e-3)(2e-3))
-
-
-def test_slope_at_rest_is_finite_for_every_exponent() -> None:
-    for exponent in (0.3, 0.5, 1.0, 2.0, 3.0):
-        assert stribeck(0.3, 0.1, 0.1, exponent, 1e-3)(0.0) == (0.0, pytest.approx(300.0))
-        assert math.isfinite(LuGre(0.3, 0.1, 1e5, 400.0, 0.0, 0.1, exponent).advance(0, 0, 1e-5)[1])
 
 
 CURVE = {"mu_static": 0.2, "mu_kinetic": 0.1, "stribeck_velocity": 0.01, "stribeck_exponent": 2.0}

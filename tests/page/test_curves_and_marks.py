@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from exu_press.page.blocks import Blocks
-from exu_press.page.curves import PEAKS, curves_of, shown_unit
+from exu_press.page.curves import PEAKS, curves_of
 from exu_press.page.marks import dead_centres, impacts, peaks, values_on
 from exu_press.page.scenery import scenery
 from exu_press.quantities.catalogue import find_quantity
@@ -94,9 +94,3 @@ def test_a_block_is_unpacked_as_the_script_does():
     ordered = np.frombuffer(gzip.decompress(base64.b64decode(packed)), np.uint8)
     back = np.ascontiguousarray(ordered.reshape(8, -1).T).view("<f8").reshape(told["columns"], -1)
     assert (values == back.T).all()
-
-
-def test_units_are_those_that_people_read():
-    assert shown_unit("N m", 3e3) == ("kN m", 1e-3)
-    assert shown_unit("Pa", 2.5e7) == ("MPa", 1e-6)
-    assert shown_unit("", 2.5e7) == ("", 1.0)

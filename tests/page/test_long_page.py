@@ -52,22 +52,3 @@ def test_thinning_keeps_extremes_and_vectors():
     size = np.linalg.norm(vectors, axis=1)
     assert np.linalg.norm(thinned.vectors(vectors), axis=1).max() == size.max()
     assert (np.diff(thinned.steps) >= 0).all() and thinned.steps[-1] == 1002
-
-
-@pytest.mark.long
-def test_a_part_of_a_long_run_has_every_step(press, tmp_path, browser):
-    run = repeated(press, 50)
-    begin, end = 7.0, 7.25
-    live = viewer({"": run}, {"": (begin, end)})
-    page_file = tmp_path / "page.html"
-    page_file.write_text(page("part", "", [("In motion", live)]), encoding="utf-8")
-    steps = np.count_nonzero((run.time >= begin) & (run.time <= end))
-    with opened(browser, page_file) as shown:
-        assert "no peak is lost" not in shown.inner_text("#thinned")
-        low, high = shown.evaluate(
-            "() => { const r = Bokeh.documents[0].get_model_by_name('x-range');"
-            " return [r.start, r.end]; }"
-        )
-        assert (low, high) == pytest.approx((1e3 * begin, 1e3 * end), abs=1.0)
-        drawn = shown.evaluate("Bokeh.documents[0].get_model_by_name('curve-0-0').data.x.length")
-        assert min(steps, 500) <= drawn <= steps

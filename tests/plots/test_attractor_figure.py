@@ -1,7 +1,5 @@
 """The long run's picture shows each revolution's point, its figures and its spectra."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -50,9 +48,3 @@ def test_ideal_joints_and_a_motor_have_the_cranks_speed_alone(run):
     first, second, *_ = attractor_figure(motion(run, points)).axes
     assert first.lines[0].get_ydata().tolist() == points[:, 0].tolist()
     assert not second.axison
-
-
-def test_a_figure_without_a_unit_is_called_by_its_name(run):
-    found = motion(run, np.array([[0.95], [0.96]] * 3))
-    ratio = replace(found, figures={"ratio": np.arange(6.0)}, units={"ratio": ""})
-    assert attractor_figure(ratio).axes[-1].get_ylabel() == "ratio"

@@ -40,14 +40,6 @@ def test_labels_of_dead_centres_touch_no_others(width, bottom):
     assert all(end < begin for (_, end), (begin, _) in pairwise(boxes))
 
 
-def test_a_mechanism_without_dead_centres_has_none():
-    axes = Figure().subplots()
-    crank_angle_axis([axes], 0.0, 360.0, {})
-    axes.figure.draw_without_rendering()
-    assert not axes.lines
-    assert "\n" not in "".join(label.get_text() for label in axes.get_xticklabels())
-
-
 def test_dead_centres_are_marked_and_named():
     figure = Figure()
     axes = figure.subplots()
@@ -57,15 +49,6 @@ def test_dead_centres_are_marked_and_named():
     assert "0\nTDC" in labels
     assert "180\nBDC" in labels
     assert sorted(line.get_xdata()[0] for line in axes.lines) == [0.0, 180.0, 360.0]
-
-
-def test_many_revolutions_have_their_numbers():
-    """Dead centres are lines there, and take no tick's place."""
-    axes = Figure().subplots()
-    crank_angle_axis([axes], 260.0, 2058.0, {"TDC": 0.0, "BDC": 217.0})
-    axes.figure.draw_without_rendering()
-    labels = [label.get_text().partition("\n")[0] for label in axes.get_xticklabels()]
-    assert labels == ["360", "720", "1080", "1440", "1800"]
 
 
 @pytest.mark.parametrize(("low", "high"), [(0.0, 359.9986), (0.0014, 360.0), (0.0, 360.02)])
@@ -96,11 +79,6 @@ def test_an_axis_with_impacts_says_where_it_is_linear(signed):
     assert low == (-high if signed else 0.0)
     assert high > 900.0
     assert {0.0, 10.0, 100.0} <= set(axes.get_yticks())
-
-
-def test_nothing_to_scale():
-    axes = Figure().subplots()
-    assert impact_scale(axes, [(np.zeros(1), np.zeros(1))], signed=False) == ""
 
 
 def test_rounding_errors_do_not_fill_a_panel():

@@ -1,7 +1,5 @@
 """Pictures of a press with twelve clearance joints can be read: few drawn, the rest in a table."""
 
-import functools
-
 import pytest
 from matplotlib.figure import Figure
 
@@ -10,8 +8,6 @@ from exu_press.plots.busiest import busiest, rest_lines
 from exu_press.plots.energy import energy_figure
 from exu_press.plots.force import force_figure
 from exu_press.plots.orbit import orbit_figure
-from exu_press.plots.words import describe
-from exu_press.quantities.table import run_lines
 from exu_press.view import Animation, moment
 from exu_press.view.animation import SIZE
 
@@ -52,36 +48,3 @@ def _titles(figure):
 )
 def test_panels_are_few(twelve, draw, most):
     assert len(list(filter(None, _titles(draw(twelve))))) <= most
-
-
-def test_titles_name_them_by_kind(twelve):
-    words = describe([twelve.scene])
-    assert "crank pin, slide pin, pivots lubricated, clearance 0.1 mm" in words
-    assert "knuckles, plunger pins, balls dry, clearance 0.1 mm" in words
-    titles = _titles(Animation(twelve, moment(twelve), Figure(figsize=SIZE)).figure)
-    kinds = {name.split(",")[0]: joint.kind for name, joint in _titled(twelve)}
-    magnified = [title for title in titles if "clearance" in title]
-    assert len(magnified) == 2
-    for title in magnified:
-        assert kinds[title.split(",")[0]] in title
-
-
-def _titled(result):
-    from exu_press.plots.words import joint_in_words
-
-    return [(joint_in_words(name), joint) for name, joint in result.joints.items()]
-
-
-@functools.cache
-def one_ball():
-    return simulate(Scene(joints={"ball_right": "dry", "crank_pin": "dry"}, revolutions=0.02))
-
-
-def test_a_joint_of_the_right_side_alone_is_printed():
-    (line,) = [x for x in run_lines(one_ball()) if x.startswith("joint force")]
-    assert "ball right" in line and "crank pin" in line
-
-
-def test_many_joints_are_counted_in_the_terminal(twelve):
-    (line,) = [x for x in run_lines(twelve) if x.startswith("joint force")]
-    assert " more" in line and len(line) < 110

@@ -25,10 +25,6 @@ def test_pin_and_ball_in_their_circles_with_units(results, label):
     assert all(axes.get_ylabel().endswith(", µm") for axes in panels.values())
 
 
-def test_a_slider_crank_has_a_pin_alone(results):
-    assert len(titled(orbit_figure(results["slider_crank"]))) == 2
-
-
 def test_a_small_path_is_magnified_beside_the_whole_circle(results):
     path = titled(orbit_figure(results["lubricated"]))["Crank pin"]
     assert path.get_xlim()[1] < 50.0  # um, of 100

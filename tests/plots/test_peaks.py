@@ -47,20 +47,9 @@ def test_peaks_have_error_bars_and_say_how_large(told, results):
     assert any("±" in note for note in notes(press_figure(told)))
 
 
-def test_runs_beside_each_other_have_bars_alone(told, results):
-    figure = slider_figure({"a": told, "b": told})
-    assert bars(figure) == 4
-    assert not any("±" in note for note in notes(figure))
-
-
 def test_without_errors_nothing_is_said(results):
     assert bars(slider_figure({"": results["dry"]})) == 0
     assert not any("±" in note for note in notes(force_figure({"": results["dry"]})))
-
-
-def test_joints_that_are_not_drawn_have_errors_too(told):
-    (line,) = rest_lines(told, {"crank_pin": "Crank pin"})[1:]
-    assert "±" in line
 
 
 def test_a_table_and_a_note_tell_the_summary_s_figures_not_those_of_the_start():

@@ -2,9 +2,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.mechanism import Press, SliderCrank, press, slider_crank
-from exu_press.plots import energy_figure, press_figure
-from exu_press.plots.press import _about
+from exu_press.plots import press_figure
 
 ALWAYS = ["Shaking force", "Power of the drive", "Guides"]
 
@@ -32,18 +30,6 @@ def test_with_and_without_counterweight(results):
     legend = panels(results["ideal"])["Shaking force"].get_legend()
     names = [text.get_text() for text in legend.get_texts()]
     assert names == ["vertical", "vertical, without counterweight", "horizontal"]
-
-
-@pytest.mark.parametrize("name", ["ideal", pytest.param("elastic", marks=pytest.mark.long)])
-def test_legends_stand_beside_their_titles(results, name):
-    shown = panels(results[name])
-    shown["Guides"].figure.draw_without_rendering()
-    for title, axes in shown.items():
-        legend = axes.get_legend()
-        if legend is not None:
-            assert not legend.get_window_extent().overlaps(axes._left_title.get_window_extent()), (
-                title
-            )
 
 
 def test_shaking_force_is_drawn_as_its_mean_over_a_millisecond(results):
@@ -76,12 +62,6 @@ def test_elastic_guides_show_tilt_and_the_stroke(results):
     ].get_title("right")
 
 
-def test_guides_are_one_curve_of_the_energy_picture(results):
-    shown = {axes.get_title("left"): axes for axes in energy_figure(results["elastic"]).axes}
-    names = [text.get_text() for text in shown["Dissipated in"].get_legend().get_texts()]
-    assert names == ["ball, left", "ball, right", "guides"]
-
-
 def test_a_motors_speed_and_loads_have_panels_and_a_rocker_no_dead_centre():
     load = {"die": {"kind": "table", "time": [0.0, 0.1], "force": [0.0, 2e3]}}
     result = simulate(
@@ -100,9 +80,3 @@ def test_a_motors_speed_and_loads_have_panels_and_a_rocker_no_dead_centre():
     labels = [text.get_text() for text in shown["Loads"].get_xticklabels()]
     assert labels and not any("DC" in label for label in labels)
     assert shown["Loads"].get_xlabel() == "crank angle, deg"
-
-
-def test_strokes_are_shown_where_micrometres_are_seen():
-    """Of a slider-crank r (1 + r / l) phi^2 / 2 = 50 um at 3.2 deg; the press dwells for longer."""
-    assert _about(slider_crank(SliderCrank()), 180.0) == 3.0
-    assert _about(press(Press()), 180.0) == 12.0

@@ -26,13 +26,6 @@ def test_six_panels_with_units(results, label):
     assert ("stopped early" in words) == label.startswith("stopped")
 
 
-def test_runs_share_one_ideal(results):
-    figure = slider_figure({name: results[name] for name in ("ideal", "dry", "lubricated")})
-    (legend,) = figure.legends
-    texts = [text.get_text() for text in legend.get_texts()]
-    assert texts == ["ideal", "dry", "lubricated", "ideal mechanism"]
-
-
 def test_the_deviation_is_what_the_clearance_allows(results):
     figure = slider_figure({"dry": results["dry"]})
     deviation = figure.axes[1].lines[0].get_ydata()

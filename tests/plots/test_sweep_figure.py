@@ -134,8 +134,3 @@ def test_units_that_read_well(values, unit):
     numbers, found = in_unit("bottom_dead_centre", np.array(values))
     assert found == unit
     assert np.max(np.abs(numbers)) < 1000.0
-
-
-def test_units_in_pictures_are_typeset():
-    assert in_unit("peak_acceleration.resolved", np.array([20.0]))[1] == "m/s²"
-    assert in_unit("bottom_dead_centre", np.array([3e-5]))[1] == "µm"

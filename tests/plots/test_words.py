@@ -5,8 +5,7 @@ from matplotlib.figure import Figure
 
 from exu_press import Scene
 from exu_press.plots.typesetting import plain
-from exu_press.plots.words import ONE_LINE, SEPARATOR, describe, early_stops, joint_in_words
-from exu_press.scene import flexible_press
+from exu_press.plots.words import ONE_LINE, SEPARATOR, describe, early_stops
 
 
 def test_a_scene_in_words():
@@ -33,26 +32,6 @@ def test_joints_alike_are_named_together_once():
     assert words.count("clearance") == 1
 
 
-def test_guides_with_clearance_are_not_called_elastic():
-    words = describe([Scene(guide={"clearance": 2e-5, "friction": "coulomb"})])
-    assert "guides with clearance 0.02 mm and coulomb friction" in words
-    assert "elastic" not in words
-
-
-def test_guides_counterweight_and_an_eccentric_load():
-    scene = Scene(
-        load={"blanking": {"kind": "blanking", "force": 1e4, "offset": [-0.05, 0.0]}},
-        guide={"lateral_stiffness": 1e9},
-        press={"counterweight": False},
-    )
-    words = describe([scene])
-    assert "blanking force 10 kN, -50 mm off centre" in words
-    assert "guides elastic" in words
-    assert "no counterweight" in words
-    assert "guides" not in describe([Scene()])
-    assert "flexible crank, linkage" in describe([Scene(bodies=flexible_press())])
-
-
 def test_scenes_share_what_they_have_in_common():
     words = describe(
         [
@@ -66,22 +45,11 @@ def test_scenes_share_what_they_have_in_common():
     assert "rpm" not in describe([Scene(), Scene(speed_rpm=300)])
 
 
-def test_long_words_break_between_phrases():
-    lines = describe([Scene()], width=40).splitlines()
-    assert len(lines) > 1
-    assert all(len(line) <= 40 for line in lines)
-
-
 def test_early_stops_are_named(results):
     assert early_stops({"a": results["dry"]}) == ""
     both = {"a": results["dry"], "b": results["stopped"]}
     assert early_stops(both).startswith("b: stopped early")
     assert "crank angle 18.00 deg" in early_stops(both)
-
-
-def test_joint_names():
-    assert joint_in_words("ball_right") == "Ball, right"
-    assert joint_in_words("knuckle_6_left") == "Knuckle 6, left"
 
 
 @pytest.mark.parametrize("text", [r"$\frac{$", "5 $", r"a\$b$c$", "$$"])

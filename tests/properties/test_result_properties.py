@@ -142,10 +142,3 @@ def test_a_mutated_file_is_a_result_or_an_input_error(data, files, tmp_path):
 @given(data=st.data(), command=st.sampled_from(["view", "report"]))
 def test_a_mutated_file_is_shown_or_refused(data, command, files, tmp_path, capsys):
     shown_or_refused(command, mutated(data.draw, files), tmp_path, capsys)
-
-
-@pytest.mark.long
-@settings(max_examples=300, derandomize=False, phases=[Phase.generate], **RUNS)
-@given(data=st.data(), command=st.sampled_from(["view", "report"]))
-def test_many_mutated_files_are_shown_or_refused(data, command, files, tmp_path, capsys):
-    shown_or_refused(command, mutated(data.draw, files), tmp_path, capsys)

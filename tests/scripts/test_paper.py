@@ -4,13 +4,12 @@ import json
 import re
 
 import pytest
-from running import assert_refused, process, run
+from running import process, run
 
 from paper.inverse import CAP, distance
 from paper.open_keys import OURS, as_read
 from paper.published import published
 from paper.runs import DAMPINGS, paper_runs
-from paper.table import REAL
 
 WITH_ERROR = re.compile(r"\+- |exact| to ")
 
@@ -43,31 +42,6 @@ def test_every_published_number_has_ours_with_its_error_and_a_verdict(directory)
 
 
 @pytest.mark.long
-def test_the_almost_undamped_contact_hides_no_peaks_between_samples(directory):
-    tables = read(directory)["tables"]
-    damped, undamped = (
-        tables[f"peak acceleration, m/s², rigid bodies, c_max {d} N s/m"][1:-1] for d in DAMPINGS
-    )
-    assert len(damped) == len(undamped) == 9
-    for place in (0, 3):  # narrow clearances, whose impacts come at once
-        hidden, seen = (
-            [float(cell.split()[0]) for cell in rows[place][3:5]] for rows in (damped, undamped)
-        )
-        assert hidden[0] > 3.0 * hidden[1] and seen[0] < 1.1 * seen[1]
-
-
-@pytest.mark.long
-def test_what_moves_the_numbers_and_the_clearance_to_choose(directory):
-    tables = read(directory)["tables"]
-    changes = {row[0]: row for row in tables["peak acceleration, m/s², rigid bodies, one change"]}
-    assert changes["twice the clearance of the balls"][3].endswith(REAL)  # their fall is longer
-    assert changes["viscosity 0.05 Pa s (A-11)"][1] == "-"  # a dry pin
-    line = tables["one clearance, c_max 2.5545e8 N s/m"][1:]
-    pin = {row[0]: float(row[4].split()[0]) for row in line}
-    assert pin["0.01 mm"] > 10.0 * pin["0.15 mm"]  # sheared fifteen times as hard
-
-
-@pytest.mark.long
 def test_it_goes_on_where_it_was_stopped(directory):
     rows = (directory / "runs.jsonl").read_text().splitlines()
     before = read(directory)
@@ -81,14 +55,6 @@ def test_it_goes_on_where_it_was_stopped(directory):
     pictures = {path.stem for path in directory.glob("*.png")}
     assert {"numbers", "sweeps", "clearance", "c_max_2.5545e8_no_load_orbit_dry"} <= pictures
     assert len(pictures) == 3 + 3
-
-
-@pytest.mark.parametrize(
-    ("arguments", "named"),
-    [(["--workers", "0"], "workers = 0"), (["--out", "/dev/null/paper"], "/dev/null/paper")],
-)
-def test_wrong_input_is_refused_in_one_line(arguments, named, tmp_path):
-    assert_refused("paper.py", tmp_path, *arguments, named=named)
 
 
 @pytest.mark.long

@@ -5,8 +5,6 @@ import numpy as np
 import pytest
 from matplotlib.text import Text
 
-from exu_press import Scene, simulate
-from exu_press.mechanism import shipped_mechanism
 from exu_press.view import instants, moment
 from exu_press.view.animation import Painter
 
@@ -68,12 +66,6 @@ def test_an_animation_says_how_slow_it_is_and_a_picture_does_not(runs, animation
     assert "slower" not in still and "faster" not in still
 
 
-def test_the_clock(runs, animation):
-    picture = animation(runs["press"], moment(runs["press"], 0.05))
-    picture.show(1)
-    assert picture._clock.get_text().startswith("t =   50.00 ms    crank   7")
-
-
 def test_a_run_that_stopped_early_says_so(runs, animation):
     cut = runs["press"].with_values({name: runs["press"][name][:40] for name in runs["press"]})
     info = {**cut.info, "status": "interrupted", "reason": "interrupted at t = 1 ms"}
@@ -82,25 +74,3 @@ def test_a_run_that_stopped_early_says_so(runs, animation):
         text.get_text() for text in visible_texts(animation(stopped, instants(stopped)).figure)
     ]
     assert any("stopped early" in text for text in texts)
-
-
-def test_a_record_of_one_instant_can_be_shown(runs, animation):
-    one = runs["press"].with_values({name: runs["press"][name][:1] for name in runs["press"]})
-    Painter(animation(one, moment(one)), 50.0).paint(1)
-
-
-def test_long_names_end_before_the_next_panel(animation):
-    drawn = shipped_mechanism("four_bar")
-    long = {part.name: f"{part.name}_with_quite_a_long_name_behind_it" for part in drawn.joints}
-    joints = [dataclasses.replace(joint, name=long[joint.name]) for joint in drawn.joints]
-    mechanism = dataclasses.replace(drawn, joints=tuple(joints), groups={}, defaults={})
-    dry = {"kind": "dry", "radius": 0.02, "clearance": 2e-5}
-    pins = dict.fromkeys([long[name] for name in drawn.crank_pins], dry)
-    scene = Scene(mechanism=mechanism, joints=pins, contact={"length": 0.02}, revolutions=1e-3)
-    run = simulate(scene)
-    figure = animation(run, moment(run)).figure
-    figure.draw_without_rendering()
-    titles = [text for text in visible_texts(figure) if text.get_text().endswith("clearance 20 µm")]
-    assert titles and all("…, dry" in text.get_text() for text in titles)
-    curves = min(axes.bbox.x0 for axes in figure.axes if axes.get_xlabel())
-    assert max(text.get_window_extent().x1 for text in titles) < curves

@@ -1,7 +1,6 @@
 """The film under touching asperities: no jump at onset or at eps = 1, and a graceful end."""
 
 import itertools
-import math
 
 import pytest
 
@@ -54,7 +53,3 @@ def test_derivatives_beyond_the_onset(film, eps):
         for component in (0, 1):
             slope = (above[component] - below[component]) / (2.0 * step)
             assert exact[2 + 3 * component + which] == pytest.approx(slope, rel=1e-4)
-
-
-def test_nan_eccentricity_stays_nan():
-    assert all(map(math.isnan, with_asperities(pi_film(), ONSET)(math.nan, 1.0, 1.0)))

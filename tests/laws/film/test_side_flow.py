@@ -101,12 +101,5 @@ def test_it_is_of_first_degree_and_has_no_side():
     assert at(flow, 0.7, 0.0, 0.0) == 0.0
 
 
-def test_nan_is_answered_with_nan():
-    for flow in (finite_flow(0.8), short_flow(0.8)):
-        for motion in ((0.5, math.nan, 1.0), (0.5, 0.1, math.nan)):
-            assert math.isnan(at(flow, *motion))
-    assert math.isnan(at(finite_flow(0.8), math.nan, 0.1, 0.1))
-
-
 def test_only_long_bearings_keep_their_oil():
     assert {name for name, law in FILM_LAWS.items() if not law.flows_out} == {"pinkus", "pi_film"}

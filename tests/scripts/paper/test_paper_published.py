@@ -4,7 +4,7 @@ import pytest
 
 from paper.published import published
 from paper.readings import MODELS
-from paper.runs import DAMPINGS, DEFAULT, SWEEPS, paper_runs
+from paper.runs import DAMPINGS, paper_runs
 from paper.table import UNITS
 from paper.verdicts import TRENDS
 
@@ -29,25 +29,6 @@ def test_every_number_and_trend_has_its_runs(damping):
     assert {trend.stated for trend in paper.trends} <= TRENDS.keys()
     measures = {entry.measure for entry in (*paper.numbers, *paper.trends)}
     assert measures <= UNITS.keys() and MODELS[1] == "mean_1ms"
-
-
-def test_runs_are_those_of_section_5():
-    runs = paper_runs(DEFAULT)
-    for name, scene in runs.items():
-        small = "load" in name or name.startswith("10 kN")
-        expected = 1e-5 if small else 1e-4
-        if name.startswith("clearance"):
-            expected = float(name.split()[1]) * 1e-3
-        for joint in scene.joints.with_clearance.values():
-            assert joint.clearance == pytest.approx(expected), name
-        assert bool(scene.load) == ("kN" in name), name
-        assert bool(scene.bodies) == ("rigid" not in name and "ideal" not in name), name
-    assert all(name in runs for names in SWEEPS.values() for name in names)
-    assert runs["500 rpm"].speed_rpm == 500.0
-    assert runs["blanking 40 kN"].load["blanking"].force == 4e4
-    same = runs["200 rpm"].replace({"speed_rpm": 240.0})
-    assert runs["clearance 0.1 mm"] == same
-    assert runs["no load, dry, rigid"].joints["crank_pin"].kind == "dry"
 
 
 def test_the_readings_of_the_damping_differ_in_it_alone():

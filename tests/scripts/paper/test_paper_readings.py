@@ -66,21 +66,6 @@ def test_an_impact_is_spread_over_the_millisecond(ideal):
     assert read["peak_acceleration.differentiated_1khz"] <= 50.01
 
 
-def test_the_frequency_of_an_oscillation_on_top_of_the_ideal_motion(ideal):
-    time = np.linspace(0.0, 0.5, 20001)
-    speed = ideal.scene.angular_speed
-    position, velocity, acceleration = mechanism_of(ideal.scene).ideal_slider(speed * time, speed)
-    rate = 2.0 * math.pi * 40.0
-    run = with_motion(
-        ideal,
-        time,
-        position - 1e-3 / rate * np.cos(rate * time),
-        velocity + 1e-3 * np.sin(rate * time),
-        acceleration + 1e-3 * rate * np.cos(rate * time),
-    )
-    assert readings(run)["oscillation_frequency"] == pytest.approx(40.0, rel=0.02)
-
-
 def test_a_centred_journal_costs_petroffs_power():
     scene = Scene(joints={"crank_pin": "lubricated"}, film={"law": "pinkus"}, revolutions=0.05)
     run = simulate(scene)
@@ -96,9 +81,3 @@ def test_a_touch_of_more_than_a_millisecond_is_permanent_contact(length, lasting
     time = np.linspace(0.0, 0.1, 10001)
     depth = np.where((time > 0.05) & (time < 0.05 + length), 1e-6, -1e-6)
     assert permanent_contact(time, depth) == pytest.approx(length / 0.1 * lasting, rel=0.05)
-
-
-def test_always_apart_and_always_touching():
-    time = np.linspace(0.0, 0.1, 11)
-    assert permanent_contact(time, np.full(11, -1e-6)) == 0.0
-    assert permanent_contact(time, np.full(11, 1e-6)) == pytest.approx(1.0)

@@ -3,9 +3,8 @@
 import pytest
 
 from exu_press import Scene, simulate
-from fe_models import clamped_frequencies, shipped_part
 from paper.readings import readings
-from paper.tasks import COARSER, observe, part_frequencies
+from paper.tasks import observe
 from paper.value import Value
 
 
@@ -28,11 +27,3 @@ def test_a_run_that_stops_has_no_values(tmp_path):
     row = observe({"scene": scene.to_dict(), "save": str(tmp_path / "run.nc")})
     assert row["status"] != "completed" and row["reason"]
     assert row["values"] == {} and (tmp_path / "run.nc").exists()
-
-
-@pytest.mark.long
-def test_frequencies_of_a_finer_mesh_lie_within_the_error():
-    row = part_frequencies({"part": "linkage", "mesh_size": 0.02, "modes": 6})
-    finer = clamped_frequencies(shipped_part("linkage", 0.02 / COARSER), 6)
-    for told, hz in zip(row["values"], finer, strict=True):
-        assert Value(**told).low <= hz <= told["high"]

@@ -2,10 +2,8 @@
 
 import pytest
 
-from exu_press import InputError
 from exu_press.studies.precision import precision
-from exu_press.studies.precision.cases import QUICK
-from precision.cases import cases, chosen
+from precision.cases import chosen
 from precision.peers import left_out
 
 
@@ -37,33 +35,8 @@ def test_peers_are_there_or_left_out_with_a_reason(report):
 
 
 @pytest.mark.long
-def test_failed_runs_are_shown_with_their_reason(report):
-    for row in report.rows:
-        if row.status != "completed":
-            assert row.reason and row.error_position is None
-
-
-@pytest.mark.long
 def test_references_are_known_ten_times_better_than_what_is_told(report):
     for row in report.rows:
         difference = report.cases[row.case]["reference"]["difference"]
         if row.resolved("error_position") is not None:
             assert row.error_position > 10.0 * difference["position"]
-
-
-def test_every_case_has_its_own_name():
-    names = [case.name for case in cases()]
-    assert len(set(names)) == len(names) >= 8
-
-
-def test_an_unknown_case_is_refused():
-    with pytest.raises(InputError, match="press_lubricated"):
-        chosen(["press"])
-
-
-def test_numbers_of_modes_are_tried_at_the_scenes_own_tolerance():
-    (case,) = chosen(["press_flexible_modes"])
-    tried = case.attempts(QUICK)
-    assert [attempt.value for attempt in tried] == list(case.modes)
-    assert {attempt.setting for attempt in tried} == {"modes"}
-    assert case.stated(QUICK, case.duration) == []

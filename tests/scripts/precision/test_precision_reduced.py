@@ -39,12 +39,6 @@ def test_rates_equal_those_of_the_independent_model(pin):
         assert rate(1e-5, *x.tolist()) == pytest.approx(other.rate(1e-5, x.tolist()), rel=1e-9)
 
 
-def test_some_of_these_states_touch_and_some_do_not():
-    _, pin = rate_of(scene("dry"))
-    depths = np.array([pin(1e-5, *x.tolist())[3] for x in states("dry")])
-    assert (depths > 0).any() and (depths < 0).any()
-
-
 @pytest.mark.parametrize("angle", [0.0, 40.0, 200.0, -90.0])
 def test_the_start_is_the_ideal_mechanism(angle):
     turned = scene("dry", start_angle_deg=angle)

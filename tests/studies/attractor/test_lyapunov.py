@@ -175,9 +175,9 @@ def stops_after(count):
     return advanced
 
 
-@pytest.mark.parametrize("reached", [0, 9])
+@pytest.mark.parametrize("reached", [0, 6])
 def test_a_motion_that_stops_leaves_what_it_reached(tmp_path, monkeypatch, capsys, reached):
-    """Four orbits: of 9 revolutions too few are in the section, of more there are some."""
+    """Four orbits: of 6 revolutions too few are in the section, of more there are some."""
     monkeypatch.setattr(Orbit, "advance", stops_after(5 * reached))
     scene, out = tmp_path / "film.toml", tmp_path / "out"
     FILM.save(scene)

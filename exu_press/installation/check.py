@@ -33,8 +33,8 @@ class Run:
         name: of the run, in words.
         what: the quantity.
         unit: of it.
-        found: the run's result.
-        wanted: what should.
+        value: the run's result.
+        expected: the right result.
         allowed: largest difference.
         reason: why the run ended early or failed; empty where it did not.
     """
@@ -42,15 +42,15 @@ class Run:
     name: str
     what: str
     unit: str
-    found: float
-    wanted: float
+    value: float
+    expected: float
     allowed: float
     reason: str = ""
 
     @property
     def error(self) -> float:
-        """Distance from the number wanted."""
-        return abs(self.found - self.wanted)
+        """Distance from the expected value."""
+        return abs(self.value - self.expected)
 
     @property
     def ok(self) -> bool:
@@ -89,7 +89,7 @@ def joints_compiled() -> bool:
 
 def runs() -> list[Run]:
     """Run the press with ideal joints and a lubricated slider-crank, half a second together."""
-    return [_attempt("ideal press", _ideal_press), _attempt("lubricated film", _lubricated)]
+    return [_attempt("ideal press", _ideal_press), _attempt("lubricated film", _lubricated_run)]
 
 
 def _attempt(name: str, run: Callable[[], Run]) -> Run:
@@ -123,7 +123,7 @@ def _ideal_press() -> Run:
     )
 
 
-def _lubricated() -> Run:
+def _lubricated_run() -> Run:
     from exu_press import Scene, simulate
 
     scene = Scene.from_dict(

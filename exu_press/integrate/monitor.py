@@ -158,12 +158,12 @@ class Monitor:
         gone = self._time - self._start
         if gone <= 0.0:
             return
-        left = self._progress.left(gone)
-        if left > LONG:
+        time_left = self._progress.time_left(gone)
+        if time_left > LONG:
             self._why_long = None
             step = gone / max(self.steps, 1)
             joint = self._estimate.limiting_joint()
-            self._progress.say(f"about {left:.0f} s left: {why(step, joint)}")
+            self._progress.say(f"about {time_left:.0f} s left: {why(step, joint)}")
 
     def _before_residual(
         self, mbs: exu.MainSystem, end: float, iteration: int, discontinuous: int

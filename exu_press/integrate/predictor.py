@@ -95,9 +95,9 @@ class Predictor:
             position, velocity, change = positions[i], velocities[i], expected[i]
             positions[i] = position + by_q * change
             velocities[i] = velocity + by_v * change
-        self._positions.set(positions)
-        self._velocities.set(velocities)
-        self._accelerations.set(expected)
+        self._positions.assign(positions)
+        self._velocities.assign(velocities)
+        self._accelerations.assign(expected)
         if len(self._multipliers):
             self._multipliers[:] = self._multipliers_before
 

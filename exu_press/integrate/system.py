@@ -195,9 +195,9 @@ class System:
         return len(now.positions) + len(now.first_order) + len(now.multipliers)
 
     @property
-    def lubricated(self) -> bool:
+    def has_film(self) -> bool:
         """Whether there is a film."""
-        return self.joints is not None and self.joints.lubricated
+        return self.joints is not None and self.joints.has_film
 
 
 def modal_item(mbs: exu.MainSystem) -> int | None:

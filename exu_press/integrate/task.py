@@ -177,9 +177,9 @@ class Task:
         room = 10.0 * self.smallest  # to repeat a first step in
         if self.fixed:
             self.smallest = largest / MOST_HALVED
-            self.first = max(2.0 * self.smallest, room) if system.lubricated else largest
+            self.first = max(2.0 * self.smallest, room) if system.has_film else largest
         else:
-            fraction = tuning.first_step_of_film if system.lubricated else tuning.first_step
+            fraction = tuning.first_step_of_film if system.has_film else tuning.first_step
             usual = max(fraction * largest, room)
             self.first = max(integration.initialStepSize or usual, self.smallest)
         self.first = min(self.first, largest)

@@ -38,7 +38,7 @@ class Advice:
         """The key that makes steps larger or smaller."""
         return "tolerance" if self.by_tolerance else "step"
 
-    def place(self, time: float) -> str:
+    def location(self, time: float) -> str:
         """Return where the run was at a time, s."""
         return f"at t = {time:.6g} s"
 
@@ -155,13 +155,13 @@ def termination(
         if worst is None:
             return SolverStatus.COMPLETED, ""
         return SolverStatus.UNDER_RESOLVED, (
-            f"under-resolved {advice.place(worst.time)}: {worst.jump:.0%} of the largest inertia "
-            f"force ({system.nodes[worst.node].name}) within a step of {worst.step:.2g} s; peaks "
-            f"are the step's; try {advice.resolution(worst)}"
+            f"under-resolved {advice.location(worst.time)}: {worst.jump:.0%} of the largest "
+            f"inertia force ({system.nodes[worst.node].name}) within a step of {worst.step:.2g} s; "
+            f"peaks are the step's; try {advice.resolution(worst)}"
         )
     if monitor.stalled:
         return SolverStatus.STALLED, monitor.stalled
-    where = advice.place(time)
+    where = advice.location(time)
     if monitor.interrupted:
         return SolverStatus.INTERRUPTED, f"interrupted {where}"
     if not monitor.go_on:

@@ -50,7 +50,7 @@ class VariableStepCorrection:
         """Watch the steps of a system that has these constraints."""
         system = task.system
         self._smooth = system.joints is None  # and steps change seldom
-        self._film_waits = system.lubricated
+        self._film_waits = system.has_film
         self._refit, self._look_ahead = task.tuning.refit, task.tuning.look_ahead
         self._task, self._solver, self._constraints = task, task.solver, constraints
         self._data, self._current, self._at_start = system.data, system.current, system.start
@@ -155,7 +155,7 @@ class VariableStepCorrection:
         for state, there in ((self._now, now), (self._before, at_start)):
             for k in range(3):
                 values, part = shifted[k], by[k]
-                state[k].set(
+                state[k].assign(
                     [
                         values[i] + part * (algorithmic[i] - there[i])
                         for i in range(len(algorithmic))

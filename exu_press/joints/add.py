@@ -27,7 +27,7 @@ from exu_press.laws.film.plane_pad import plane_pad
 from exu_press.laws.friction import Friction, LuGre, no_friction
 
 if TYPE_CHECKING:
-    from exu_press.joints.worn import Worn
+    from exu_press.joints.worn import WornSurfaces
 
 __all__ = [
     "add_dry_revolute",
@@ -408,7 +408,7 @@ def add_revolute(
     interfaces: Sequence[InterfaceLaw],
     *,
     axis: Sequence[float] = (0, 0, 1),
-    worn: "Worn | None" = None,
+    worn: "WornSurfaces | None" = None,
 ) -> ClearanceJoint:
     """Put a revolute joint of interface laws between two bodies: your own, or several in parallel.
 

@@ -528,15 +528,15 @@ class InterfaceJoint:
         e, e_dot, v_t, w_j, w_b = self._motion
         interface = self.interfaces[i]
         partials = interface.partials(load[4], e, w_j, w_b)
-        before = self._loads_before[i]
-        if not interface.needs_secant or before is None:
+        previous = self._loads_before[i]
+        if not interface.needs_secant or previous is None:
             return partials
         e_0, e_dot_0, v_t_0, w_j0, w_b0 = self._motion_before
         (n_e, n_r, n_v, n_wj, n_wb), (t_e, t_r, t_v, t_wj, t_wb) = partials
         r, v = e_dot_0 - e_dot, v_t_0 - v_t
         d_e, d_j, d_b = e_0 - e, w_j0 - w_j, w_b0 - w_b
-        n_rest = before[0] - load[0] - n_e * d_e - n_r * r - n_v * v - n_wj * d_j - n_wb * d_b
-        t_rest = before[1] - load[1] - t_e * d_e - t_r * r - t_v * v - t_wj * d_j - t_wb * d_b
+        n_rest = previous[0] - load[0] - n_e * d_e - n_r * r - n_v * v - n_wj * d_j - n_wb * d_b
+        t_rest = previous[1] - load[1] - t_e * d_e - t_r * r - t_v * v - t_wj * d_j - t_wb * d_b
         square = r * r + v * v
         size = n_r * n_r + n_v * n_v + t_r * t_r + t_v * t_v
         # a larger correction, or none that is a number, means that the two states lie apart

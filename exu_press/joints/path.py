@@ -48,8 +48,8 @@ class Path:
 
     def memory(self) -> list[Any]:
         """Return its memory."""
-        parts = self.eccentricity, self.velocity, self.acceleration
-        return [self.drift, *(list(part) for part in parts)]
+        vectors = self.eccentricity, self.velocity, self.acceleration
+        return [self.drift, *(list(vector) for vector in vectors)]
 
     def recall(self, memory: list[Any]) -> None:
         """Take over another's memory."""
@@ -57,18 +57,20 @@ class Path:
         self.eccentricity, self.velocity = tuple(memory[1]), tuple(memory[2])
         self.acceleration = tuple(memory[3])
 
-    def missed(self, eccentricity: Vector, velocity: Vector, step: float) -> tuple[float, float]:
-        """Return the error of a step's (s) change of eccentricity, and its part along it, m."""
+    def quadrature_error(
+        self, eccentricity: Vector, velocity: Vector, step: float
+    ) -> tuple[float, float]:
+        """Return the error of a step's (s) change of eccentricity: its size and radial part, m."""
         half, twelfth = 0.5 * step, step / 12.0
-        start, last, before = self.eccentricity, self.velocity, self.acceleration
+        start, last, acceleration = self.eccentricity, self.velocity, self.acceleration
         square = along = distance = 0.0
         for i in range(len(start)):
             change = half * (velocity[i] + last[i])
-            if before:
-                change -= twelfth * (velocity[i] - last[i] - step * before[i])
-            missed = eccentricity[i] - start[i] - change
-            square += missed * missed
-            along += missed * eccentricity[i]
+            if acceleration:
+                change -= twelfth * (velocity[i] - last[i] - step * acceleration[i])
+            error = eccentricity[i] - start[i] - change
+            square += error * error
+            along += error * eccentricity[i]
             distance += eccentricity[i] * eccentricity[i]
         return math.sqrt(square), along / math.sqrt(distance) if distance > 0.0 else 0.0
 
@@ -88,8 +90,8 @@ class Path:
         if depth <= 0.0 or memory <= 0.0:
             self.drift = 0.0
         elif self.acceleration:
-            missed = self.missed(eccentricity, velocity, step)[1]
-            drift = math.exp(-step / memory) * (self.drift + missed)
+            error = self.quadrature_error(eccentricity, velocity, step)[1]
+            drift = math.exp(-step / memory) * (self.drift + error)
             if abs(drift) < SMALL_DRIFT * depth:
                 self.drift = drift
         if self.eccentricity and step > 0.0:

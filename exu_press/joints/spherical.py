@@ -209,11 +209,11 @@ class SpatialSpherical:
         """Return the energy that bristles took up in the last step at its mean normal force, J."""
         if not isinstance(self._friction, LuGre):
             return 0.0
-        before, after = (
+        start, end = (
             self._friction.stored_energy(float(np.linalg.norm(z)))
             for z in (self._bristle, self._next_bristle)
         )
-        return 0.5 * (self._normal + self._normal_before) * (after - before)
+        return 0.5 * (self._normal + self._normal_before) * (end - start)
 
     def _power_of_bristles(self) -> float:
         """Return the rate of the bristles' energy, W."""

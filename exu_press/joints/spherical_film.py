@@ -35,12 +35,12 @@ class SphericalFilm:
         self.force: Array = np.zeros(3)
         self.moments: Array = np.zeros((2, 3))
         self._apart = self._swept = np.zeros(3)
-        self._before: tuple[Array, Array, Array] | None = None
+        self._previous: tuple[Array, Array, Array] | None = None
         self._started = False
 
     def reset(self) -> None:
         """Forget everything."""
-        self._before, self._started = None, False
+        self._previous, self._started = None, False
 
     def move(self, e: float, n: Array, relative: Array, omegas: Array) -> None:
         """Go to a state.
@@ -52,7 +52,7 @@ class SphericalFilm:
             omegas: (6,), angular velocities of ball and socket, rad/s.
         """
         c, p = self._clearance, self._scale
-        self._before = (self._apart, self._swept, self.force) if self._started else None
+        self._previous = (self._apart, self._swept, self.force) if self._started else None
         self._started = True
         self._e, self._n, self._apart = e, n, e * n
         self._mean, self._spin = 0.5 * (omegas[:3] + omegas[3:]), omegas[:3] - omegas[3:]
@@ -125,9 +125,9 @@ class SphericalFilm:
 
         As `InterfaceJoint` has it, and for the same reason.
         """
-        if self._before is None:
+        if self._previous is None:
             return by_swept
-        apart, swept, force = self._before
+        apart, swept, force = self._previous
         change = swept - self._swept
         rest = force - self.force - by_e @ (apart - self._apart) - by_swept @ change
         square = float(change @ change)

@@ -54,7 +54,7 @@ class UserForceElement:
         self._last: tuple[Any, Any] = None, None
         self._time = 0.0  # of it, s
         self._idle: list[list[float]] = []
-        self._kept: NDArray[np.intp] | None = None
+        self._moving_entries: NDArray[np.intp] | None = None
         self._triplets: NDArray[np.float64] = np.zeros((0, 3))
         self._pack = Struct("").pack
         self._matrix = exu.MatrixContainer()
@@ -89,7 +89,7 @@ class UserForceElement:
         self._idle = [[0.0] * len(joint.indices) ** 2 for joint in self.joints]
         self._pack = Struct(f"{len(entries)}d").pack
         moving = [i for i, (row, column) in enumerate(entries) if row >= 0 and column >= 0]
-        self._kept = (
+        self._moving_entries = (
             np.array(moving) if len(moving) < len(entries) else None
         )  # all but the ground's
         self._triplets = np.zeros((len(moving), 3))
@@ -183,7 +183,7 @@ class UserForceElement:
         return f"clearance joint {self.joints.index(joint)}"
 
     @property
-    def lubricated(self) -> bool:
+    def has_film(self) -> bool:
         """Return whether any joint has a film."""
         return any(joint.lubricated for joint in self.joints)
 
@@ -299,7 +299,9 @@ class UserForceElement:
             else:
                 values += block.tolist()
         weights = np.frombuffer(self._pack(*values))  # a third of the time of np.array(values)
-        self._triplets[:, 2] = weights if self._kept is None else weights[self._kept]
+        self._triplets[:, 2] = (
+            weights if self._moving_entries is None else weights[self._moving_entries]
+        )
         self._matrix.SetWithSparseMatrix(self._triplets, self.size, self.size)
         return self._matrix
 

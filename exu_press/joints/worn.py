@@ -27,7 +27,7 @@ from exu_press.joints.planar import PlanarEnd, PlanarJoint
 from exu_press.laws.profile import Profile
 from exu_press.numerics.arrays import Array
 
-__all__ = ["Worn", "WornJoint"]
+__all__ = ["WornJoint", "WornSurfaces"]
 
 EXACT = 1e-13
 """rad: to which the place of contact is found."""
@@ -42,7 +42,7 @@ w_B''."""
 
 
 @dataclass(frozen=True)
-class Worn:
+class WornSurfaces:
     """Depths worn off a joint's surfaces, less the mean, which is in its clearance.
 
     Attributes:
@@ -65,7 +65,11 @@ class WornJoint(PlanarJoint):
     """
 
     def __init__(
-        self, journal: PlanarEnd, bearing: PlanarEnd, interfaces: Sequence[InterfaceLaw], worn: Worn
+        self,
+        journal: PlanarEnd,
+        bearing: PlanarEnd,
+        interfaces: Sequence[InterfaceLaw],
+        worn: WornSurfaces,
     ) -> None:
         """Join the two ends by interfaces of the mean clearance."""
         super().__init__(journal, bearing, interfaces)
@@ -93,7 +97,7 @@ class WornJoint(PlanarJoint):
         self._facing = self._local(atan2(y, x), turned_j, turned_b)
         gap = self.clearance + self._facing[2] - e
         if self._dry:
-            self._touched = t = self._place(x, y, turned_j, turned_b)
+            self._touched = t = self._contact_direction(x, y, turned_j, turned_b)
             beside = x * t[0] + y * t[1]
             gap = self.clearance + t[2] - beside
             self.contact_onset = self._round + (e - beside) + t[2]
@@ -138,11 +142,11 @@ class WornJoint(PlanarJoint):
 
     def _local(self, angle: float, turned_j: float, turned_b: float) -> Local:
         """Return the direction of an angle and the wear there."""
-        j, j_1, j_2 = self.worn.journal.at(angle - turned_j)
-        b, b_1, b_2 = self.worn.bearing.at(angle - turned_b)
+        j, j_1, j_2 = self.worn.journal.derivatives(angle - turned_j)
+        b, b_1, b_2 = self.worn.bearing.derivatives(angle - turned_b)
         return cos(angle), sin(angle), j + b, j_1, b_1, j_2, b_2
 
-    def _place(self, x: float, y: float, turned_j: float, turned_b: float) -> Local:
+    def _contact_direction(self, x: float, y: float, turned_j: float, turned_b: float) -> Local:
         """Return where the surfaces are nearest to each other, next to the eccentricity."""
         angle = atan2(y, x)
         at = self._facing

@@ -55,17 +55,17 @@ class LoadCurve:
         fraction = (x_value - x[after - 1]) / (x[after] - x[after - 1])
         return f[after - 1] + fraction * (f[after] - f[after - 1])
 
-    def corner_after(self, place: float, close: float = 0.0) -> float:
-        """Return the next point's place, infinity behind the last; points `close` by are left."""
-        within = self._in_period(place)
+    def corner_after(self, x: float, close: float = 0.0) -> float:
+        """Return the next point, infinity after the last; points within `close` are skipped."""
+        within = self._in_period(x)
         after = bisect_right(self._corners, within + close)
-        return place + self._corners[after] - within if after < len(self._corners) else math.inf
+        return x + self._corners[after] - within if after < len(self._corners) else math.inf
 
-    def corner_before(self, place: float, close: float = 0.0) -> float:
-        """Return the point before a place, minus infinity before the first."""
-        within = self._in_period(place)
-        before = bisect_left(self._corners, within - close)
-        return place + self._corners[before - 1] - within if before else -math.inf
+    def corner_before(self, x: float, close: float = 0.0) -> float:
+        """Return the point before, minus infinity before the first."""
+        within = self._in_period(x)
+        index = bisect_left(self._corners, within - close)
+        return x + self._corners[index - 1] - within if index else -math.inf
 
     @property
     def peak(self) -> float:
@@ -81,12 +81,12 @@ class LoadCurve:
         width = self._x[i + 1] - self._x[i]
         return (self._f[i + 1] - self._f[i]) / width if width else 0.0
 
-    def _in_period(self, place: float) -> float:
-        """Return a place in the period that begins with the first point."""
+    def _in_period(self, x: float) -> float:
+        """Return x, in the period that begins with the first point."""
         if self.period is None:
-            return place
+            return x
         first = self.places[0]
-        return first + (place - first) % self.period
+        return first + (x - first) % self.period
 
 
 class PulseClock:
@@ -96,10 +96,10 @@ class PulseClock:
     end is foreseen from the speed at which the pulse begins.
 
     >>> clock = PulseClock(0.2, 3.0, at_end=False, now=2.0, speed=5.0)
-    >>> clock.place(0.0, 2.0, 5.0), clock.place(0.3, 3.5, 5.0)
+    >>> clock.since_begin(0.0, 2.0, 5.0), clock.since_begin(0.3, 3.5, 5.0)
     (-0.2, 0.1)
     >>> clock.accept(0.3, 3.5, 5.0)  # it has begun, and goes on in time
-    >>> round(clock.place(0.35, 3.5, 0.0), 12)
+    >>> round(clock.since_begin(0.35, 3.5, 0.0), 12)
     0.15
     """
 
@@ -122,8 +122,8 @@ class PulseClock:
         )  # of the next pulse
         self._begun: float | None = None
 
-    def place(self, time: float, angle: float, speed: float) -> float:
-        """Return the time since the beginning, s; negative before, minus infinity at rest.
+    def since_begin(self, time: float, angle: float, speed: float) -> float:
+        """Return the time since the pulse began, s; negative before, minus infinity at rest.
 
         Args:
             time: s.
@@ -134,8 +134,8 @@ class PulseClock:
             return time - self._begun
         if speed <= 0.0:
             return -math.inf
-        place = (angle - self._angle) / speed
-        return place + self._duration if self._at_end else place
+        elapsed = (angle - self._angle) / speed
+        return elapsed + self._duration if self._at_end else elapsed
 
     def memory(self) -> tuple[float, float | None]:
         """Return the angle of the next pulse and when the pulse under way began."""
@@ -147,10 +147,10 @@ class PulseClock:
 
     def accept(self, time: float, angle: float, speed: float) -> None:
         """Keep the state at the end of a step."""
-        place = self.place(time, angle, speed)
-        if self._begun is None and place >= 0.0:
-            self._begun = time - place
-        if self._begun is not None and place >= self._duration:
+        elapsed = self.since_begin(time, angle, speed)
+        if self._begun is None and elapsed >= 0.0:
+            self._begun = time - elapsed
+        if self._begun is not None and elapsed >= self._duration:
             self._begun = None
             self._angle += REVOLUTION
 

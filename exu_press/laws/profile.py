@@ -37,11 +37,11 @@ class Profile:
         least = math.inf
         for knot, end in zip(self._knots, ends, strict=True):
             for i in range(FINE):
-                depth, _, bend = self.at(knot + (end - knot) * i / FINE)
+                depth, _, bend = self.derivatives(knot + (end - knot) * i / FINE)
                 least = min(least, depth + bend)
         self.sharpest = least
 
-    def at(self, angle: float) -> tuple[float, float, float]:
+    def derivatives(self, angle: float) -> tuple[float, float, float]:
         """Return w (m), w' and w'' (m/rad, m/rad^2) at an angle (rad); NaN at no number."""
         if not -1e12 < angle < 1e12:
             return math.nan, math.nan, math.nan
@@ -77,9 +77,9 @@ def profile(angles: Sequence[float], depths: Sequence[float], less: float = 0.0)
     Examples
     --------
     >>> dent = profile([0.0, 2.0, 4.0], [1e-5, 0.0, 0.0])
-    >>> [round(value * 1e6, 3) for value in dent.at(2.0 * math.pi)][:1]
+    >>> [round(value * 1e6, 3) for value in dent.derivatives(2.0 * math.pi)][:1]
     [10.0]
-    >>> profile([0.0, 2.0, 4.0], [1e-5, 1e-5, 1e-5]).at(1.0)
+    >>> profile([0.0, 2.0, 4.0], [1e-5, 1e-5, 1e-5]).derivatives(1.0)
     (1e-05, 0.0, 0.0)
     """
     least, most = min(depths), max(depths)

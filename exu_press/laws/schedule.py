@@ -1,4 +1,4 @@
-"""Commands to start and to stop, and what part of clutch and brake follows from them when."""
+"""Commands to start and to stop, and the share of clutch and brake that follows over time."""
 
 import math
 from collections.abc import Sequence
@@ -15,14 +15,14 @@ LONG_AGO = -1e30
 
 @dataclass(frozen=True)
 class Ramp:
-    """A part that grows from 0 to 1, along a line from one place behind a command to another.
+    """A fraction that grows linearly from 0 to 1 after a command.
 
-    >>> [round(Ramp(0.02, 0.06).part(place), 12) for place in (0.0, 0.04, 0.1)]
+    >>> [round(Ramp(0.02, 0.06).fraction(since), 12) for since in (0.0, 0.04, 0.1)]
     [0.0, 0.5, 1.0]
 
     Attributes:
-        begin: s, or rad of the crank, behind the command.
-        end: likewise, behind `begin`.
+        begin: s, or rad of the crank, after the command.
+        end: likewise, after `begin`.
         over_angle: whether these are angles of the crank.
     """
 
@@ -30,8 +30,8 @@ class Ramp:
     end: float
     over_angle: bool = False
 
-    def part(self, since: float) -> float:
-        """Return the part so long behind the command."""
+    def fraction(self, since: float) -> float:
+        """Return the fraction at a time, s, or angle, rad, since the command."""
         return min(1.0, max(0.0, (since - self.begin) / (self.end - self.begin)))
 
 
@@ -48,12 +48,12 @@ class Command:
     angle: float = LONG_AGO
 
     def since(self, ramp: Ramp, time: float, angle: float) -> float:
-        """Return how far behind it a time, s, or angle, rad, is, as the ramp counts."""
+        """Return the time, s, or angle, rad, since the command, as the ramp counts."""
         return angle - self.angle if ramp.over_angle else time - self.time
 
-    def part(self, ramp: Ramp | None, time: float, angle: float) -> float:
-        """Return the part of a ramp behind it at a time and an angle; without a ramp all of it."""
-        return 1.0 if ramp is None else ramp.part(self.since(ramp, time, angle))
+    def fraction(self, ramp: Ramp | None, time: float, angle: float) -> float:
+        """Return a ramp's fraction at a time, s, and an angle, rad; 1 without a ramp."""
+        return 1.0 if ramp is None else ramp.fraction(self.since(ramp, time, angle))
 
 
 class Schedule:
@@ -102,34 +102,34 @@ class Schedule:
         self._start, self._stop = Command(), Command()
 
     def clutch(self, time: float, angle: float) -> float:
-        """Return the part of the clutch's capacity at a time, s, and a crank angle, rad."""
-        engaged = self._start.part(self._clutch_on, time, angle)
+        """Return the fraction of the clutch's capacity at a time, s, and a crank angle, rad."""
+        engaged = self._start.fraction(self._clutch_on, time, angle)
         if self.running:
             return engaged
-        return min(engaged, 1.0 - self._stop.part(self._clutch_off, time, angle))
+        return min(engaged, 1.0 - self._stop.fraction(self._clutch_off, time, angle))
 
     def brake(self, time: float, angle: float) -> float:
-        """Return the part of the brake's capacity at a time, s, and a crank angle, rad."""
+        """Return the fraction of the brake's capacity at a time, s, and a crank angle, rad."""
         if self.running:
-            return 1.0 - self._start.part(self._brake_off, time, angle)
-        return self._stop.part(self._brake_on, time, angle)
+            return 1.0 - self._start.fraction(self._brake_off, time, angle)
+        return self._stop.fraction(self._brake_on, time, angle)
 
-    def engaged(self, time: float, angle: float) -> bool:
-        """Return whether a start has been commanded, and all of the clutch acts."""
+    def is_engaged(self, time: float, angle: float) -> bool:
+        """Return whether a start was commanded and the clutch has its whole capacity."""
         return self.running and self.clutch(time, angle) >= 1.0
 
     def done(self, time: float) -> bool:
-        """Return whether a stop was commanded, and nothing is behind it."""
+        """Return whether a stop was commanded, and no start follows it."""
         return not self.running and not any(start > time for start in self.starts)
 
     def to_stop_angle(self, angle: float) -> float:
-        """Return the angle until the stop that it commands, rad; infinity where it does not."""
+        """Return the crank angle until the commanded stop angle, rad; infinity without one."""
         if self._stop_angle is None or not self.running or self._stop.angle > LONG_AGO:
             return math.inf
         return self._stop_angle - angle
 
     def corner(self, time: float, angle: float, speed: float) -> float:
-        """Return the next instant at which a part has a corner, s, or infinity.
+        """Return the next instant at which a fraction has a corner, s, or infinity.
 
         Args:
             time: s.
@@ -156,12 +156,14 @@ class Schedule:
 
     def accept(self, time: float, angle: float) -> None:
         """Take the commands that are given until the end of a step, s, at a crank angle, rad."""
-        if self.running and (self._given(self.stops, time) or self.to_stop_angle(angle) <= NEAR):
+        if self.running and (
+            self._is_commanded(self.stops, time) or self.to_stop_angle(angle) <= NEAR
+        ):
             self.running, self._stop = False, Command(time, angle)
-        elif not self.running and self._given(self.starts, time):
+        elif not self.running and self._is_commanded(self.starts, time):
             self.running, self._start = True, Command(time, angle)
 
-    def _given(self, commands: Sequence[float], time: float) -> bool:
+    def _is_commanded(self, commands: Sequence[float], time: float) -> bool:
         """Return whether a command has been given since the last one, until a time, s."""
         last = max(self._start.time, self._stop.time)
         return any(last < command <= time * (1.0 + 1e-12) for command in commands)

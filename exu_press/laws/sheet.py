@@ -6,7 +6,7 @@ from typing import Literal
 
 from exu_press.laws.load_curve import LoadCurve, PulseClock, closing
 
-__all__ = ["SHAPE", "Clock", "Cut", "Sheet", "shear_force"]
+__all__ = ["SHAPE", "Clock", "PunchStroke", "Sheet", "shear_force"]
 
 SHAPE = (0.0, 0.15, 0.5, 1.0), (0.0, 0.8, 1.0, 0.95)
 """Penetration over that at fracture, and force over the largest one, of the usual curve: elastic
@@ -94,7 +94,7 @@ class Sheet:
         return self.stripping * min(1.0, penetration / self.thickness) * closing(rate, self.fade)
 
 
-class Cut:
+class PunchStroke:
     """The stroke of a punch through a sheet, with the state of the sheet.
 
     The penetration decides, not the clock. Up to fracture the force follows the curve at the
@@ -103,7 +103,7 @@ class Cut:
     punch has left the cut one. A run that starts with the punch in the sheet starts with a cut one.
 
     >>> sheet = Sheet(LoadCurve([0.0, 1e-3], [0.0, 4e4]), 2e-3, 1e-3, 0.0, 1e-3)
-    >>> cut = Cut(sheet)
+    >>> cut = PunchStroke(sheet)
     >>> cut.accept(-0.01, -1e-3, 0.1)
     >>> cut.force(0.0, 0.5e-3, 0.1)
     20000.0
@@ -214,5 +214,5 @@ class Cut:
         return (penetration - self._sheet.fracture) / rate if rate > 0.0 else 0.0
 
 
-Clock = PulseClock | Cut
+Clock = PulseClock | PunchStroke
 """The memory of a load from step to step."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["Contacts", "archard", "reached", "worn_after", "worn_by_angle"]
+__all__ = ["Contacts", "accessible_depths", "archard", "worn_after", "worn_by_angle"]
 
 LONGEST = 0.1
 """Depth worn in one part of many strokes, over the overlap of the surfaces."""
@@ -151,15 +151,15 @@ def worn_after(
     cosines = np.cos(angles - contacts.direction[:, None])
     whole, share = np.divmod(contacts.turned * count / (2.0 * np.pi), 1.0)
     on_journal = (np.arange(count) - whole[:, None].astype(int)) % count
-    before, share = (on_journal - 1) % count, share[:, None]
+    previous, share = (on_journal - 1) % count, share[:, None]
     journal, bearing = journal.copy(), bearing.copy()
     for _ in range(parts):
-        gap = clearance + bearing + (1.0 - share) * journal[on_journal] + share * journal[before]
+        gap = clearance + bearing + (1.0 - share) * journal[on_journal] + share * journal[previous]
         pressed = np.maximum(_eccentricity(cosines, gap, spread * overlap) * cosines - gap, 0.0)
         worn = depth / spread * pressed
         bearing += worn.sum(axis=0)
         journal += np.bincount(on_journal.ravel(), ((1.0 - share) * worn).ravel(), count)
-        journal += np.bincount(before.ravel(), (share * worn).ravel(), count)
+        journal += np.bincount(previous.ravel(), (share * worn).ravel(), count)
     return journal, bearing
 
 
@@ -182,7 +182,7 @@ def _eccentricity(cosines: Array, gap: Array, overlap: Array) -> Array:
     return np.asarray(eccentricity)
 
 
-def reached(depths: Array, clearance: float, least: float = LEAST) -> Array:
+def accessible_depths(depths: Array, clearance: float, least: float = LEAST) -> Array:
     r"""Return depths that a journal can follow, from depths worn off around a surface.
 
     The depths are smoothed by Jackson's kernel, which has no negative weights, and drawn towards
@@ -206,7 +206,7 @@ def reached(depths: Array, clearance: float, least: float = LEAST) -> Array:
 
     Examples
     --------
-    >>> even = reached(np.full(72, 1e-5), 5e-5)
+    >>> even = accessible_depths(np.full(72, 1e-5), 5e-5)
     >>> bool(np.allclose(even, 1e-5, rtol=1e-12))
     True
 
@@ -222,8 +222,8 @@ def reached(depths: Array, clearance: float, least: float = LEAST) -> Array:
     for degree in range(1, count // 2):
         smooth = spectrum * _jackson(degree, len(spectrum))
         sharpest = -float(np.fft.irfft(smooth * (1.0 - order**2), count).min())
-        part = min(1.0, room / sharpest) if sharpest > 0.0 else 1.0
-        shape = mean + part * np.fft.irfft(smooth, count)
+        fraction = min(1.0, room / sharpest) if sharpest > 0.0 else 1.0
+        shape = mean + fraction * np.fft.irfft(smooth, count)
         change = float(((shape - depths) ** 2).sum())
         if change < smallest:
             nearest, smallest = shape, change

@@ -14,7 +14,7 @@ from exu_press.scene.joint import LooseJoint, unworn
 from exu_press.scene.laws import ball_film, contact_law, film_law, film_scale_of, friction_law
 
 if TYPE_CHECKING:
-    from exu_press.joints.worn import Worn as WornSurfaces
+    from exu_press.joints.worn import WornSurfaces
 
 __all__ = ["add_clearance_joint", "interfaces_of"]
 
@@ -71,13 +71,13 @@ def _worn(system: System, joint: Joint, kind: DryJoint | LubricatedJoint) -> "Wo
     profiles = None if kind.worn is None else kind.worn.profiles()
     if profiles is None:
         return None
-    from exu_press.joints.worn import Worn
+    from exu_press.joints.worn import WornSurfaces
 
     turned = [
         0.0 if body == GROUND else system.rigid[body].turned
         for body in (joint.journal, joint.bearing)
     ]
-    return Worn(*profiles, *turned)
+    return WornSurfaces(*profiles, *turned)
 
 
 def _end(system: System, joint: Joint, body: str, point: Point) -> Any:

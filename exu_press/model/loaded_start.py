@@ -252,7 +252,7 @@ class _Instant:
             n = wanted[k] / size
             angle, depth, slope = math.atan2(n[1], n[0]), 0.0, 0.0
             for body, shape in zip((joint.journal, joint.bearing), profiles, strict=True):
-                worn, change, _ = shape.at(angle - self._angle[body])
+                worn, change, _ = shape.derivatives(angle - self._angle[body])
                 depth, slope = depth + worn, slope + change
             clearance = unworn(kind).clearance
             if kind.onset is not None and size > clearance - kind.onset:

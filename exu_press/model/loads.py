@@ -9,7 +9,7 @@ import numpy as np
 from exudyn.itemInterface import LoadForceVector
 
 from exu_press.laws.load_curve import PulseClock
-from exu_press.laws.sheet import Cut, Sheet
+from exu_press.laws.sheet import PunchStroke, Sheet
 from exu_press.model.drive import crank_angle_of
 from exu_press.model.system import System
 from exu_press.scene import Scene
@@ -70,7 +70,7 @@ class CuttingLoad(ActingLoad):
     def __init__(self, applied: AppliedLoad, sheet: Sheet, scene: Scene, height: Place) -> None:
         """Let the output, whose height and velocity are read, cut a sheet."""
         super().__init__(applied, scene, self.penetration, height)
-        self.cut = Cut(sheet)
+        self.cut = PunchStroke(sheet)
 
     def penetration(self, time: float) -> tuple[float, float]:
         """Return the penetration into the sheet, m, and its rate, m/s."""
@@ -150,7 +150,7 @@ def _since_the_beginning(system: System, clock: Callable[[float, float], PulseCl
     system.clocks.append((running, lambda time: crank()))
 
     def place(time: float) -> tuple[float, float]:
-        since = running.place(time, *crank())
+        since = running.since_begin(time, *crank())
         return since, 1.0 if since > -math.inf else 0.0
 
     return place

@@ -152,7 +152,7 @@ class Model(Assembled):
         angle, speed = self.crank_angle()
         if self.until is not None and angle >= self.until:
             return ARRIVED
-        driven = start_stop is None or start_stop.schedule.engaged(time, angle)
+        driven = start_stop is None or start_stop.schedule.is_engaged(time, angle)
         if not self.stall(time, speed, driven=driven):
             return ""
         forces = {name: load.force_at_rest(time) for name, load in self.loads.items()}

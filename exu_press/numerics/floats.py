@@ -18,9 +18,9 @@ class Floats:
 
     def get(self) -> list[float]:
         """Return its numbers, (n,)."""
-        found: list[float] = self._array.tolist()
-        return found
+        numbers: list[float] = self._array.tolist()
+        return numbers
 
-    def set(self, values: list[float]) -> None:
+    def assign(self, values: list[float]) -> None:
         """Set its numbers, (n,)."""
         self._pack(self._memory, 0, *values)

@@ -51,9 +51,9 @@ def unbent(x: Array, values: Array) -> Array:
     even = np.pad(change <= VARIES * (about[:-2] + about[2:]), 2, mode="edge")
     smooth = even[:-2] & even[1:-1] & even[2:]
     cube = np.pad(np.diff(second) / (x[3:] - x[:-3]), 1, mode="edge") * smooth
-    left, right = np.append(0.0, second), np.append(second, 0.0)
-    smaller = np.where(np.abs(left) < np.abs(right), left, right) * (left * right > 0.0)
-    square = np.where(smooth, left + cube * np.append(0.0, step[:-1]), smaller)
+    rear, front = np.append(0.0, second), np.append(second, 0.0)
+    smaller = np.where(np.abs(rear) < np.abs(front), rear, front) * (rear * front > 0.0)
+    square = np.where(smooth, rear + cube * np.append(0.0, step[:-1]), smaller)
     if smooth[0]:
         square[0] = second[0] - cube[0] * (x[2] - x[0])
     # chord + u (u - h) (square + cube u), u from the left end of a step of length h

@@ -43,7 +43,7 @@ class Column:
 def study_viewer(
     keys: Sequence[Column],
     quantities: Sequence[Column],
-    told: Sequence[str],
+    commands: Sequence[str],
     first: tuple[str, str] | None = None,
     colour: str = "",
 ) -> Live | None:
@@ -52,7 +52,7 @@ def study_viewer(
     Args:
         keys: that varied.
         quantities: numbers of the runs.
-        told: of each run, the text that opens with its point: how it is run again.
+        commands: for each run, the text that its point opens: how to run it again.
         first: columns of the picture at first, across and up; None: the first key and quantity.
         colour: column that the colours show at first; "": the first key that is not across.
     """
@@ -70,7 +70,7 @@ def study_viewer(
         "across": across,
         "up": up,
         "colour": colour or next((key.name for key in keys if key.name != across), ""),
-        "told": list(told),
+        "told": list(commands),
         **points_and_lines(),
     }
     body = "\n".join([LAYOUT, blocks.html(), data_element("page-data", data)])

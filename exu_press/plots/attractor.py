@@ -21,35 +21,35 @@ ORDERS = 30
 
 
 @with_style
-def attractor_figure(found: Attractor) -> Figure:
+def attractor_figure(motion: Attractor) -> Figure:
     """Return eight panels, of the first joint with clearance and the most scattered figure."""
-    low, high = found.per_second[1:]
+    low, high = motion.per_second[1:]
     exponent = f"in [{low:.3g}, {high:.3g}] 1/s" if np.isfinite(low) else f"below {high:.3g} 1/s"
     exponent = exponent if np.isfinite(high) else "not known"
-    words = f"{describe([found.scene], 160)}\nperiod: {found.period}; largest Lyapunov exponent "
+    words = f"{describe([motion.scene], 160)}\nperiod: {motion.period}; largest Lyapunov exponent "
     words += exponent
     figure = figure_with_title("In the long run", words, (18.0, 8.6))
     panels = figure.subplots(2, 4)
-    loose = next(iter(found.scene.joints.with_clearance), None)
-    if found.points.shape[1] > 1:
+    loose = next(iter(motion.scene.joints.with_clearance), None)
+    if motion.points.shape[1] > 1:
         where = "guideway" if loose is None else loose.replace("_", " ")
-        title = f"section at {found.scene.start_angle_deg:g} deg: {where}"
-        _section(panels[0, 0], found, 1, title, "y / clearance")
+        title = f"section at {motion.scene.start_angle_deg:g} deg: {where}"
+        _section(panels[0, 0], motion, 1, title, "y / clearance")
         title = "section: velocity over position"
-        _section(panels[0, 1], found, 2, title, "its rate / largest speed")
+        _section(panels[0, 1], motion, 2, title, "its rate / largest speed")
     else:  # a motor turns ideal joints
         label = "crank speed on the section / scene's"
-        _by_revolution(panels[0, 0], label, found.points[:, 0], found.skip)
+        _by_revolution(panels[0, 0], label, motion.points[:, 0], motion.skip)
         panels[0, 1].set_axis_off()
-    _portrait(panels[0, 2], found)
-    _transient(panels[0, 3], found)
-    (each,) = spectra(found.last[-1])
-    _frequencies(panels[1, 0], each)
-    _orders(panels[1, 1], each)
-    name, values = max(found.figures.items(), key=lambda one: _scatter(one[1]))
-    label = wrap_text(", ".join(part for part in (in_words(name), found.units[name]) if part))
+    _portrait(panels[0, 2], motion)
+    _transient(panels[0, 3], motion)
+    (slider,) = spectra(motion.last[-1])
+    _frequencies(panels[1, 0], slider)
+    _orders(panels[1, 1], slider)
+    name, values = max(motion.figures.items(), key=lambda item: _scatter(item[1]))
+    label = wrap_text(", ".join(filter(None, (in_words(name), motion.units[name]))))
     _histogram(panels[1, 2], label, values)
-    _by_revolution(panels[1, 3], label, values, found.skip)
+    _by_revolution(panels[1, 3], label, values, motion.skip)
     return figure
 
 
@@ -59,9 +59,9 @@ def _scatter(values: Array) -> float:
     return float(known.std() / max(abs(known.mean()), 1e-300)) if len(known) else 0.0
 
 
-def _section(panel: Axes, found: Attractor, up: int, title: str, label: str) -> None:
+def _section(panel: Axes, motion: Attractor, up: int, title: str, label: str) -> None:
     """Draw a coordinate of the section over the first one, later revolutions brighter."""
-    x, y, error = found.points[:, 0], found.points[:, up], found.error
+    x, y, error = motion.points[:, 0], motion.points[:, up], motion.error
     panel.scatter(x, y, c=np.arange(len(x)), cmap=PATH_COLOURS, s=14)
     for axis, values in ((panel.set_xlim, x), (panel.set_ylim, y)):
         half = max(0.6 * float(np.ptp(values)), 3.0 * error)
@@ -73,39 +73,39 @@ def _section(panel: Axes, found: Attractor, up: int, title: str, label: str) -> 
     panel.set(title=title, xlabel="x / clearance", ylabel=label)
 
 
-def _portrait(panel: Axes, found: Attractor) -> None:
-    for run in found.last:
+def _portrait(panel: Axes, motion: Attractor) -> None:
+    for run in motion.last:
         panel.plot(run["slider_acceleration"], run["slider_velocity"], color=RUN, lw=0.5)
-    ends = [(run["slider_acceleration"][-1], run["slider_velocity"][-1]) for run in found.last]
+    ends = [(run["slider_acceleration"][-1], run["slider_velocity"][-1]) for run in motion.last]
     panel.plot(*zip(*ends, strict=True), "o", color=COLOURS["vermilion"], ms=5, label="section")
-    panel.set_title(f"phase portrait, last {len(found.last)} revolutions")
+    panel.set_title(f"phase portrait, last {len(motion.last)} revolutions")
     panel.set(xlabel=typeset("acceleration, m/s^2"), ylabel="velocity, m/s")
     panel.legend(loc="best")
 
 
-def _transient(panel: Axes, found: Attractor) -> None:
-    panel.semilogy(np.arange(1, len(found.transient) + 1), found.transient, "o-", color=RUN, ms=3)
-    panel.axhline(found.error, color=GREY, ls="--", lw=1.0, label="error")
+def _transient(panel: Axes, motion: Attractor) -> None:
+    panel.semilogy(np.arange(1, len(motion.transient) + 1), motion.transient, "o-", color=RUN, ms=3)
+    panel.axhline(motion.error, color=GREY, ls="--", lw=1.0, label="error")
     panel.set_title("transient: distance from the last point")
     panel.set(xlabel="revolution", ylabel="clearances")
     panel.xaxis.set_major_locator(MaxNLocator(integer=True))
     panel.legend(loc="best")
 
 
-def _frequencies(panel: Axes, each: Spectra) -> None:
-    draw_spectrum(panel, each.over_time, each.unit)
+def _frequencies(panel: Axes, slider: Spectra) -> None:
+    draw_spectrum(panel, slider.over_time, slider.unit)
     panel.set_xscale("log")
-    panel.set_xlim(each.over_time.frequency[0], each.over_time.frequency[-1])
+    panel.set_xlim(slider.over_time.frequency[0], slider.over_time.frequency[-1])
     panel.legend(loc="lower left")
     panel.set_title("spectrum of the slider's acceleration")
     panel.set_xlabel("frequency, Hz")
 
 
-def _orders(panel: Axes, each: Spectra) -> None:
-    one = each.over_angle
-    if one is not None:
-        shown = (one.frequency > 0.5) & (one.frequency <= ORDERS)
-        panel.vlines(one.frequency[shown], 0.0, one.amplitude[shown], color=COLOURS["green"])
+def _orders(panel: Axes, slider: Spectra) -> None:
+    orders = slider.over_angle
+    if orders is not None:
+        drawn = (orders.frequency > 0.5) & (orders.frequency <= ORDERS)
+        panel.vlines(orders.frequency[drawn], 0.0, orders.amplitude[drawn], color=COLOURS["green"])
     panel.set_ylim(bottom=0.0)
     panel.set_xlim(0.0, ORDERS + 0.5)
     panel.set_title(typeset("orders of it, m/s^2"))

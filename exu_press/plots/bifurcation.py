@@ -35,8 +35,8 @@ def bifurcation_figure(report: Report) -> Figure:
     figure = figure_with_title("Bifurcation diagram", text, (9.5, 9.0))
     points, period, exponent = figure.subplots(3, 1, sharex=True, height_ratios=[3.0, 1.2, 1.5])
     handles = []
-    shown, unit = in_unit(study.name, np.array(values))
-    places = dict(zip(values, shown.tolist(), strict=True))
+    positions, unit = in_unit(study.name, np.array(values))
+    places = dict(zip(values, positions.tolist(), strict=True))
     for number, branch in enumerate(report.branches):
         colour, marker = colour_of(number), MARKERS[branch.name]
         handles.append(Line2D([], [], linestyle="", marker=marker, color=colour, label=branch.name))
@@ -50,8 +50,8 @@ def bifurcation_figure(report: Report) -> Figure:
                 np.full(len(section), value), section[:, 0], marker, color=colour, markersize=3,
                 linestyle="", alpha=0.7,
             )  # fmt: skip
-            told = row["period"] if row["told"] else None
-            at = told or study.bifurcation.longest + (1 if row["told"] else 2)
+            known = row["period"] if row["told"] else None
+            at = known or study.bifurcation.longest + (1 if row["told"] else 2)
             period.plot(value, at, marker, color=colour if row["told"] else GREY)
             mean, low, high = row["exponent"]
             exponent.plot(value, mean, marker, color=colour, markersize=4)
@@ -68,10 +68,10 @@ def bifurcation_figure(report: Report) -> Figure:
     points.margins(y=0.1)
     exponent.set_xlabel(plain(label_with_unit(study.name, unit)))
     if len(values) > 2 and values[0] > 0.0 and values[-1] > 10.0 * values[0]:
-        log_axis(exponent, "x", shown)
+        log_axis(exponent, "x", positions)
     else:
-        beside = 0.03 * float(np.ptp(shown)) or 0.05 * abs(float(shown[0])) or 1.0
-        exponent.set_xlim(shown[0] - beside, shown[-1] + beside)
+        beside = 0.03 * float(np.ptp(positions)) or 0.05 * abs(float(positions[0])) or 1.0
+        exponent.set_xlim(positions[0] - beside, positions[-1] + beside)
     return figure
 
 
@@ -96,15 +96,17 @@ def period_map_figure(report: Report) -> Figure:
             if row["status"] == "completed"]  # fmt: skip
     most = max(map(abs, ends), default=0.0) or 1.0
     panels = figure.subplots(len(report.ways), 2, squeeze=False)
-    for row, way in enumerate(report.ways):
-        rows = [branch for branch in report.branches if branch.name == way]
-        ordered = [[one for _, one in sorted(branch, key=lambda at: at[0])] for branch in rows]
+    for row, direction in enumerate(report.ways):
+        rows = [branch for branch in report.branches if branch.name == direction]
+        ordered = [
+            [point for _, point in sorted(branch, key=lambda item: item[0])] for branch in rows
+        ]
         periods, exponents = panels[row]
         _periods(periods, ordered, study.bifurcation.longest)
         exponents_shown = _exponents(exponents, ordered, most)
         figure.colorbar(exponents_shown, ax=exponents, label="exponent per revolution")
         for panel, title in ((periods, "period"), (exponents, "largest exponent")):
-            panel.set_title(f"{title}, {way}")
+            panel.set_title(f"{title}, {direction}")
             panel.grid(visible=False)
             _axis(panel, "x", study.name, np.array(study.values))
             _axis(panel, "y", study.second, np.array(study.seconds, dtype=float))
@@ -115,7 +117,7 @@ def _periods(panel: Axes, rows: list[list[Row]], longest: int) -> None:
     """Draw each period in its colour, with its number; "-" is none, "?" not told, "x" failed."""
     colours = [*PATH_COLOURS(np.linspace(0.25, 1.0, longest)), COLOURS["vermilion"], "w", SHADE]
     signs = [*map(str, range(1, longest + 1)), "-", "?", "x"]
-    numbers = np.array([[_place(row, longest) for row in line] for line in rows])
+    numbers = np.array([[_colour_index(row, longest) for row in line] for line in rows])
     panel.imshow(
         numbers, origin="lower", aspect="auto", cmap=ListedColormap(colours),
         vmin=-0.5, vmax=len(colours) - 0.5,
@@ -126,11 +128,16 @@ def _periods(panel: Axes, rows: list[list[Row]], longest: int) -> None:
                 x, y, signs[number], ha="center", va="center",
                 bbox={"facecolor": "w", "edgecolor": "none", "alpha": 0.7, "pad": 2.0},
             )  # fmt: skip
-    told = [*(f"{n + 1}" for n in range(longest)), f"none up to {longest}", "not told", "failed"]
+    meanings = [
+        *(f"{n + 1}" for n in range(longest)),
+        f"none up to {longest}",
+        "not told",
+        "failed",
+    ]
     there = sorted(set(numbers.ravel().tolist()))
     handles = [
-        Patch(facecolor=colours[n], edgecolor="k", label=f"{signs[n]}: {told[n]}" if n >= longest
-              else told[n], linewidth=0.4)
+        Patch(facecolor=colours[n], edgecolor="k", label=f"{signs[n]}: {meanings[n]}"
+              if n >= longest else meanings[n], linewidth=0.4)
         for n in there
     ]  # fmt: skip
     panel.legend(
@@ -138,8 +145,8 @@ def _periods(panel: Axes, rows: list[list[Row]], longest: int) -> None:
     )
 
 
-def _place(row: Row, longest: int) -> int:
-    """Return which colour a run has."""
+def _colour_index(row: Row, longest: int) -> int:
+    """Return the index of a run's colour."""
     if row["status"] != "completed":
         return longest + 2
     if not row["told"]:
@@ -149,13 +156,13 @@ def _place(row: Row, longest: int) -> int:
 
 def _exponents(panel: Axes, rows: list[list[Row]], most: float) -> AxesImage:
     """Draw the upper end of each exponent: red is chaos."""
-    found: Array = np.array(
+    exponents: Array = np.array(
         [[row["exponent"][2] if row["status"] == "completed" else np.nan for row in line]
          for line in rows]
     )  # fmt: skip
     panel.set_facecolor(SHADE)
     return panel.imshow(
-        found, origin="lower", aspect="auto", cmap="RdBu_r", norm=TwoSlopeNorm(0.0, -most, most)
+        exponents, origin="lower", aspect="auto", cmap="RdBu_r", norm=TwoSlopeNorm(0.0, -most, most)
     )
 
 

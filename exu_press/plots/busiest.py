@@ -106,8 +106,8 @@ def mirror(channel: str) -> str:
     >>> mirror("ball_left_force"), mirror("crank_pin_force")
     ('ball_right_force', 'crank_pin_force')
     """
-    left, right = (f"_{side}_" for side in SIDES)
-    return channel.replace(left, right) if left in channel else channel.replace(right, left)
+    first, second = (f"_{side}_" for side in SIDES)
+    return channel.replace(first, second) if first in channel else channel.replace(second, first)
 
 
 def sides_alike(results: Iterable[Result], channel: str) -> bool:

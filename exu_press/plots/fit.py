@@ -36,8 +36,8 @@ def fit_figure(report: Report) -> Figure:
         first = axes.pop(0)
         places = np.arange(number)[::-1]
         residuals = [
-            (computed - (one.value or 0.0)) / (one.uncertainty or 1.0)
-            for one, computed in zip(study.measured, report.numbers, strict=True)
+            (computed - (entry.value or 0.0)) / (entry.uncertainty or 1.0)
+            for entry, computed in zip(study.measured, report.numbers, strict=True)
         ]
         first.axvspan(-2.0, 2.0, color=SHADE, zorder=0)
         first.axvline(0.0, color="black", linewidth=0.8)
@@ -45,15 +45,15 @@ def fit_figure(report: Report) -> Figure:
             residuals, places, xerr=report.errors[:number], fmt="o", color=COLOURS["blue"],
             markersize=5, elinewidth=1.2,
         )  # fmt: skip
-        first.set_yticks(places, [plain(one.name) for one in study.measured])
+        first.set_yticks(places, [plain(entry.name) for entry in study.measured])
         first.set_ylim(-0.6, number - 0.4)
         most = max(3.0, 1.15 * max(map(abs, residuals)))
         first.set_xlim(-most, most)
         first.set_title("Numbers")
         first.set_xlabel("(computed - measured) / uncertainty; bars: error of the run")
-    for panel, one, (wanted, told) in zip(axes, study.curve, report.curves, strict=True):
-        computed = {"computed, through the sensor": told.values}
-        curve_panel(panel, one.name, one.read, wanted, computed, told.unit)
+    for panel, entry, (measured, model) in zip(axes, study.curve, report.curves, strict=True):
+        computed = {"computed, through the sensor": model.values}
+        curve_panel(panel, entry.name, entry.read, measured, computed, model.unit)
     return figure
 
 
@@ -84,8 +84,8 @@ def profiles_figure(report: Report) -> Figure:
         for end in (report.low[name], report.high[name]):
             panel.axvline(end * scale, color=GREY, linewidth=1.0, linestyle="--")
         panel.axvline(best, color="black", linewidth=0.8)
-        each = report.study.keys[name]
-        if isinstance(each, Range) and each.log and dense[-1] > 4.0 * dense[0]:
+        varied = report.study.keys[name]
+        if isinstance(varied, Range) and varied.log and dense[-1] > 4.0 * dense[0]:
             log_axis(panel, "x", dense)
         else:
             beside = 0.05 * (dense[-1] - dense[0])

@@ -165,7 +165,7 @@ def _rubbing_steps(result: Result, joint: str) -> Iterator[_Steps]:
 def _sample_profile(shape: Profile) -> tuple[Array, Array]:
     """Return a profile in steps of half a degree."""
     angles = [2.0 * np.pi * i / 720 for i in range(720)]
-    return np.array(angles), np.array([shape.at(angle)[0] for angle in angles])
+    return np.array(angles), np.array([shape.derivatives(angle)[0] for angle in angles])
 
 
 def guideway_depths(result: Result, body: str) -> Array:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exu_press.laws.load_curve import LoadCurve, PulseClock, closing
-from exu_press.laws.sheet import Cut, Sheet
+from exu_press.laws.sheet import PunchStroke, Sheet
 from exu_press.mechanism import Point
 from exu_press.numerics.arrays import Array
 from exu_press.scene.load import Load
@@ -126,7 +126,7 @@ def _since(
     if memory is not None:
         running.recall(memory)
     for state in zip(time.tolist(), angle.tolist(), speed.tolist(), strict=True):
-        places.append(running.place(*state))
+        places.append(running.since_begin(*state))
         running.accept(*state)
     return np.array(places)
 
@@ -138,7 +138,7 @@ def _cutting(
     rate: Array,
     memory: tuple[float, float | None] | None,
 ) -> Array:
-    running = Cut(sheet)
+    running = PunchStroke(sheet)
     forces: list[float] = []
     if memory is not None:
         running.recall(memory)

@@ -38,7 +38,7 @@ class Spectrum:
     resolution: float
     cells: int
 
-    def scaled(self, rate: float) -> "Spectrum":
+    def rescale(self, rate: float) -> "Spectrum":
         """Return the spectrum over another x, of which one is `rate` of this one's unit."""
         return replace(self, frequency=rate * self.frequency, resolution=rate * self.resolution)
 

@@ -45,20 +45,20 @@ class SceneAdvice(Advice):
         """The keys that make steps larger or smaller."""
         return f"solver.{super().setting}"
 
-    def place(self, time: float) -> str:
+    def location(self, time: float) -> str:
         """Return time and crank angle."""
         scene = self._scene
         if scene.drive is not None:  # the angle is not known from the time
-            return super().place(time)
+            return super().location(time)
         degrees = math.degrees(scene.start_angle + scene.angular_speed * time) % 360.0
-        return f"{super().place(time)}, crank angle {degrees:.2f} deg"
+        return f"{super().location(time)}, crank angle {degrees:.2f} deg"
 
     def joint(self, joint: ClearanceJoint) -> str:
         """Return a joint's name."""
         for body, ends in self._model.guideways.items():
             if joint in ends:
                 return f"{body}'s guide"
-        return next(n for n, other in self._model.clearance_joints.items() if other is joint)
+        return next(n for n, own in self._model.clearance_joints.items() if own is joint)
 
     def film(self) -> str:
         """Return the cure of a film that broke down."""
@@ -170,8 +170,8 @@ def leapt_over_load(model: Assembled) -> str:
         return ""
     advice = SceneAdvice(model, System.of(model.mbs, None), False)
     return (
-        f"under-resolved {advice.place(begin)}: steps of {solver.step:.2g} s in load.{name} with "
-        f"an edge of {shortest:.2g} s; peaks are the step's; try solver.step = "
+        f"under-resolved {advice.location(begin)}: steps of {solver.step:.2g} s in load.{name} "
+        f"with an edge of {shortest:.2g} s; peaks are the step's; try solver.step = "
         f"{_rounded_down(shortest / STEPS_IN_AN_EDGE):.0e}"
     )
 

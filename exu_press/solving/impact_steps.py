@@ -57,16 +57,16 @@ def _rise_time(contact: NormalContact, mass: float, speed: float) -> float:
     def motion(_time: float, state: Array) -> list[float]:
         return [state[1], -contact.force(state[0], state[1], speed)[0] / mass]
 
-    def stopped(_time: float, state: Array) -> float:
+    def deepest_penetration(_time: float, state: Array) -> float:
         return float(state[1])
 
-    stopped.terminal = True  # type: ignore[attr-defined]
+    deepest_penetration.terminal = True  # type: ignore[attr-defined]
     impact = solve_ivp(
         motion,
         (0.0, 1.0),
         (0.0, speed),
         "LSODA",
-        events=stopped,
+        events=deepest_penetration,
         rtol=1e-6,
         atol=(1e-15, 1e-9 * speed),
     )

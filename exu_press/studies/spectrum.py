@@ -177,7 +177,7 @@ def _spectra(result: Result, name: str, window: str | None) -> Spectra:
     period = float(time[-1] - time[0]) / abs(float(turns[-1]))
     by_revolutions = window is None and result.scene.drive is None
     if by_revolutions and over_angle is not None:
-        over_time = over_angle.scaled(1.0 / period)
+        over_time = over_angle.rescale(1.0 / period)
     else:
         over_time = amplitude_spectrum(time, values, window=window or "flattop", cells=cells)
     lobe = over_time.resolution * float(time[-1] - time[0])

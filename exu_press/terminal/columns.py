@@ -21,8 +21,8 @@ def columns(rows: Iterable[Sequence[str]], indent: int = 0, *, right: bool = Fal
     return [
         " " * indent
         + "  ".join(
-            cell.rjust(width) if right and place else cell.ljust(width)
-            for place, (cell, width) in enumerate(zip(row, widths, strict=True))
+            cell.rjust(width) if right and column else cell.ljust(width)
+            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
         ).rstrip()
         for row in cells
     ]

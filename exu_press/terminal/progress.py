@@ -70,15 +70,15 @@ class Progress(AbstractContextManager["Progress", None]):
                 self._last_line = now
                 print(
                     f"{self._label}: {100 * done / self._total:.0f} % of "
-                    f"{self._total:.3g} {self._unit}, {self.left(done):.0f} s left",
+                    f"{self._total:.3g} {self._unit}, {self.time_left(done):.0f} s left",
                     file=self._stream,
                     flush=True,
                 )
 
-    def left(self, done: float) -> float:
-        """Return how long it takes from here, s, where so much is done."""
+    def time_left(self, done: float) -> float:
+        """Return the estimated time until the end, s, where `done` is done."""
         if self._part_of is not None:
-            return self._part_of.left(self._begun + done)
+            return self._part_of.time_left(self._begun + done)
         return (time.monotonic() - self._start) * (self._total / done - 1.0)
 
     def say(self, text: str) -> None:

@@ -28,7 +28,7 @@ KEPT_COLOURS = [
     *COLOURS.values(),
     *BODIES.values(),
     *(SURFACES(level) for level in np.linspace(0.0, 1.0, 64)),
-    *(tuple(0.8 * part for part in SURFACES(level)[:3]) for level in np.linspace(0.0, 1.0, 48)),
+    *(tuple(0.8 * rgb for rgb in SURFACES(level)[:3]) for level in np.linspace(0.0, 1.0, 48)),
 ]
 """Colours that a GIF has exactly, whether the first frame shows them or not."""
 

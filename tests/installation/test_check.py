@@ -37,7 +37,7 @@ def test_the_allowed_error_is_far_below_what_a_film_does():
 
 def test_a_wrong_number_is_status_1(monkeypatch, capsys):
     sound = check.runs()
-    wrong = dataclasses.replace(sound[1], found=sound[1].wanted + 2 * sound[1].allowed)
+    wrong = dataclasses.replace(sound[1], value=sound[1].expected + 2 * sound[1].allowed)
     monkeypatch.setattr(check, "runs", lambda: [sound[0], wrong])
     assert main(["doctor"]) == 1
     text = capsys.readouterr().out
@@ -48,7 +48,7 @@ def test_a_run_that_cannot_be_made_is_status_1(monkeypatch, capsys):
     def broken():
         raise ImportError("libsomething.so: cannot open")
 
-    monkeypatch.setattr(check, "_lubricated", broken)
+    monkeypatch.setattr(check, "_lubricated_run", broken)
     assert main(["doctor"]) == 1
     assert "WRONG: lubricated film: ImportError: libsomething.so" in capsys.readouterr().out
 

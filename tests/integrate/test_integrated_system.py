@@ -15,7 +15,7 @@ def test_nodes_come_in_the_order_of_their_coordinates_and_leave_none_out():
     ends = [node.start + node.size for node in system.nodes]
     assert [node.start for node in system.nodes] == [0, *ends[:-1]]
     assert ends[-1] == len(system.current.positions)
-    assert len(system.joints.joints) == 1 and not system.lubricated
+    assert len(system.joints.joints) == 1 and not system.has_film
     assert system.contacts == ()
 
 

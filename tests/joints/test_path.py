@@ -27,12 +27,12 @@ def path_of(motion, steps):
 
 def test_a_way_of_third_degree_is_followed_exactly():
     path = path_of(cubic, 3)
-    assert path.missed(*cubic(3 * STEP), STEP) == pytest.approx((0.0, 0.0), abs=1e-14)
+    assert path.quadrature_error(*cubic(3 * STEP), STEP) == pytest.approx((0.0, 0.0), abs=1e-14)
 
 
 def test_what_is_missed_is_told_with_its_part_along_the_place():
     path = path_of(lambda time: ((3.0, 4.0), (0.0, 0.0)), 3)
-    missed, along = path.missed((3.0, 4.0 + 1e-6), (0.0, 0.0), STEP)
+    missed, along = path.quadrature_error((3.0, 4.0 + 1e-6), (0.0, 0.0), STEP)
     assert missed == pytest.approx(1e-6)
     assert along == pytest.approx(0.8e-6)
 

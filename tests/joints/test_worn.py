@@ -12,7 +12,7 @@ from state_in import state_in
 from exu_press.joints.interface import DryInterface, FilmInterface
 from exu_press.joints.joint import GROUND
 from exu_press.joints.planar import PlanarEnd, PlanarJoint
-from exu_press.joints.worn import Worn, WornJoint
+from exu_press.joints.worn import WornJoint, WornSurfaces
 from exu_press.laws.contact import hertz, hunt_crossley, step_damping
 from exu_press.laws.film import film_scale, finite, with_asperities
 from exu_press.laws.friction import lugre_steady, no_friction
@@ -30,7 +30,7 @@ def shape(depth, at, sharpness=1):
     return depth * np.cos(0.5 * (ANGLES - at)) ** (2 * sharpness)
 
 
-WORN = Worn(
+WORN = WornSurfaces(
     profile(ANGLES, shape(1.5e-5, 0.7), 4e-6),
     profile(ANGLES, shape(2e-5, -0.4, 3), 3e-6),
     0.3,
@@ -89,8 +89,8 @@ def state_of(joint, rng, name):
         e = rng.uniform(0.1, 0.8) * CLEARANCE * np.array([math.cos(angle), math.sin(angle)])
     else:
         deep = 10 ** rng.uniform(-6.0, -5.0) if name != "mixed" else rng.uniform(-8e-6, 5e-6)
-        j, j_1, _ = joint.worn.journal.at(angle - joint._turned_j - q[2])
-        b, b_1, _ = joint.worn.bearing.at(angle - joint._turned_b - q[5])
+        j, j_1, _ = joint.worn.journal.derivatives(angle - joint._turned_j - q[2])
+        b, b_1, _ = joint.worn.bearing.derivatives(angle - joint._turned_b - q[5])
         n = np.array([math.cos(angle), math.sin(angle)])
         e = (joint.clearance + j + b + deep) * n + (j_1 + b_1) * turned(n)
     arm_j, arm_b = arms(joint, q)
@@ -133,8 +133,8 @@ def test_the_place_of_contact_is_the_nearest_one():
         e = np.array(state.eccentricity)
         all_round = [
             e[0] * math.cos(a) + e[1] * math.sin(a)
-            - joint.worn.journal.at(a - joint._turned_j - q[2])[0]
-            - joint.worn.bearing.at(a - joint._turned_b - q[5])[0]
+            - joint.worn.journal.derivatives(a - joint._turned_j - q[2])[0]
+            - joint.worn.bearing.derivatives(a - joint._turned_b - q[5])[0]
             - CLEARANCE
             for a in np.linspace(0.0, 2.0 * np.pi, 721)
         ]  # fmt: skip
@@ -190,7 +190,7 @@ def test_even_wear_is_a_round_joint(name):
     flat = profile(ANGLES, [2e-5] * len(ANGLES), 2e-5)
     for _ in range(30):
         both = ends(rng)
-        worn = WornJoint(*both, KINDS[name](), Worn(flat, flat))
+        worn = WornJoint(*both, KINDS[name](), WornSurfaces(flat, flat))
         q, q_t, _ = state_of(worn, rng, name)
         round_one = PlanarJoint(*both, KINDS[name]())
         found, wanted = forces(worn, q, q_t), forces(round_one, q, q_t)

@@ -59,7 +59,9 @@ def test_a_schedule_keeps_to_its_commands():
     assert (schedule.clutch(0.0, 0.0), schedule.brake(0.0, 0.0)) == (0.0, 1.0)
     assert schedule.corner(0.0, 0.0, 0.0) == 0.5
     schedule.accept(0.5, 0.0)
-    assert schedule.running and not schedule.engaged(0.55, 0.0) and schedule.engaged(0.56, 0.0)
+    assert (
+        schedule.running and not schedule.is_engaged(0.55, 0.0) and schedule.is_engaged(0.56, 0.0)
+    )
     corners, time = [], 0.5
     while time < 1.0:
         time = schedule.corner(time, 0.0, 0.0)

@@ -60,21 +60,23 @@ def test_the_blanking_pulse_is_the_papers_triangle():
 
 def test_a_clock_begins_at_the_angle_and_goes_on_in_time():
     clock = PulseClock(0.2, 3.0, at_end=False, now=0.0, speed=5.0)
-    assert clock.place(0.0, 2.9, 5.0) == pytest.approx(-0.02)
+    assert clock.since_begin(0.0, 2.9, 5.0) == pytest.approx(-0.02)
     clock.accept(0.1, 3.5, 5.0)  # it began within the step, 0.1 s ago
-    assert clock.place(0.15, 3.5, 0.0) == pytest.approx(0.15), "the crank stands, the pulse goes on"
+    assert clock.since_begin(0.15, 3.5, 0.0) == pytest.approx(0.15), (
+        "the crank stands, the pulse goes on"
+    )
     clock.accept(0.25, 3.6, 5.0)
-    assert clock.place(0.25, 3.6, 5.0) == pytest.approx((3.6 - 3.0 - 2.0 * math.pi) / 5.0)
-    assert clock.place(0.25, 3.6, 0.0) == -math.inf
+    assert clock.since_begin(0.25, 3.6, 5.0) == pytest.approx((3.6 - 3.0 - 2.0 * math.pi) / 5.0)
+    assert clock.since_begin(0.25, 3.6, 0.0) == -math.inf
 
 
 def test_a_clock_foresees_the_end():
     clock = PulseClock(0.2, 3.0, at_end=True, now=0.0, speed=5.0)
-    assert clock.place(0.0, 2.0, 5.0) == pytest.approx(0.0)
-    assert clock.place(0.0, 2.0, 2.5) == pytest.approx(-0.2)
+    assert clock.since_begin(0.0, 2.0, 5.0) == pytest.approx(0.0)
+    assert clock.since_begin(0.0, 2.0, 2.5) == pytest.approx(-0.2)
 
 
 def test_a_run_that_starts_within_a_pulse_has_the_rest_of_it():
     for at_end, angle in ((False, 3.0), (True, 4.0)):
         clock = PulseClock(0.2, angle, at_end=at_end, now=3.5, speed=5.0)
-        assert clock.place(0.0, 3.5, 5.0) == pytest.approx(0.1)
+        assert clock.since_begin(0.0, 3.5, 5.0) == pytest.approx(0.1)

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from exu_press.laws.load_curve import LoadCurve
-from exu_press.laws.sheet import Cut, Sheet
+from exu_press.laws.sheet import PunchStroke, Sheet
 from exu_press.quantities.sheet import given_back
 
 CURVE = LoadCurve([0.0, 1e-4, 8e-4], [0.0, 8e4, 1e5])
@@ -25,7 +25,7 @@ def stroke(cut, places, times):
 def test_the_work_up_to_fracture_is_the_area_under_the_curve():
     times = np.linspace(0.0, 1.0, 20001)
     places = -1e-4 + 3e-3 * times
-    force = stroke(Cut(SHEET), places, times)
+    force = stroke(PunchStroke(SHEET), places, times)
     area = 0.5 * 1e-4 * 8e4 + 0.5 * 7e-4 * 1.8e5
     crack = 0.5 * 1e5 * 1e-4 * 3e-3
     assert np.trapezoid(force, places) == pytest.approx(area + crack, rel=1e-3)
@@ -35,7 +35,7 @@ def test_a_sheet_never_gives_back_more_than_its_elastic_work():
     times = np.linspace(0.0, 1.0, 20001)
     places = 3e-4 * (1.0 - np.cos(6.0 * np.pi * times)) * times
     assert places.max() < 8e-4
-    force = stroke(Cut(SHEET), places - 1e-12, times)
+    force = stroke(PunchStroke(SHEET), places - 1e-12, times)
     done = np.concatenate([[0.0], np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(places))])
     given = np.maximum.accumulate(done) - done
     assert given.max() < 1e5**2 / (2.0 * 8e8) * 1.01  # F^2 / 2k with k of the first line
@@ -46,7 +46,7 @@ def test_a_sheet_never_gives_back_more_than_its_elastic_work():
 def test_one_sheet_a_stroke():
     times = np.linspace(0.0, 3.0, 30001)
     places = -1e-3 * np.cos(2.0 * np.pi * times) - 1e-5
-    force = stroke(Cut(SHEET), places, times)
+    force = stroke(PunchStroke(SHEET), places, times)
     fractures = np.flatnonzero((force[:-1] > 9e4) & (force[1:] < 9e4))
     assert len(fractures) == 3
     back = np.diff(places, append=places[-1]) < 0.0
@@ -55,7 +55,7 @@ def test_one_sheet_a_stroke():
 
 
 def test_a_run_that_starts_in_the_sheet_starts_with_a_cut_one():
-    cut = Cut(SHEET)
+    cut = PunchStroke(SHEET)
     assert cut.force(0.0, 5e-4, 0.1) == 0.0
     cut.accept(0.0, 5e-4, 0.1)
     cut.accept(0.1, -1e-4, -0.1)
@@ -63,7 +63,7 @@ def test_a_run_that_starts_in_the_sheet_starts_with_a_cut_one():
 
 
 def test_memory_goes_on():
-    cut, other = Cut(SHEET), Cut(SHEET)
+    cut, other = PunchStroke(SHEET), PunchStroke(SHEET)
     for state in ((0.0, -1e-4, 0.1), (0.1, 7e-4, 0.1), (0.2, 8.02e-4, 0.1)):
         cut.accept(*state)
     other.recall(cut.memory())
@@ -71,7 +71,7 @@ def test_memory_goes_on():
 
 
 def test_the_next_corner_is_the_fracture_and_then_the_end_of_the_crack():
-    cut = Cut(SHEET)
+    cut = PunchStroke(SHEET)
     cut.accept(0.0, -1e-4, 0.1)
     assert cut.next(0.0, -1e-4, 0.1) == pytest.approx(1e-3)
     cut.accept(0.01, 7e-4, 0.1)
@@ -85,7 +85,7 @@ def test_a_released_spring_gives_back_what_it_has_stored():
     """A mass on a spring, pressed down with F by a slow foundation; the crack takes no time."""
     stiffness, mass, pressed = 2e8, 400.0, 1e5
     sheet = Sheet(CURVE, 2e-3, 1e-9, 0.0, 1e-3)
-    cut = Cut(sheet)
+    cut = PunchStroke(sheet)
     cut.accept(0.0, -1e-4, 0.1)
     cut.accept(1.0, 8e-4, 1e-9)
     start = pressed / stiffness  # above the place without force

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press.laws.profile import profile
-from exu_press.laws.wear import Contacts, archard, reached, worn_after, worn_by_angle
+from exu_press.laws.wear import Contacts, accessible_depths, archard, worn_after, worn_by_angle
 
 
 def test_archard_by_hand():
@@ -25,7 +25,7 @@ def test_a_volume_is_spread_over_the_overlap_of_the_surfaces():
 def test_a_dent_that_is_too_narrow_is_spread_until_the_journal_can_follow():
     dent = np.zeros(72)
     dent[10:13] = 3e-5
-    smooth = reached(dent, 5e-5)
+    smooth = accessible_depths(dent, 5e-5)
     assert smooth.mean() == pytest.approx(dent.mean(), rel=0.02)
     assert profile(np.arange(72) * np.pi / 36, smooth).sharpest > -5e-5
     assert profile(np.arange(72) * np.pi / 36, dent).sharpest < -5e-5
@@ -35,7 +35,7 @@ def test_the_shape_that_a_pin_bores_stays():
     """A pin that sank in by 30 um: its centre has one place there, and the smooth shape a few."""
     angle = 2.0 * np.pi * np.arange(72) / 72
     crescent = np.maximum(0.0, 8e-5 * np.cos(angle) - 5e-5)
-    smooth = reached(crescent, 5e-5)
+    smooth = accessible_depths(crescent, 5e-5)
     assert np.abs(smooth - crescent).max() < 0.25 * crescent.max()
     assert smooth.mean() == pytest.approx(crescent.mean(), rel=0.02)
 

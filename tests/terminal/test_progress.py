@@ -37,7 +37,7 @@ def test_a_part_goes_on_from_where_the_whole_is():
         whole.update(1.0)
         with Progress("run", 2.0, stream=stream) as part:
             part.update(1.0)
-            assert part.left(1.0) == pytest.approx(whole.left(2.0), rel=0.5)
+            assert part.time_left(1.0) == pytest.approx(whole.time_left(2.0), rel=0.5)
             part.update(2.0)
     assert " 75 %" in stream.getvalue().rpartition("\r")[2]
     with Progress("run", 1.0, stream=stream) as other:

@@ -58,7 +58,7 @@ class EccentricityError:
         """Return the error of a step (s) where no error below a roundoff, m, counts as 1."""
         joint = self.joint
         eccentricity = joint.eccentricity
-        missed, along = joint.path.missed(eccentricity, joint.relative_velocity, step)
+        missed, along = joint.path.quadrature_error(eccentricity, joint.relative_velocity, step)
         error = missed / max(min(self._limit, self._drift * step), roundoff)
         depth = math.hypot(*eccentricity) - joint.contact_onset
         if depth > 0.0:

@@ -114,7 +114,7 @@ def plane_pad(length: float, width: float) -> PadLaw:
     root = math.sqrt(12.0 * length**3 * width * fullness)
     half = 0.5 / length
     positions = [0.5 - 0.5 * math.cos(math.pi * i / CELLS) for i in range(CELLS + 1)]
-    sizes = [after - before for before, after in pairwise(positions)]
+    sizes = [upper - lower for lower, upper in pairwise(positions)]
     nodes: list[Node] = []
     for i in range(1, CELLS):
         share, position = 0.5 * (sizes[i - 1] + sizes[i]), positions[i]
@@ -208,7 +208,7 @@ def _from_rear(
     gap, rear_response, front_response, pivot = h_1, 0.0, 0.0, 1.0
     count, ahead = len(nodes), h_1 + tilt * nodes[0][0]
     flow = nodes[0][4] * gap * gap * ahead * ahead / (gap + ahead)
-    before = 0.0
+    previous = 0.0
     for i in range(count):
         _, rear, front, kappa, _ = nodes[i]
         gap = ahead
@@ -216,16 +216,16 @@ def _from_rear(
             ahead, cell = h_1 + tilt * nodes[i + 1][0], nodes[i + 1][4]
         else:
             ahead, cell = h_2, last
-        before = flow
-        back = before / pivot if i > 0 else 0.0
+        previous = flow
+        back = previous / pivot if i > 0 else 0.0
         flow = cell * gap * gap * ahead * ahead / (gap + ahead)
-        now = before + flow + kappa * gap * gap * gap - back * before
+        now = previous + flow + kappa * gap * gap * gap - back * previous
         rear_response, front_response = rear + back * rear_response, front + back * front_response
         if not (v_1 * rear_response + v_2 * front_response < 0.0 or at_rest):
             break
         pivot = now
         gaps.append(gap)
-        flows.append(before)
+        flows.append(previous)
         pivots.append(pivot)
         rear_sources.append(rear_response)
         front_sources.append(front_response)
@@ -235,7 +235,7 @@ def _from_rear(
     # behind the last full node lies the end, or a node without pressure
     gaps.append(ahead if full == count else gap)
     position = 1.0 if full == count else nodes[full][0]
-    flows.append(flow if full == count else before)
+    flows.append(flow if full == count else previous)
     a_11 = a_12 = a_22 = by_1 = by_2 = 0.0
     rear_response = front_response = 0.0
     for i in range(full - 1, -2, -1):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exu_press.laws.profile import profile
-from exu_press.laws.wear import Contacts, reached, worn_after
+from exu_press.laws.wear import Contacts, accessible_depths, worn_after
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.wear import SECTORS
 from exu_press.scene import DryJoint, LubricatedJoint, Scene
@@ -38,9 +38,9 @@ class Depths:
 
     def reached(self, clearance: float) -> "Depths":
         """Return depths that the journal can follow; half the clearance bounds its own shape."""
-        journal = reached(self.journal, 0.5 * clearance)
+        journal = accessible_depths(self.journal, 0.5 * clearance)
         sharpest = profile(ANGLES.tolist(), journal.tolist()).sharpest
-        return Depths(journal, reached(self.bearing, clearance + min(0.0, sharpest)))
+        return Depths(journal, accessible_depths(self.bearing, clearance + min(0.0, sharpest)))
 
     @property
     def deepest(self) -> float:
@@ -62,7 +62,7 @@ def begun(scene: Scene, joint: str) -> Depths:
     worn = _rubbing(scene, joint).worn
     if worn is None:
         return Depths.even(0.0)
-    return Depths(*(np.array([s.at(a)[0] for a in ANGLES.tolist()]) for s in worn.whole()))
+    return Depths(*(np.array([s.derivatives(a)[0] for a in ANGLES.tolist()]) for s in worn.whole()))
 
 
 def worn_scene(scene: Scene, worn: Mapping[str, Depths]) -> Scene:

@@ -1,8 +1,9 @@
-"""Newton's matrix as a filter of errors, and the errors that rounding makes in it."""
+"""Newton's matrix as a filter of errors, and the errors of positions in constraints."""
 
 import numpy as np
 
 from exu_press.integrate.task import Task, inertia_factor
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.linear import Equations
 
 __all__ = ["NewtonFilter"]
@@ -18,12 +19,21 @@ class NewtonFilter:
 
     def __init__(self, task: Task) -> None:
         """Take a task."""
-        self._solver, self._scales = task.solver, task.scales
-        self._rounding = task.tuning.rounding
-        self._size = len(task.system.current.accelerations)
+        self._solver, self._scales, self._mbs = task.solver, task.scales, task.system.mbs
+        self._rounding, self._data = task.tuning.rounding, task.system.data
+        self._positions = task.system.current.positions
+        self._size = len(self._positions)
         self._number = -1  # of the Jacobian at hand
         self._jacobian, self._equations = np.zeros((0, 0)), Equations(np.zeros((0, 0)))
         self._roundoff = -1.0  # of its constraints, m, once it was asked for
+        # where the step begins, as the one before left it
+        self._start = np.array(self._positions)
+        self._start_time = 0.0
+
+    def begin_step(self) -> None:
+        """Take the current state as a step's beginning."""
+        np.copyto(self._start, self._positions)
+        self._start_time = self._data.GetTime()
 
     def refresh(self) -> None:
         """Take the last Jacobian from the solver: of 70 unknowns that takes as long as a step."""
@@ -34,25 +44,38 @@ class NewtonFilter:
             self._equations = Equations(self._jacobian)
 
     def roundoff_of_constraints(self) -> float:
-        """Return how far rounded positions in constraints move a body, m.
+        """Return how far inexact positions in constraints move a body, m, however short the step.
 
-        By far where a mechanism passes a position in which two of them are nearly redundant. As
-        parallel cranks pass their change points, the last digit alone, 1.1e-16, was too little:
-        steps took the rest for errors, and the shorter they became, the larger that was.
+        Positions are rounded, and Newton's method left a violation of 1e-13 m or so where the step
+        begins. That moves bodies by far where a mechanism passes a position in which two
+        constraints are nearly redundant, as parallel cranks do at their change points. Steps took
+        it for errors, and the shorter they became, the larger it was.
         """
         self.refresh()
         if self._roundoff < 0.0:
             size, count = len(self._jacobian), self._solver.GetAEsize()
+            inexact = np.full(count, self._rounding * self._scales.length)
+            if count:
+                inexact += self._violations_at_start(count)
             try:
                 of_constraints = np.eye(size, count, count - size)
-                moved = np.abs(self._equations.solve(of_constraints)[: self._size]).sum(axis=1)
+                moved = np.abs(self._equations.solve(of_constraints)[: self._size]) @ inexact
             except np.linalg.LinAlgError:  # redundant constraints
                 self._roundoff = 0.0
             else:
-                self._roundoff = (
-                    self._rounding * self._scales.length * self._scales.norm(moved.tolist())
-                )
+                self._roundoff = self._scales.norm(moved.tolist())
         return self._roundoff
+
+    def _violations_at_start(self, count: int) -> Array:
+        """Return by how much the step before left each constraint violated, (count,)."""
+        end, time = np.array(self._positions), self._data.GetTime()
+        self._positions[:] = self._start
+        self._data.SetTime(self._start_time)
+        self._solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=False)
+        violations: Array = np.abs(np.array(self._solver.GetSystemResidual())[-count:])
+        self._positions[:] = end
+        self._data.SetTime(time)
+        return violations
 
     def filtered(self, change: list[float]) -> list[float]:
         """Return what the Jacobian at hand leaves of a change of all coordinates."""

@@ -13,20 +13,27 @@ pytestmark = PATCHED
 ROUNDING = 4e-15
 
 
-def filter_of(constraints):
-    """A filter by the matrix of two masses of 1 kg with constraints (count, 2)."""
+def filter_of(constraints, violation=0.0):
+    """A filter by the matrix of two masses of 1 kg with constraints (count, 2).
+
+    The start violates each of them.
+    """
     count = len(constraints)
     jacobian = np.block([[np.eye(2), constraints.T], [constraints, np.zeros((count, count))]])
     solver = SimpleNamespace(
         GetSystemMassMatrix=lambda: np.eye(2),
         GetSystemJacobian=lambda: jacobian,
         GetAEsize=lambda: count,
+        ComputeAlgebraicEquations=lambda mbs, **_: None,
+        GetSystemResidual=lambda: np.full(2 + count, violation),
         it=SimpleNamespace(newtonJacobiCount=1),
         alphaM=0.0,
         alphaF=0.0,
     )
     scales = SimpleNamespace(length=3.0, norm=max)
-    system = SimpleNamespace(current=SimpleNamespace(accelerations=np.zeros(2)))
+    data = SimpleNamespace(GetTime=lambda: 0.0, SetTime=lambda time: None)
+    current = SimpleNamespace(positions=np.zeros(2))
+    system = SimpleNamespace(current=current, data=data, mbs=None)
     tuning = SimpleNamespace(rounding=ROUNDING)
     task = SimpleNamespace(solver=solver, scales=scales, system=system, tuning=tuning)
     return NewtonFilter(task)
@@ -44,6 +51,13 @@ def test_a_redundant_constraint_filters_like_one(count):
 def test_nearly_redundant_constraints_move_bodies_far_by_their_last_digits(angle, moved):
     newton_filter = filter_of(np.array([[1.0, 0.0], [np.cos(angle), np.sin(angle)]]))
     expected = ROUNDING * 3.0 * moved
+    assert newton_filter.roundoff_of_constraints() == pytest.approx(expected, rel=1e-3)
+
+
+def test_what_newtons_method_left_at_the_start_moves_bodies_too():
+    """The links of a press that line up were moved by 2 nm by 5e-14 m, in steps of any size."""
+    newton_filter = filter_of(np.array([[1.0, 0.0], [np.cos(1e-3), np.sin(1e-3)]]), violation=5e-14)
+    expected = (ROUNDING * 3.0 + 5e-14) * 2e3
     assert newton_filter.roundoff_of_constraints() == pytest.approx(expected, rel=1e-3)
 
 

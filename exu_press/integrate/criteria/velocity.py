@@ -27,6 +27,7 @@ class VelocityError:
     def restart(self) -> None:
         """Begin with the current state, as at the start."""
         self._before, self._rate_before = self._accelerations.tolist(), []
+        self._filter.begin_step()
 
     def error(self, step: float) -> float:
         """Return the error of a step (s) that ends in the current state."""
@@ -50,6 +51,7 @@ class VelocityError:
     def accept(self) -> None:
         """Take the end of the step last tried as the next one's beginning."""
         self._before, self._rate_before = self._now, self._rate
+        self._filter.begin_step()
 
     def _relative_rate(self) -> float:
         """Return the rate of the accelerations, in the first step, over them: at most one a step.

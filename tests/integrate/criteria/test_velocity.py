@@ -31,6 +31,9 @@ class Filter:
     def filtered(self, change):
         return [self.part * value for value in change]
 
+    def begin_step(self):
+        pass
+
     def roundoff_of_constraints(self):
         return self.roundoff
 

@@ -35,7 +35,6 @@ NOT_YET: tuple[str, ...] = (  # names there still have to be mended
     "exu_press/model/",
     "exu_press/page/",
     "exu_press/parallel/",
-    "exu_press/quantities/",
     "exu_press/report/",
     "exu_press/scene/",
     "exu_press/schema/",

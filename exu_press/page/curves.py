@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from exu_press.plots.words import joint_in_words
 from exu_press.quantities.catalogue import CATALOGUE
-from exu_press.quantities.quantity import Place
+from exu_press.quantities.quantity import Owner
 from exu_press.result import Result
 from exu_press.result.channel import AXES, guide_channel
 from exu_press.scene import mechanism_of
@@ -15,8 +15,8 @@ __all__ = ["Curve", "curves_of", "shown_unit"]
 
 WORDS = {"x": "x", "y": "y", "z": "z", "angle": "angle"}
 
-PEAKS = {(quantity.place, quantity.curve): quantity for quantity in CATALOGUE if quantity.curve}
-"""Place and curve -> the quantity that is its extreme."""
+PEAKS = {(quantity.owner, quantity.curve): quantity for quantity in CATALOGUE if quantity.curve}
+"""Owner and curve -> the quantity that is its extreme."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Curve:
 
 
 def curves_of(result: Result) -> list[Curve]:
-    """Return every curve of a run: first those of the whole mechanism, then by place."""
+    """Return every curve of a run: first those of the whole mechanism, then by owner."""
     mechanism = mechanism_of(result.scene)
     places: list[Curve] = []
     for name in result.joints:
@@ -59,15 +59,15 @@ def curves_of(result: Result) -> list[Curve]:
     for guide in mechanism.guides:
         begin = guide_channel(mechanism, guide.body)
         group = f"Guide of {_words(guide.body)}"
-        places += _beginning(result, begin, group, Place.GUIDE, guide.body)
+        places += _beginning(result, begin, group, Owner.GUIDE, guide.body)
     for load in applied_loads(result.scene):
-        places += _beginning(result, f"load_{load}", f"Load {_words(load)}", Place.LOAD, load)
+        places += _beginning(result, f"load_{load}", f"Load {_words(load)}", Owner.LOAD, load)
     for index, body in enumerate(result.bodies):
         places += _body(result, index, body)
     used = {curve.channel for curve in places} | {"time", "crank_angle"}
     rest = [name for name in sorted(result.channels) if name not in used]
     peaks = {
-        curve: quantity.name for (place, curve), quantity in PEAKS.items() if place is Place.RUN
+        curve: quantity.name for (owner, curve), quantity in PEAKS.items() if owner is Owner.RUN
     }
     whole = [curve for name in rest for curve in _plain(result, name, "Mechanism", "", peaks)]
     return [*whole, *places]
@@ -76,7 +76,7 @@ def curves_of(result: Result) -> list[Curve]:
 def _joint(result: Result, name: str) -> Iterator[Curve]:
     group, joint = f"Joint {_words(name)}", result.joints[name]
     force = f"{name}_force"
-    yield from _plain(result, force, group, "force", {force: _peak(Place.JOINT, "force", name)})
+    yield from _plain(result, force, group, "force", {force: _peak(Owner.JOINT, "force", name)})
     apart = f"{name}_eccentricity"
     if apart in result:
         columns = tuple(range(result[apart].shape[1]))
@@ -87,7 +87,7 @@ def _joint(result: Result, name: str) -> Iterator[Curve]:
             label="eccentricity ratio",
             unit="",
             factor=1.0 / clearance,
-            peak=_peak(Place.JOINT, "ratio", name),
+            peak=_peak(Owner.JOINT, "ratio", name),
             **of_size,  # type: ignore[arg-type]
         )
         yield Curve(
@@ -96,7 +96,7 @@ def _joint(result: Result, name: str) -> Iterator[Curve]:
             unit="m",
             offset=clearance,
             factor=-1.0,
-            peak=_peak(Place.JOINT, "gap", name),
+            peak=_peak(Owner.JOINT, "gap", name),
             least=True,
             **of_size,  # type: ignore[arg-type]
         )
@@ -106,18 +106,18 @@ def _joint(result: Result, name: str) -> Iterator[Curve]:
             yield from _plain(result, f"{name}_{what}", group, words, {})
 
 
-def _peak(place: Place, curve: str, at: str) -> str:
+def _peak(owner: Owner, curve: str, at: str) -> str:
     """Return the full name of the quantity that is a curve's extreme, or nothing."""
-    quantity = PEAKS.get((place, curve))
+    quantity = PEAKS.get((owner, curve))
     return "" if quantity is None else quantity.full_name(at)
 
 
-def _beginning(result: Result, begin: str, group: str, place: Place, at: str) -> Iterator[Curve]:
+def _beginning(result: Result, begin: str, group: str, owner: Owner, at: str) -> Iterator[Curve]:
     """Yield all channels that a guide or a load has."""
     for name in result.channels:
         if name.startswith(f"{begin}_"):
             what = name.removeprefix(f"{begin}_")
-            peak = _peak(place, what, at)
+            peak = _peak(owner, what, at)
             yield from _plain(result, name, group, _words(what), {name: peak} if peak else {})
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.page.curves import Curve
-from exu_press.quantities.alternating import LOADS, steady
+from exu_press.quantities.alternating import LOADS, remove_alternation
 from exu_press.quantities.dead_centre import bottom_dead_centres
 from exu_press.quantities.value import values_of
 from exu_press.result import Result
@@ -67,7 +67,7 @@ def values_on(result: Result, curve: Curve, *, as_read: bool = False) -> Array:
     """Return a curve's values, (n,), SI; as peaks are read from them, if asked for."""
     values = result[curve.channel]
     if as_read and result.channels[curve.channel].unit in LOADS:
-        values = steady(result.time, values)
+        values = remove_alternation(result.time, values)
     if curve.body is not None:
         values = values[:, curve.body]
     if values.ndim == 2:

@@ -32,7 +32,7 @@ def sensitivity_figure(report: Report) -> Figure:
     panels = figure.subplots(len(names), 3, squeeze=False, width_ratios=(1.0, 1.0, 1.0))
     for number, (name, row) in enumerate(zip(names, panels, strict=True)):
         quantity = quantity_of(study.scene, name).quantity
-        unit = typeset(quantity.shown)
+        unit = typeset(quantity.display_unit)
         indices = report.indices[number]
         if indices is None:
             for axes in row:

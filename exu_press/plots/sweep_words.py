@@ -46,8 +46,8 @@ def words(name: str) -> str:
     'clearance on each side of a guided body, whose two ends make contact with the guideways'
     """
     if (placed := find_quantity(name)) is not None:
-        quantity, at = placed.quantity, placed.at.replace("_", " ")
-        title = quantity.title if quantity.title and not quantity.under else quantity.meaning
+        quantity, at = placed.quantity, placed.owner.replace("_", " ")
+        title = quantity.title if quantity.title and not quantity.is_detail else quantity.meaning
         return f"{at}: {title}" if at else title
     parts = re.sub(r"^(joints|load|mechanism\.\w+)\.", "", name).split(".")
     meaning = re.sub(r" \(A-\d+\)|;.*", "", meaning_of(name))  # the assumption, what else is said
@@ -65,7 +65,7 @@ def axis_label(name: str) -> str:
     'peak acceleration, m/s^2'
     """
     placed = find_quantity(name)
-    return label_with_unit(name, "" if placed is None else placed.quantity.shown)
+    return label_with_unit(name, "" if placed is None else placed.quantity.display_unit)
 
 
 def label_with_unit(name: str, unit: str) -> str:

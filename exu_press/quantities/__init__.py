@@ -15,7 +15,7 @@ from exu_press.quantities.dead_centre import (
     ideal_bottom_angle,
     lowest_of_strokes,
 )
-from exu_press.quantities.quantity import Extreme, Place, Quantity
+from exu_press.quantities.quantity import Extreme, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.summary import summary
 from exu_press.quantities.value import Value, value_of, values_of
@@ -24,7 +24,7 @@ __all__ = [
     "CATALOGUE",
     "DeadCentre",
     "Extreme",
-    "Place",
+    "Owner",
     "Quantity",
     "QuantityAt",
     "Reading",

@@ -53,7 +53,7 @@ def mean_peak(time: Array, velocity: Array, window: float = 1e-3) -> float | Non
         change = _change(_ends(time[steps], window), window, time[steps], velocity[steps])
         return peak(change / window)  # between them the mean is linear in time
 
-    return max(map(largest, _parts(time, window)), default=None)
+    return max(map(largest, _blocks(time, window)), default=None)
 
 
 def mean_peak_of(time: Array, values: Array, window: float = 1e-3) -> float | None:
@@ -69,8 +69,10 @@ def mean_peak_of(time: Array, values: Array, window: float = 1e-3) -> float | No
     Returns:
         None where the record is shorter than the window.
     """
-    parts = _parts(time, window)
-    return max((_mean_peak_of(time[steps], values[steps], window) for steps in parts), default=None)
+    blocks = _blocks(time, window)
+    return max(
+        (_mean_peak_of(time[steps], values[steps], window) for steps in blocks), default=None
+    )
 
 
 def _mean_peak_of(time: Array, values: Array, window: float) -> float:
@@ -104,26 +106,28 @@ def _mean_peak_of(time: Array, values: Array, window: float) -> float:
     return largest_mean
 
 
-def _means(late: Array, window: float, time: Array, values: Array, sums: Array) -> Array:
+def _means(ends: Array, window: float, time: Array, values: Array, sums: Array) -> Array:
     """Return the means of values over windows, and where they are largest or least.
 
     Args:
-        late: ends of the windows that begin or end at a step, (m,), s.
+        ends: ends of the windows that begin or end at a step, (m,), s.
         window: s.
         time: (n,), s.
         values: (n,), straight between.
         sums: their integral, (n,).
     """
-    change = _change(late, window, time, values)
+    change = _change(ends, window, time, values)
     turns = np.flatnonzero(change[:-1] * change[1:] < 0.0)
     fraction = change[turns] / (change[turns] - change[turns + 1])
-    late = np.concatenate([late, late[turns] + fraction * np.diff(late)[turns]])
+    ends = np.concatenate([ends, ends[turns] + fraction * np.diff(ends)[turns]])
     parabolas = hermite(time, sums, values)
-    after, before = np.split(evaluate(time, parabolas, np.concatenate([late, late - window])), 2)
-    return np.asarray((after - before) / window)
+    sums_after, sums_before = np.split(
+        evaluate(time, parabolas, np.concatenate([ends, ends - window])), 2
+    )
+    return np.asarray((sums_after - sums_before) / window)
 
 
-def _parts(time: Array, window: float) -> Iterator[slice]:
+def _blocks(time: Array, window: float) -> Iterator[slice]:
     """Yield parts of a record in which every window lies in one; none if it is shorter than it."""
     for first in range(0, len(time), AT_ONCE):
         begin = int(np.searchsorted(time, time[max(first - 1, 0)] - window, side="right")) - 1

@@ -12,7 +12,7 @@ from exu_press.quantities.fatigue import BODIES
 from exu_press.quantities.joints import JOINTS
 from exu_press.quantities.oil import OIL
 from exu_press.quantities.press import DRIVE, GUIDES, LOADS, SHAKING
-from exu_press.quantities.quantity import PREFIXES, Place, Quantity
+from exu_press.quantities.quantity import PREFIXES, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.sheet import SHEETS
 from exu_press.quantities.slider import SLIDER, STROKES
@@ -54,8 +54,8 @@ _DECLARED_IN: dict[Quantity, str | None] = {}
 """Modules whose import adds a user's own quantity."""
 
 
-def _declared_as(name: str, place: Place = Place.RUN) -> Quantity:
-    return next(q for q in CATALOGUE if q.name == name and q.place is place)
+def _declared_as(name: str, owner: Owner = Owner.RUN) -> Quantity:
+    return next(q for q in CATALOGUE if q.name == name and q.owner is owner)
 
 
 PEAK_ACCELERATION = _declared_as("peak_acceleration.resolved")
@@ -68,28 +68,28 @@ SHAKING_MEANS = tuple(
     _declared_as(f"shaking.{which}_mean_1ms")
     for which in ("vertical", "without_counterweight.vertical", "horizontal")
 )
-JOINT_FORCE = _declared_as("peak_force", Place.JOINT)
-GUIDE_FORCE = _declared_as("peak_force", Place.GUIDE)
-ECCENTRICITY_RATIO = _declared_as("max_eccentricity_ratio", Place.JOINT)
+JOINT_FORCE = _declared_as("peak_force", Owner.JOINT)
+GUIDE_FORCE = _declared_as("peak_force", Owner.GUIDE)
+ECCENTRICITY_RATIO = _declared_as("max_eccentricity_ratio", Owner.JOINT)
 """Those that pictures and studies show by themselves."""
 
 
 @dataclass(frozen=True)
 class QuantityAt:
-    """A quantity of one scene, at its place.
+    """A quantity of one owner.
 
     Attributes:
         quantity: as it is declared.
-        at: name of the joint, guide, load or body; "" of the run.
+        owner: name of the joint, guide, load or body; "" of the run.
     """
 
     quantity: Quantity
-    at: str = ""
+    owner: str = ""
 
     @property
     def name(self) -> str:
         """Its full name."""
-        return self.quantity.full_name(self.at)
+        return self.quantity.full_name(self.owner)
 
     def read(self, run: Reading) -> float | int | None:
         """Return its value, None where the run is too short to have it, or where it is no number.
@@ -97,7 +97,7 @@ class QuantityAt:
         Raises:
             InputError: a quantity of the user's own gives something else.
         """
-        value = self.quantity.read(run, self.at)
+        value = self.quantity.read(run, self.owner)
         if value is None:
             return None
         if isinstance(value, numbers.Integral):
@@ -116,19 +116,19 @@ def add(quantity: Quantity) -> Quantity:
     Workers of studies import the module that does so at its top level.
 
     Raises:
-        InputError: there is one of this name and place, files cannot hold the name, or the unit
-            that is shown is not that of the quantity with a prefix.
+        InputError: it is declared already, files cannot hold the name, or the display unit is not
+            the unit with a prefix.
     """
     for word in str(quantity.name).split("."):
         demand_name(f"quantity {quantity.name!r}", word)
     prefixed = [f"{prefix}{quantity.unit}" for prefix in PREFIXES]
-    if quantity.shown not in prefixed:
+    if quantity.display_unit not in prefixed:
         raise InputError(
-            f"quantity {quantity.name}: shown = {quantity.shown!r}; allowed are "
+            f"quantity {quantity.name}: display_unit = {quantity.display_unit!r}; allowed are "
             f"{', '.join(prefixed)}"
         )
-    for known in CATALOGUE:
-        if (known.place, known.name) == (quantity.place, quantity.name):
+    for declared in CATALOGUE:
+        if (declared.owner, declared.name) == (quantity.owner, quantity.name):
             raise InputError(
                 f"quantity {quantity.name}: is declared already; allowed is another name"
             )
@@ -164,24 +164,24 @@ def find_quantity(name: str) -> QuantityAt | None:
     >>> find_quantity("joints.crank_pin.peak_force").quantity.unit
     'N'
     """
-    place, _, rest = name.partition(".")
-    at, _, inner = rest.partition(".")
+    kind, _, rest = name.partition(".")
+    owner, _, inner = rest.partition(".")
     for quantity in CATALOGUE:
-        if quantity.place is Place.RUN and quantity.name == name:
+        if quantity.owner is Owner.RUN and quantity.name == name:
             return QuantityAt(quantity)
-        if (quantity.place.value, quantity.name) == (place, inner):
-            return QuantityAt(quantity, at)
+        if (quantity.owner.value, quantity.name) == (kind, inner):
+            return QuantityAt(quantity, owner)
     return None
 
 
 def quantities_of(scene: Scene) -> dict[str, QuantityAt]:
     """Return every quantity that a run of a scene has, by its full name; known before it runs."""
-    places = _places(scene)
+    owners = _owners(scene)
     placed = (
-        QuantityAt(quantity, at)
+        QuantityAt(quantity, owner)
         for quantity in CATALOGUE
-        for at in places[quantity.place]
-        if quantity.has(scene, at)
+        for owner in owners[quantity.owner]
+        if quantity.available(scene, owner)
     )
     return {entry.name: entry for entry in placed}
 
@@ -197,12 +197,12 @@ def quantity_of(scene: Scene, name: str) -> QuantityAt:
     return declared_here[name]
 
 
-def _places(scene: Scene) -> dict[Place, tuple[str, ...]]:
+def _owners(scene: Scene) -> dict[Owner, tuple[str, ...]]:
     mechanism = mechanism_of(scene)
     return {
-        Place.RUN: ("",),
-        Place.JOINT: tuple(joint.name for joint in mechanism.joints),
-        Place.GUIDE: tuple(guide.body for guide in mechanism.guides),
-        Place.LOAD: tuple(applied_loads(scene)),
-        Place.BODY: tuple(scene.bodies),
+        Owner.RUN: ("",),
+        Owner.JOINT: tuple(joint.name for joint in mechanism.joints),
+        Owner.GUIDE: tuple(guide.body for guide in mechanism.guides),
+        Owner.LOAD: tuple(applied_loads(scene)),
+        Owner.BODY: tuple(scene.bodies),
     }

@@ -8,21 +8,26 @@ __all__ = ["COSTS"]
 
 
 def _statistic(
-    name: str, meaning: str, unit: str = "", title: str = "", digits: int = 7, under: bool = False
+    name: str,
+    meaning: str,
+    unit: str = "",
+    title: str = "",
+    digits: int = 7,
+    is_detail: bool = False,
 ) -> Quantity:
     def read(run: Reading, _: str) -> float | int | None:
         value = run.result.info.get(name)
         return value if isinstance(value, (int, float)) else None
 
     return Quantity(
-        f"cost.{name}", unit, meaning, COST, read, title=title, digits=digits, under=under
+        f"cost.{name}", unit, meaning, COST, read, title=title, digits=digits, is_detail=is_detail
     )
 
 
 COSTS = (
     _statistic("steps", "accepted steps", title="steps"),
     _statistic(
-        "rejected_steps", "steps repeated with a smaller size", title="rejected", under=True
+        "rejected_steps", "steps repeated with a smaller size", title="rejected", is_detail=True
     ),
     _statistic("newton_iterations", "Newton iterations of all steps"),
     _statistic("law_evaluations", "evaluations of the clearance joints' forces"),

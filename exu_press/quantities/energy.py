@@ -6,7 +6,7 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.kind import ENERGY, FLOW, MEASURE
-from exu_press.quantities.law_errors import of_all_films
+from exu_press.quantities.law_errors import dissipation_error
 from exu_press.quantities.quantity import Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import Result
@@ -77,7 +77,8 @@ BALANCE = (
              signed=True, cumulative=True),
     Quantity("energy.dissipated", "J", "energy that joints, guides and flexible bodies dissipate",
              ENERGY, _end("dissipated"),
-             title="energy dissipated", headline=True, cumulative=True, of_laws=of_all_films),
+             title="energy dissipated", headline=True, cumulative=True,
+             law_error=dissipation_error),
     Quantity("energy.residual", "",
              "largest misfit of the energy balance, over the largest energy in it",
              MEASURE, lambda run, _: energy_residual(run.result),

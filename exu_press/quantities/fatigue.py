@@ -7,7 +7,7 @@ import numpy as np
 
 from exu_press.quantities.acceleration import peak
 from exu_press.quantities.kind import LOAD, MOTION
-from exu_press.quantities.quantity import Extreme, Place, Quantity
+from exu_press.quantities.quantity import Extreme, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.scene import Flexible, Scene
 from exu_press.scene.bodies import require_rainflow
@@ -19,7 +19,7 @@ def _is_flexible(scene: Scene, body: str) -> bool:
     return body in scene.bodies
 
 
-def _lasting(scene: Scene, body: str) -> bool:
+def _has_sn_curve(scene: Scene, body: str) -> bool:
     return body in scene.bodies and scene.bodies[body].sn_stress is not None
 
 
@@ -64,21 +64,21 @@ def _life(cycles: list[tuple[float, float]], revolutions: float, body: Flexible)
 
 BODIES = (
     Quantity("peak_stress", "Pa", "largest von Mises stress of the flexible body",
-             LOAD, _peak_stress, Place.BODY, _is_flexible,
-             title="von Mises stress, max", shown="MPa", extreme=Extreme.LARGEST),
+             LOAD, _peak_stress, Owner.BODY, _is_flexible,
+             title="von Mises stress, max", display_unit="MPa", extreme=Extreme.LARGEST),
     Quantity("fatigue.largest_amplitude", "Pa", "largest amplitude of the stress cycles",
              LOAD,
              _of_cycles(lambda cycles, _, __: max((width for width, _ in cycles), default=0.0)),
-             Place.BODY, _lasting),
+             Owner.BODY, _has_sn_curve),
     Quantity("fatigue.cycles", "", "number of stress cycles a revolution",
              MOTION,
              _of_cycles(lambda cycles, turns, _: float(sum(count for _, count in cycles)) / turns),
-             Place.BODY, _lasting),
+             Owner.BODY, _has_sn_curve),
     Quantity("fatigue.damage", "", "Miner's sum a revolution, 1 at the end of life",
              MOTION, _of_cycles(lambda cycles, turns, body: damage(cycles, body) / turns),
-             Place.BODY, _lasting),
+             Owner.BODY, _has_sn_curve),
     Quantity("fatigue.life", "", "revolutions until Miner's sum is 1",
-             MOTION, _of_cycles(_life), Place.BODY, _lasting,
+             MOTION, _of_cycles(_life), Owner.BODY, _has_sn_curve,
              title="life, revolutions"),
 )  # fmt: skip
 

@@ -4,8 +4,8 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.quantities.kind import COUNT, ENERGY, LOAD, MEASURE, MOTION, SHARE
-from exu_press.quantities.law_errors import of_eccentricity, of_film
-from exu_press.quantities.quantity import Extreme, Place, Quantity
+from exu_press.quantities.law_errors import eccentricity_error, film_error
+from exu_press.quantities.quantity import Extreme, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import JointRecord
 from exu_press.scene import IdealJoint, Scene
@@ -40,7 +40,7 @@ def share_of_contact(time: Array, depth: Array) -> float:
     return float(span @ share / span.sum())
 
 
-def _loose(scene: Scene, joint: str) -> bool:
+def _has_clearance(scene: Scene, joint: str) -> bool:
     return not isinstance(scene.joints[joint], IdealJoint)
 
 
@@ -48,7 +48,7 @@ def _has_film(scene: Scene, joint: str) -> bool:
     return scene.joints[joint].kind == "lubricated"
 
 
-def _touching(scene: Scene, joint: str) -> bool:
+def _can_touch(scene: Scene, joint: str) -> bool:
     return scene.joints[joint].onset is not None
 
 
@@ -64,14 +64,14 @@ def _depth(run: Reading, joint: str) -> Array:
 
 def _start(run: Reading, _: str) -> float | None:
     """Return the largest joint force before the settled part, over the largest one in it."""
-    before = run.run.time < run.time[0]
-    if not before.any():
+    unsettled = run.run.time < run.time[0]
+    if not unsettled.any():
         return None
     names = list(run.result.joints)
     largest = [
         max(float(lengths(force).max()) for force in forces)
         for forces in (
-            [run.run.joints[name].force[before] for name in names],
+            [run.run.joints[name].force[unsettled] for name in names],
             [run.result.joints[name].force for name in names],
         )
     ]
@@ -81,20 +81,20 @@ def _start(run: Reading, _: str) -> float | None:
 def _peak_force(run: Reading, joint: str) -> float | None:
     if joint not in run.result.joints:  # of several ideal joints only some are recorded
         return None
-    return run.largest(f"{joint}_force").length
+    return run.peaks(f"{joint}_force").length
 
 
 START = Quantity(
     "start_ratio", "",
     "largest joint force before quantities are read, over the largest one after it",
     MEASURE, _start,
-    has=lambda scene, _: scene.settled > 0.0,
-    title="largest joint force of the start, over that", under=True, digits=3,
+    available=lambda scene, _: scene.settled > 0.0,
+    title="largest joint force of the start, over that", is_detail=True, digits=3,
 )  # fmt: skip
 
 IMPACTS = Quantity(
     "impacts", "", "number of times that the surfaces begin to touch",
-    COUNT, lambda run, joint: contacts(_depth(run, joint)), Place.JOINT, _touching,
+    COUNT, lambda run, joint: contacts(_depth(run, joint)), Owner.JOINT, _can_touch,
     title="impacts", cumulative=True,
 )  # fmt: skip
 
@@ -103,35 +103,35 @@ JOINTS = (
              MOTION,
              lambda run, joint:
                  float(_record(run, joint).distance.max() / _record(run, joint).clearance),
-             Place.JOINT, _loose,
+             Owner.JOINT, _has_clearance,
              title="eccentricity ratio, max", extreme=Extreme.LARGEST, headline=True,
-             of_laws=of_eccentricity, curve="ratio"),
+             law_error=eccentricity_error, curve="ratio"),
     Quantity("peak_force", "N", "largest force between journal and bearing",
-             LOAD, _peak_force, Place.JOINT,
-             title="joint force, max", shown="kN", extreme=Extreme.LARGEST, headline=True,
+             LOAD, _peak_force, Owner.JOINT,
+             title="joint force, max", display_unit="kN", extreme=Extreme.LARGEST, headline=True,
              curve="force"),
     START,
     Quantity("peak_penetration", "m", "largest penetration of the surfaces",
              MOTION, lambda run, joint: float(max(0.0, -_record(run, joint).gap.min())),
-             Place.JOINT, _touching,
-             title="penetration, max", shown="um", extreme=Extreme.LARGEST),
+             Owner.JOINT, _can_touch,
+             title="penetration, max", display_unit="um", extreme=Extreme.LARGEST),
     Quantity("min_film", "m", "least film thickness, 0 where surfaces touch",
              MOTION, lambda run, joint: float(max(0.0, _record(run, joint).gap.min())),
-             Place.JOINT, _has_film,
-             title="film thickness, min", shown="um", extreme=Extreme.LEAST,
-             of_laws=of_film, curve="gap"),
+             Owner.JOINT, _has_film,
+             title="film thickness, min", display_unit="um", extreme=Extreme.LEAST,
+             law_error=film_error, curve="gap"),
     IMPACTS,
     Quantity("share_free_flight", "", "share of time in which the surfaces do not touch",
              SHARE, lambda run, joint: 1.0 - share_of_contact(run.time, _depth(run, joint)),
-             Place.JOINT, _touching),
+             Owner.JOINT, _can_touch),
     Quantity("share_contact", "", "share of time in which the surfaces touch",
              SHARE, lambda run, joint: share_of_contact(run.time, _depth(run, joint)),
-             Place.JOINT, _touching,
+             Owner.JOINT, _can_touch,
              title="share in contact"),
     Quantity("dissipated", "J", "energy that contact, friction and film have dissipated",
-             ENERGY, lambda run, joint: float(run[f"{joint}_loss"][-1]), Place.JOINT, _loose,
-             cumulative=True, of_laws=of_film),
+             ENERGY, lambda run, joint: float(run[f"{joint}_loss"][-1]), Owner.JOINT,
+             _has_clearance, cumulative=True, law_error=film_error),
     Quantity("mean_power", "W", "mean power that the joint dissipates, over whole revolutions",
-             LOAD, lambda run, joint: run.rate(run[f"{joint}_loss"]), Place.JOINT, _loose,
-             signed=True, of_laws=of_film),
+             LOAD, lambda run, joint: run.rate(run[f"{joint}_loss"]), Owner.JOINT, _has_clearance,
+             signed=True, law_error=film_error),
 )  # fmt: skip

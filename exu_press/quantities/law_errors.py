@@ -11,17 +11,17 @@ from exu_press.scene import LubricatedJoint, Scene
 from exu_press.scene.joint import oil_of
 
 __all__ = [
-    "of_all_films",
-    "of_eccentricity",
-    "of_film",
-    "of_pads",
-    "of_side_flow",
-    "of_temperature",
-    "of_viscosity",
+    "dissipation_error",
+    "eccentricity_error",
+    "film_error",
+    "guide_film_error",
+    "side_flow_error",
+    "temperature_error",
+    "viscosity_error",
 ]
 
 
-def _film_error(scene: Scene, joint: str) -> float:
+def _relative_film_error(scene: Scene, joint: str) -> float:
     """Return the relative error of a joint's film, 0.0 without one, or of a closed form."""
     kind = scene.joints[joint]
     if not isinstance(kind, LubricatedJoint):
@@ -29,45 +29,49 @@ def _film_error(scene: Scene, joint: str) -> float:
     return BALL_ERROR if kind.film.length is None else FILM_LAWS[kind.film.law].error
 
 
-def of_film(scene: Scene, joint: str, value: float) -> float:
+def film_error(scene: Scene, joint: str, value: float) -> float:
     """Return the error of a film's thickness or power."""
-    return _film_error(scene, joint) * abs(value)
+    return _relative_film_error(scene, joint) * abs(value)
 
 
-def of_eccentricity(scene: Scene, joint: str, value: float) -> float:
+def eccentricity_error(scene: Scene, joint: str, value: float) -> float:
     """Return the error of an eccentricity ratio, of which a film is what is left."""
-    return _film_error(scene, joint) * max(0.0, 1.0 - value)
+    return _relative_film_error(scene, joint) * max(0.0, 1.0 - value)
 
 
-def of_all_films(scene: Scene, _: str, value: float) -> float:
+def dissipation_error(scene: Scene, _: str, value: float) -> float:
     """Return the error of what all films dissipate together."""
-    return max((_film_error(scene, joint) for joint in scene.joints), default=0.0) * abs(value)
+    return max((_relative_film_error(scene, joint) for joint in scene.joints), default=0.0) * abs(
+        value
+    )
 
 
-def of_pads(scene: Scene, _: str, value: float) -> float:
+def guide_film_error(scene: Scene, _: str, value: float) -> float:
     """Return the error of the thickness of the films between bodies and their guideways."""
     oiled = scene.guide is not None and scene.guide.viscosity is not None
     return PAD_ERROR * abs(value) if oiled else 0.0
 
 
-def _flow_error(scene: Scene, joint: str) -> float:
+def _relative_flow_error(scene: Scene, joint: str) -> float:
     kind = scene.joints[joint]
     return FILM_LAWS[kind.film.law].flow_error if isinstance(kind, LubricatedJoint) else 0.0
 
 
-def of_side_flow(scene: Scene, joint: str, value: float) -> float:
+def side_flow_error(scene: Scene, joint: str, value: float) -> float:
     """Return the error of a side flow, and of the heat that it carries off."""
-    return _flow_error(scene, joint) * abs(value)
+    return _relative_flow_error(scene, joint) * abs(value)
 
 
-def of_temperature(scene: Scene, joint: str, value: float) -> float:
+def temperature_error(scene: Scene, joint: str, value: float) -> float:
     """Return the error of a film's temperature: of its heat, and of what carries that off."""
     oil = oil_of(scene.joints[joint])
     assert oil is not None
-    return (_film_error(scene, joint) + _flow_error(scene, joint)) * abs(value - oil.supply_celsius)
+    return (_relative_film_error(scene, joint) + _relative_flow_error(scene, joint)) * abs(
+        value - oil.supply_celsius
+    )
 
 
-def of_viscosity(scene: Scene, joint: str, value: float) -> float:
+def viscosity_error(scene: Scene, joint: str, value: float) -> float:
     """Return the error of a film's viscosity, by that of its temperature, which is above supply's.
 
     A viscosity falls by a part that is smaller the warmer the oil is: at supply it is the largest.
@@ -75,4 +79,6 @@ def of_viscosity(scene: Scene, joint: str, value: float) -> float:
     oil = oil_of(scene.joints[joint])
     assert oil is not None
     cold = oil.viscosity(oil.supply_celsius)
-    return (_film_error(scene, joint) + _flow_error(scene, joint)) * abs(cold - value)
+    return (_relative_film_error(scene, joint) + _relative_flow_error(scene, joint)) * abs(
+        cold - value
+    )

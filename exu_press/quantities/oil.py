@@ -6,12 +6,12 @@ from exu_press.laws.film.oil import STEADY
 from exu_press.numerics.arrays import lengths
 from exu_press.quantities.kind import LOAD, MEASURE
 from exu_press.quantities.law_errors import (
-    of_film,
-    of_side_flow,
-    of_temperature,
-    of_viscosity,
+    film_error,
+    side_flow_error,
+    temperature_error,
+    viscosity_error,
 )
-from exu_press.quantities.quantity import Place, Quantity
+from exu_press.quantities.quantity import Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import Result
 from exu_press.scene import LubricatedJoint, Scene
@@ -82,7 +82,7 @@ def _outside(result: Result, name: str, joint: LubricatedJoint) -> Iterator[str]
             )
 
 
-def _warm(scene: Scene, joint: str) -> bool:
+def _has_warming_oil(scene: Scene, joint: str) -> bool:
     """Return whether a joint's oil warms."""
     return oil_of(scene.joints[joint]) is not None
 
@@ -107,25 +107,27 @@ def film_change(run: Reading, joint: str) -> float | None:
 
 OIL = (
     Quantity("film.temperature", "deg C", "temperature of the film in the last revolution",
-             LOAD, lambda run, joint: float(run[f"{joint}_temperature"][-1]), Place.JOINT, _warm,
-             title="film temperature", of_laws=of_temperature),
+             LOAD, lambda run, joint: float(run[f"{joint}_temperature"][-1]), Owner.JOINT,
+             _has_warming_oil, title="film temperature", law_error=temperature_error),
     Quantity("film.viscosity", "Pa s", "viscosity of the oil in the film in the last revolution",
-             LOAD, lambda run, joint: float(run[f"{joint}_viscosity"][-1]), Place.JOINT, _warm,
-             title="viscosity there", shown="mPa s", under=True, of_laws=of_viscosity),
+             LOAD, lambda run, joint: float(run[f"{joint}_viscosity"][-1]), Owner.JOINT,
+             _has_warming_oil,
+             title="viscosity there", display_unit="mPa s", is_detail=True,
+             law_error=viscosity_error),
     Quantity("film.side_flow", "m^3/s",
              "oil that leaves the bearing's ends, mean over whole revolutions",
-             LOAD, lambda run, joint: run.mean(run[f"{joint}_side_flow"]), Place.JOINT, _warm,
-             of_laws=of_side_flow),
+             LOAD, lambda run, joint: run.mean(run[f"{joint}_side_flow"]), Owner.JOINT,
+             _has_warming_oil, law_error=side_flow_error),
     Quantity("film.carried_off", "W",
              "heat that side flow and frame take off, mean over whole revolutions",
-             LOAD, lambda run, joint: run.rate(run[f"{joint}_carried_off"]), Place.JOINT, _warm,
-             signed=True, of_laws=of_film),
+             LOAD, lambda run, joint: run.rate(run[f"{joint}_carried_off"]), Owner.JOINT,
+             _has_warming_oil, signed=True, law_error=film_error),
     Quantity("film.residual", "",
              "share of the dissipated heat that is not carried off, over whole revolutions",
-             MEASURE, film_balance, Place.JOINT, _warm,
+             MEASURE, film_balance, Owner.JOINT, _has_warming_oil,
              signed=True),
     Quantity("film.change", "K",
              "change of the film's temperature that the heat of the last revolution asks for",
-             MEASURE, film_change, Place.JOINT, _warm,
+             MEASURE, film_change, Owner.JOINT, _has_warming_oil,
              signed=True),
 )  # fmt: skip

@@ -18,8 +18,8 @@ from exu_press.quantities.kind import (
     MOTION,
     RESULTANT,
 )
-from exu_press.quantities.law_errors import of_pads
-from exu_press.quantities.quantity import Extreme, Place, Quantity, always
+from exu_press.quantities.law_errors import guide_film_error
+from exu_press.quantities.quantity import Extreme, Owner, Quantity, always
 from exu_press.quantities.reading import Reading
 from exu_press.result.channel import guide_channel
 from exu_press.result.channels import read_columns
@@ -55,7 +55,7 @@ def _guide_peak(quantity: str) -> Callable[[Reading, str], float | None]:
 
     def read(run: Reading, body: str) -> float | None:
         name = f"{guide_channel(run.mechanism, body)}_{quantity}"
-        return None if run.channel(name) is None else run.largest(name).length
+        return None if run.channel(name) is None else run.peaks(name).length
 
     return read
 
@@ -83,7 +83,7 @@ def _if_guides_rubbed(run: Reading, _: str) -> float | None:
     return None if None in powers else RUBBING * sum(p for p in powers if p is not None)
 
 
-def _losing(scene: Scene, _: str) -> bool:
+def _can_dissipate(scene: Scene, _: str) -> bool:
     """Return whether guides can dissipate: ideal ones without friction cannot."""
     return scene.guide is not None
 
@@ -123,26 +123,26 @@ def _mean_speed(run: Reading, _: str) -> float | None:
 DRIVE = (
     Quantity("drive.peak_torque", "N m",
              "largest torque of the drive; a motor's turns flywheel and crank",
-             LOAD, lambda run, _: run.largest("drive_torque").length,
-             title="drive torque, max", shown="kN m", extreme=Extreme.LARGEST,
+             LOAD, lambda run, _: run.peaks("drive_torque").length,
+             title="drive torque, max", display_unit="kN m", extreme=Extreme.LARGEST,
              curve="drive_torque"),
     Quantity("drive.peak_torque_mean_1ms", "N m", "largest torque of the drive, averaged over 1 ms",
              LOAD, lambda run, _: mean_peak_of(run.time, run["drive_torque"]),
              extreme=Extreme.LARGEST),
     Quantity("drive.peak_crank_torque", "N m",
              "largest torque that turns the crank, behind a motor's flywheel",
-             LOAD, lambda run, _: run.largest("crank_torque").length,
-             has=_motor, title="crank torque, max", shown="kN m", extreme=Extreme.LARGEST,
-             curve="crank_torque"),
+             LOAD, lambda run, _: run.peaks("crank_torque").length,
+             available=_motor, title="crank torque, max", display_unit="kN m",
+             extreme=Extreme.LARGEST, curve="crank_torque"),
     Quantity("drive.peak_crank_torque_mean_1ms", "N m",
              "largest torque that turns the crank, behind a motor's flywheel, averaged over 1 ms",
              LOAD, lambda run, _: mean_peak_of(run.time, run["crank_torque"]),
-             has=_motor, extreme=Extreme.LARGEST),
+             available=_motor, extreme=Extreme.LARGEST),
     Quantity("drive.mean_torque", "N m", "mean torque of the drive, over whole revolutions",
              LOAD, lambda run, _: run.mean(run["drive_torque"]),
              signed=True),
     Quantity("drive.peak_power", "W", "largest power of the drive",
-             LOAD, lambda run, _: run.largest("drive_power").length,
+             LOAD, lambda run, _: run.peaks("drive_power").length,
              extreme=Extreme.LARGEST, curve="drive_power"),
     Quantity("drive.mean_power", "W", "mean power of the drive, over whole revolutions",
              LOAD, lambda run, _: run.mean(run["drive_power"]),
@@ -151,23 +151,23 @@ DRIVE = (
              f"mean power that guides without friction would dissipate with a coefficient of "
              f"{RUBBING}",
              LOAD, _if_guides_rubbed,
-             has=_frictionless, title=f"guide friction at mu {RUBBING}", under=True),
+             available=_frictionless, title=f"guide friction at mu {RUBBING}", is_detail=True),
     Quantity("drive.mean_speed_rpm", "rpm",
              "mean crank speed, over whole revolutions or a nominal one",
              MOTION, _mean_speed,
-             has=_motor, title="crank speed, mean"),
+             available=_motor, title="crank speed, mean"),
     Quantity("drive.fluctuation", "",
              "largest less smallest crank speed over the mean one, over whole revolutions or a "
              "nominal one",
              DIFFERENCE, _fluctuation,
-             has=_motor, title="coefficient of fluctuation", under=True),
+             available=_motor, title="coefficient of fluctuation", is_detail=True),
 )  # fmt: skip
 
 
 def _resultant(channel: str, column: int, ending: str, run: Reading, _: str) -> float | None:
     if ending:
         return mean_peak_of(run.time, run[channel][:, column])
-    return float(run.largest(channel).columns[column])
+    return float(run.peaks(channel).columns[column])
 
 
 def _resultants() -> Iterator[Quantity]:
@@ -183,16 +183,16 @@ def _resultants() -> Iterator[Quantity]:
          "shaking force without the counterweight", _counterweight),
         ("shaking.frame", "frame_force", "force on the frame", always),
     )  # fmt: skip
-    for prefix, channel, words, has in sums:
+    for prefix, channel, meaning, available in sums:
         for column, direction in enumerate(("horizontal", "vertical")):
             for ending, also in (("", ""), ("_mean_1ms", ", averaged over 1 ms")):
                 name = f"{prefix}.{direction}{ending}"
                 title, under = titles.get(name, ("", False))
                 yield Quantity(
-                    name, "N", f"largest {direction} {words}{also}, in either direction",
+                    name, "N", f"largest {direction} {meaning}{also}, in either direction",
                     RESULTANT, partial(_resultant, channel, column, ending),
-                    has=has, title=title, shown="kN", under=under, extreme=Extreme.LARGEST,
-                    curve="" if ending else f"{channel}:{'xy'[column]}",
+                    available=available, title=title, display_unit="kN", is_detail=under,
+                    extreme=Extreme.LARGEST, curve="" if ending else f"{channel}:{'xy'[column]}",
                 )  # fmt: skip
 
 
@@ -200,36 +200,36 @@ SHAKING = tuple(_resultants())
 
 LOADS = (
     Quantity("peak_force", "N", "largest force of the load",
-             LOAD, lambda run, load: peak(run[f"load_{load}_force"]), Place.LOAD,
-             title="load, max", shown="kN", extreme=Extreme.LARGEST, curve="force"),
+             LOAD, lambda run, load: peak(run[f"load_{load}_force"]), Owner.LOAD,
+             title="load, max", display_unit="kN", extreme=Extreme.LARGEST, curve="force"),
     Quantity("work", "J", "work that the load puts in",
-             FLOW, lambda run, load: float(run[f"load_{load}_work"][-1]), Place.LOAD,
-             title="work that it put in", under=True, signed=True, cumulative=True),
+             FLOW, lambda run, load: float(run[f"load_{load}_work"][-1]), Owner.LOAD,
+             title="work that it put in", is_detail=True, signed=True, cumulative=True),
 )  # fmt: skip
 
 GUIDES = (
     Quantity("peak_force", "N", "largest force across the guide",
-             RESULTANT, _guide_peak("force"), Place.GUIDE,
+             RESULTANT, _guide_peak("force"), Owner.GUIDE,
              extreme=Extreme.LARGEST, curve="force"),
     Quantity("sliding_power", "W",
              "mean of side force times sliding speed, over whole revolutions: times a "
              "coefficient of power that the guide dissipates by friction",
-             RESULTANT, lambda run, body: run.once(_sliding_powers)[body], Place.GUIDE),
+             RESULTANT, lambda run, body: run.once(_sliding_powers)[body], Owner.GUIDE),
     Quantity("peak_friction", "N", "largest friction along the guide",
-             RESULTANT, _guide_peak("friction"), Place.GUIDE,
+             RESULTANT, _guide_peak("friction"), Owner.GUIDE,
              extreme=Extreme.LARGEST, curve="friction"),
     Quantity("min_film", "m",
              "least film thickness of the guide, 0 where surfaces lie in each other",
-             MOTION, _thinnest, Place.GUIDE, _has_oiled_guides,
-             title="guide film thickness, min", shown="um", extreme=Extreme.LEAST,
-             of_laws=of_pads, curve="gap"),
+             MOTION, _thinnest, Owner.GUIDE, _has_oiled_guides,
+             title="guide film thickness, min", display_unit="um", extreme=Extreme.LEAST,
+             law_error=guide_film_error, curve="gap"),
     Quantity("peak_moment", "N m", "largest moment of the guide on its body",
-             MOMENT, _guide_peak("moment"), Place.GUIDE,
+             MOMENT, _guide_peak("moment"), Owner.GUIDE,
              extreme=Extreme.LARGEST, curve="moment"),
     Quantity("dissipated", "J", "energy that the guide has dissipated",
-             ENERGY, lambda run, body: float(_guide_loss(run, body)[-1]), Place.GUIDE, _losing,
-             title="energy dissipated in guides", cumulative=True),
+             ENERGY, lambda run, body: float(_guide_loss(run, body)[-1]), Owner.GUIDE,
+             _can_dissipate, title="energy dissipated in guides", cumulative=True),
     Quantity("mean_power", "W", "mean power that the guide dissipates, over whole revolutions",
-             RESULTANT, lambda run, body: run.rate(_guide_loss(run, body)), Place.GUIDE, _losing,
-             signed=True),
+             RESULTANT, lambda run, body: run.rate(_guide_loss(run, body)), Owner.GUIDE,
+             _can_dissipate, signed=True),
 )  # fmt: skip

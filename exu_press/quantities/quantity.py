@@ -1,4 +1,4 @@
-"""A quantity of interest: declared once, read by everything that shows, compares or varies it."""
+"""Declaration of a quantity of interest."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
@@ -9,11 +9,11 @@ from exu_press.quantities.kind import Kind
 from exu_press.quantities.reading import Reading
 from exu_press.scene import Scene
 
-__all__ = ["Extreme", "Place", "Quantity", "always"]
+__all__ = ["Extreme", "Owner", "Quantity", "always"]
 
 
-class Place(Enum):
-    """The owner of a quantity; the value begins its full name."""
+class Owner(Enum):
+    """Kinds of owners of quantities; the value begins the full name."""
 
     RUN = ""
     JOINT = "joints"
@@ -32,20 +32,20 @@ class Extreme(Enum):
 
 PREFIXES = {"n": 1e9, "u": 1e6, "m": 1e3, "k": 1e-3, "M": 1e-6, "": 1.0}
 
-SIZED = ("m/s", "m/s^2", "N", "N m", "J", "W")
-"""Units that a small machine has with smaller prefixes; lengths are in mm and um anyway."""
+SCALED_UNITS = ("m/s", "m/s^2", "N", "N m", "J", "W")
+"""Units that have smaller prefixes for small machines; lengths are in mm and um anyway."""
 
 SMALL = 1e-3
-"""In the unit that is usually shown: a line whose values are all below it has another one."""
+"""Value in the usual unit below which a line of a table has a smaller one."""
 
 
 def exact_laws(scene: Scene, owner: str, value: float) -> float:
-    """Return 0.0: no law that decides the value is a table."""
+    """Return 0.0: no tabulated law decides the value."""
     return 0.0
 
 
-def always(scene: Scene, place: str) -> bool:
-    """Say that every scene with such a place has the quantity."""
+def always(scene: Scene, owner: str) -> bool:
+    """Return True: every scene with such an owner has the quantity."""
     return True
 
 
@@ -54,26 +54,26 @@ class Quantity:
     """One number of a run.
 
     Attributes:
-        name: within its place, as "peak_force" of a joint; dotted where it has variants.
+        name: without its owner, as "peak_force" of a joint; dotted where it has variants.
         unit: SI; "" where it has none.
         meaning: one sentence or phrase.
-        kind: from which its error follows.
-        read: returns it from a reading and the name of the place ("" of the run); None where the
-            run is too short to have it.
-        place: its owner.
-        has: whether a scene has it at a place, known before it runs.
+        kind: from which its least error follows.
+        read: reading and name of the owner ("" of the run) -> value, None where the run is too
+            short.
+        owner: kind of its owner.
+        available: scene and name of the owner -> whether its runs have the quantity.
         title: of its line in tables, without unit; "" where it is in none.
-        shown: the unit in which tables show it; the SI unit unless given.
-        digits: shown where no error is known.
-        under: whether its line is a detail of the line above.
+        display_unit: of tables; the SI unit unless given.
+        digits: in tables, where no error is known.
+        is_detail: whether its line is a detail of the line above.
         signed: whether it may be below zero.
         extreme: whether it is the largest or the least value.
-        at_most: name of the quantity at the same place that is never below it, or "".
+        upper_bound: name of the quantity of the same owner that is never below it, or "".
         headline: whether it is among those that everybody looks at first.
         cumulative: whether it adds up over a run.
-        of_laws: a scene, the place and the value -> what errors of tabulated laws make of it.
-        curve: whose extreme it is: a channel, CHANNEL:x of one of its columns, or, at a place, what
-            the place's channel ends in; "ratio" and "gap" follow from a joint's eccentricity.
+        law_error: scene, owner and value -> its error by those of tabulated laws.
+        curve: whose extreme it is: a channel, CHANNEL:x of one of its columns, or the ending of a
+            channel of the owner; "ratio" and "gap" follow from a joint's eccentricity.
     """
 
     name: str
@@ -81,55 +81,55 @@ class Quantity:
     meaning: str
     kind: Kind
     read: Callable[[Reading, str], Any]
-    place: Place = Place.RUN
-    has: Callable[[Scene, str], bool] = always
+    owner: Owner = Owner.RUN
+    available: Callable[[Scene, str], bool] = always
     title: str = ""
-    shown: str = ""
+    display_unit: str = ""
     digits: int = 4
-    under: bool = False
+    is_detail: bool = False
     signed: bool = False
     extreme: Extreme = Extreme.NONE
-    at_most: str = ""
+    upper_bound: str = ""
     headline: bool = False
     cumulative: bool = False
-    of_laws: Callable[[Scene, str, float], float] = exact_laws
+    law_error: Callable[[Scene, str, float], float] = exact_laws
     curve: str = ""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "shown", self.shown or self.unit)
+        object.__setattr__(self, "display_unit", self.display_unit or self.unit)
 
     def full_name(self, owner: str) -> str:
-        """Return the name in tables and files: that of its joint, guide, body or load before it.
+        """Return the name in tables and files, which begins with its owner.
 
         >>> from exu_press.quantities import CATALOGUE
         >>> next(q for q in CATALOGUE if q.name == "min_film").full_name("crank_pin")
         'joints.crank_pin.min_film'
         """
-        return self.name if self.place is Place.RUN else f"{self.place.value}.{owner}.{self.name}"
+        return self.name if self.owner is Owner.RUN else f"{self.owner.value}.{owner}.{self.name}"
 
     def in_scaled_unit(self, values: Iterable[float]) -> "Quantity":
         """Return the quantity in the unit of small machines, where its own makes values small.
 
         >>> from exu_press.quantities.catalogue import JOINT_FORCE
-        >>> [JOINT_FORCE.in_scaled_unit([largest]).shown for largest in (2e3, 0.02)]
+        >>> [JOINT_FORCE.in_scaled_unit([largest]).display_unit for largest in (2e3, 0.02)]
         ['kN', 'mN']
         """
         largest = max(map(abs, values), default=0.0)
-        if self.unit not in SIZED or not 0.0 < largest * self.scale < SMALL:
+        if self.unit not in SCALED_UNITS or not 0.0 < largest * self.scale < SMALL:
             return self
         prefix = next(
             (candidate for candidate in ("", "m", "u") if largest * PREFIXES[candidate] >= 1.0), "n"
         )
-        return replace(self, shown=f"{prefix}{self.unit}")
+        return replace(self, display_unit=f"{prefix}{self.unit}")
 
     @property
     def scale(self) -> float:
-        """Factor from the SI unit to the one that tables show."""
-        if self.shown == self.unit:
+        """Factor from the SI unit to the display unit."""
+        if self.display_unit == self.unit:
             return 1.0
-        return PREFIXES[self.shown.removesuffix(self.unit)]
+        return PREFIXES[self.display_unit.removesuffix(self.unit)]
 
     @property
     def head(self) -> str:
-        """Its title with the unit that is shown."""
-        return f"{self.title}, {self.shown}" if self.shown else self.title
+        """Title with the display unit."""
+        return f"{self.title}, {self.display_unit}" if self.display_unit else self.title

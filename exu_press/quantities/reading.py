@@ -1,4 +1,4 @@
-"""A run as quantities read it, with shared results worked out once."""
+"""A run as quantities read it; what several of them need is computed once."""
 
 from collections.abc import Callable
 from functools import cached_property
@@ -9,7 +9,7 @@ import numpy as np
 from exu_press.mechanism import Mechanism
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral
-from exu_press.quantities.alternating import Largest, largest
+from exu_press.quantities.alternating import Peaks, peaks
 from exu_press.quantities.dead_centre import DeadCentre, bottom_dead_centres
 from exu_press.result import Result
 from exu_press.result.windows import settled_part
@@ -21,7 +21,7 @@ Read = TypeVar("Read")
 
 
 class Reading:
-    """A run and its readings, each made once.
+    """A run and its readings, each computed once.
 
     Attributes:
         run: all of it.
@@ -32,8 +32,8 @@ class Reading:
         """Take the settled part of a run."""
         self.run = run
         self.result = settled_part(run)
-        self._found: dict[Any, Any] = {}
-        self._largest: dict[str, Largest] = {}
+        self._computed: dict[Any, Any] = {}
+        self._peaks: dict[str, Peaks] = {}
 
     def __getitem__(self, channel: str) -> Array:
         return self.result[channel]
@@ -43,17 +43,17 @@ class Reading:
         channel = self.result.channels.get(name)
         return None if channel is None else channel.values
 
-    def largest(self, name: str) -> Largest:
+    def peaks(self, name: str) -> Peaks:
         """Return the peaks of a channel that follows from accelerations."""
-        if name not in self._largest:
-            self._largest[name] = largest(self.time, self[name])
-        return self._largest[name]
+        if name not in self._peaks:
+            self._peaks[name] = peaks(self.time, self[name])
+        return self._peaks[name]
 
     def once(self, read: Callable[["Reading"], Read]) -> Read:
-        """Return a function of this reading; it is called once, however many quantities need it."""
-        if read not in self._found:
-            self._found[read] = read(self)
-        value: Read = self._found[read]
+        """Return a function of this reading, which is called once."""
+        if read not in self._computed:
+            self._computed[read] = read(self)
+        value: Read = self._computed[read]
         return value
 
     @property
@@ -90,9 +90,9 @@ class Reading:
 
     @cached_property
     def whole(self) -> float | None:
-        """Instant from which to the end the crank turns whole revolutions, s, or None.
+        """Begin of the whole revolutions at the end, s, or None.
 
-        None of a press that starts or stops: the mean of that is none of its operation.
+        None of a press that starts or stops: its mean is not that of operation.
         """
         if self._starts_or_stops:
             return None
@@ -105,9 +105,9 @@ class Reading:
 
     @cached_property
     def speed_from(self) -> float | None:
-        """Instant from which to the end the crank's speed is read, s, or None.
+        """Begin of the revolutions from which the crank's speed is read, s, or None.
 
-        Of the last whole revolutions; where a motor lags in a run of one, of the nominal one.
+        They are the last whole ones; where a motor lags in a run of one, a nominal one.
         """
         period = 60.0 / self.result.scene.speed_rpm
         if self._starts_or_stops:
@@ -123,7 +123,7 @@ class Reading:
     def rate(self, amount: Array) -> float | None:
         """Return the mean rate of change of a channel (n,) over the last whole revolutions.
 
-        Over a part of one the mechanism's stored energy counts: None then.
+        None without one: over a fraction of a revolution the stored energy would count.
         """
         if self.whole is None:
             return None

@@ -8,13 +8,13 @@ import numpy as np
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.acceleration import peak
 from exu_press.quantities.kind import DIFFERENCE, ENERGY, LOAD
-from exu_press.quantities.quantity import Extreme, Place, Quantity
+from exu_press.quantities.quantity import Extreme, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result.energy import work
 from exu_press.scene import Scene
 from exu_press.scene.applied import applied_loads
 
-__all__ = ["SHEETS", "given_back"]
+__all__ = ["SHEETS", "released_work"]
 
 
 def _is_sheet(scene: Scene, load: str) -> bool:
@@ -31,18 +31,18 @@ def _strokes(run: Reading, load: str) -> list[tuple[Array, Array]]:
     sheet = applied_loads(run.result.scene)[load].sheet
     assert sheet is not None
     depth, strips = _penetration(run, load), run[f"load_{load}_force"] < 0.0
-    found = []
+    strokes = []
     inside = np.flatnonzero(np.diff(np.concatenate([[0], (depth > 0.0).astype(int), [0]])))
-    for first, behind in inside.reshape(-1, 2):
-        steps = np.arange(first, behind)
+    for first, end in inside.reshape(-1, 2):
+        steps = np.arange(first, end)
         deep = np.flatnonzero(depth[steps] >= sheet.fracture)
         lowest = int(np.argmax(depth[steps]))
         if first > 0 and deep.size and deep[0] < lowest:
             after = steps[deep[0] : lowest + 1]
             while len(after) > 1 and strips[after[-1]]:
                 after = after[:-1]
-            found.append((steps[: deep[0]], after))
-    return found
+            strokes.append((steps[: deep[0]], after))
+    return strokes
 
 
 def _penetration(run: Reading, load: str) -> Array:
@@ -70,14 +70,14 @@ def _ideal(run: Reading) -> tuple[Array, Array, Array]:
     That of a crank at the same angle and speed, which a motor's load slows down.
     """
     speed = run["crank_speed"]
-    place, velocity, acceleration = run.mechanism.ideal_slider(run["crank_angle"], 1.0)
-    slower: Array = np.zeros_like(speed)
+    position, velocity, acceleration = run.mechanism.ideal_slider(run["crank_angle"], 1.0)
+    deceleration: Array = np.zeros_like(speed)
     if run.result.scene.drive is not None:
-        slower = np.gradient(speed, run.time) * velocity
-    return place, speed * velocity, speed**2 * acceleration + slower
+        deceleration = np.gradient(speed, run.time) * velocity
+    return position, speed * velocity, speed**2 * acceleration + deceleration
 
 
-def given_back(time: Array, pull: Array, rate: Array) -> float:
+def released_work(time: Array, pull: Array, rate: Array) -> float:
     """Return the work on an output that is released, J, until what pressed it pulls.
 
     Args:
@@ -98,49 +98,49 @@ def _largest(
     return max((read(run, load, *stroke) for stroke in strokes), default=None)
 
 
-def _reverse(run: Reading, load: str, before: Array, after: Array) -> float:
-    return max(0.0, float(_pull(run)[after].max()))
+def _reverse_force(run: Reading, load: str, pressed: Array, released: Array) -> float:
+    return max(0.0, float(_pull(run)[released].max()))
 
 
 def _reverse_share(run: Reading, load: str) -> float | None:
-    reverse = _largest(_reverse, run, load)
+    reverse = _largest(_reverse_force, run, load)
     return None if reverse is None else reverse / peak(run[f"load_{load}_force"])
 
 
-def _downward(run: Reading, load: str, before: Array, after: Array) -> float:
-    return max(0.0, float(-run["slider_acceleration"][after].min()))
+def _downward_acceleration(run: Reading, load: str, pressed: Array, released: Array) -> float:
+    return max(0.0, float(-run["slider_acceleration"][released].min()))
 
 
-def _stack_up(run: Reading, load: str, before: Array, after: Array) -> float:
+def _stack_up(run: Reading, load: str, pressed: Array, released: Array) -> float:
     above = run["slider_position"] - _ideal(run)[0]
-    pressed = above[before].max() if before.size else above[after[0]]
-    return float(pressed - above[after].min())
+    highest = above[pressed].max() if pressed.size else above[released[0]]
+    return float(highest - above[released].min())
 
 
-def _released_energy(run: Reading, load: str, before: Array, after: Array) -> float:
+def _released_energy(run: Reading, load: str, pressed: Array, released: Array) -> float:
     rising = run["slider_velocity"] - _ideal(run)[1]
-    return given_back(run.time[after], _pull(run)[after], rising[after])
+    return released_work(run.time[released], _pull(run)[released], rising[released])
 
 
 SHEETS = (
     Quantity("reverse_force", "N",
              "largest pull of the output's joints after the fracture beyond its weight and inertia",
-             LOAD, partial(_largest, _reverse), Place.LOAD, _is_sheet,
-             title="reverse load, max", shown="kN", under=True, extreme=Extreme.LARGEST),
+             LOAD, partial(_largest, _reverse_force), Owner.LOAD, _is_sheet,
+             title="reverse load, max", display_unit="kN", is_detail=True, extreme=Extreme.LARGEST),
     Quantity("reverse_share", "",
              "reverse load over the largest load; builders of presses allow about 0.1",
-             LOAD, _reverse_share, Place.LOAD, _is_sheet,
-             title="over the largest load", under=True, extreme=Extreme.LARGEST),
+             LOAD, _reverse_share, Owner.LOAD, _is_sheet,
+             title="over the largest load", is_detail=True, extreme=Extreme.LARGEST),
     Quantity("release_acceleration", "m/s^2",
              "largest downward acceleration of the output after the fracture",
-             LOAD, partial(_largest, _downward), Place.LOAD, _is_sheet,
+             LOAD, partial(_largest, _downward_acceleration), Owner.LOAD, _is_sheet,
              extreme=Extreme.LARGEST),
     Quantity("snap_through_energy", "J",
              "energy that mechanism and drive give back after the fracture, until they pull",
-             ENERGY, partial(_largest, _released_energy), Place.LOAD, _is_sheet,
+             ENERGY, partial(_largest, _released_energy), Owner.LOAD, _is_sheet,
              extreme=Extreme.LARGEST),
     Quantity("stack_up", "m",
              "way by which the output jumps ahead of the ideal motion as clearances change sides",
-             DIFFERENCE, partial(_largest, _stack_up), Place.LOAD, _is_sheet,
-             title="stack-up", shown="um", under=True, extreme=Extreme.LARGEST),
+             DIFFERENCE, partial(_largest, _stack_up), Owner.LOAD, _is_sheet,
+             title="stack-up", display_unit="um", is_detail=True, extreme=Extreme.LARGEST),
 )  # fmt: skip

@@ -19,7 +19,7 @@ from exu_press.scene import Scene, mechanism_of
 __all__ = ["SLIDER", "STROKES"]
 
 
-def _guided_softly(scene: Scene, _: str) -> bool:
+def _has_soft_guide(scene: Scene, _: str) -> bool:
     """Return whether the slider's guide lets it tilt: the tilt in rigid guides is rounding."""
     mechanism = mechanism_of(scene)
     return any(
@@ -53,30 +53,30 @@ def _ends(run: Reading) -> tuple[float, float]:
 SLIDER = (
     Quantity("stroke", "m", "distance between the slider's highest and lowest position",
              MOTION, lambda run, _: run.once(_ends)[1] - run.once(_ends)[0],
-             title="stroke", shown="mm", digits=5, extreme=Extreme.LARGEST, headline=True),
+             title="stroke", display_unit="mm", digits=5, extreme=Extreme.LARGEST, headline=True),
     Quantity("bottom_dead_centre", "m", "lowest position of the slider",
              MOTION, lambda run, _: run.once(_ends)[0],
-             title="bottom dead centre", shown="mm", digits=6, signed=True),
+             title="bottom dead centre", display_unit="mm", digits=6, signed=True),
     Quantity("peak_velocity", "m/s", "largest speed of the slider",
              MOTION, lambda run, _: peak(run["slider_velocity"]),
              title="peak velocity", extreme=Extreme.LARGEST, headline=True,
              curve="slider_velocity"),
     Quantity("peak_acceleration.resolved", "m/s^2",
              "largest acceleration of the slider, as the integrator resolves it",
-             LOAD, lambda run, _: run.largest("slider_acceleration").length,
+             LOAD, lambda run, _: run.peaks("slider_acceleration").length,
              title="peak acceleration", extreme=Extreme.LARGEST, headline=True,
              curve="slider_acceleration"),
     Quantity("peak_acceleration.mean_1ms", "m/s^2",
              "largest acceleration of the slider, averaged over 1 ms",
              LOAD, lambda run, _: mean_peak(run.time, run["slider_velocity"]),
-             title="mean over 1 ms", under=True, extreme=Extreme.LARGEST, headline=True),
+             title="mean over 1 ms", is_detail=True, extreme=Extreme.LARGEST, headline=True),
     Quantity("peak_acceleration.differentiated_1khz", "m/s^2",
              "largest second difference of the slider's displacement, sampled at 1 kHz",
              LOAD,
              lambda run, _:
                  differentiated_peak(run.time, run["slider_position"], run["slider_velocity"]),
-             title="differentiated, 1 kHz", under=True, extreme=Extreme.LARGEST,
-             at_most="peak_acceleration.mean_1ms"),  # the mean over 1 ms of such means
+             title="differentiated, 1 kHz", is_detail=True, extreme=Extreme.LARGEST,
+             upper_bound="peak_acceleration.mean_1ms"),  # the mean over 1 ms of such means
 )  # fmt: skip
 
 STROKES = (
@@ -86,15 +86,15 @@ STROKES = (
     Quantity("strokes.range", "m",
              "distance between the highest and the lowest bottom dead centre of the strokes",
              DIFFERENCE, _of_strokes(np.ptp, 2),
-             title="dead centres differ by", shown="um", extreme=Extreme.LARGEST),
+             title="dead centres differ by", display_unit="um", extreme=Extreme.LARGEST),
     Quantity("strokes.standard_deviation", "m",
              "standard deviation of the strokes' bottom dead centres",
              DIFFERENCE, _of_strokes(lambda positions: positions.std(ddof=1), 2)),
     Quantity("slider_tilt", "rad", "largest tilt of the slider in its guide",
              DIFFERENCE, lambda run, _: peak(run["slider_tilt"]),
-             has=_guided_softly, title="slider tilt, max", shown="urad", extreme=Extreme.LARGEST,
-             curve="slider_tilt"),
+             available=_has_soft_guide, title="slider tilt, max", display_unit="urad",
+             extreme=Extreme.LARGEST, curve="slider_tilt"),
     Quantity("slider_lateral", "m", "largest displacement of the slider across its guide",
              DIFFERENCE, lambda run, _: peak(run["slider_lateral"]),
-             has=_guided_softly, extreme=Extreme.LARGEST, curve="slider_lateral"),
+             available=_has_soft_guide, extreme=Extreme.LARGEST, curve="slider_lateral"),
 )  # fmt: skip

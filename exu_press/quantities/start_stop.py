@@ -101,15 +101,15 @@ def _over_stops(run: Reading, amount: Array) -> float | None:
     return float((end - begin).max())
 
 
-def _way(run: Reading) -> Array:
-    """Return the way of the output since the start, (n,), m, there and back across dead centres."""
+def _travel(run: Reading) -> Array:
+    """Return the distance that the output has travelled since the start, (n,), m."""
     from scipy.interpolate import CubicHermiteSpline  # type: ignore[import-untyped, unused-ignore]
 
     position = CubicHermiteSpline(run.time, run["slider_position"], run["slider_velocity"])
     turns = position.derivative().roots(extrapolate=False)
     instants = np.union1d(run.time, turns[np.isfinite(turns)])
-    way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(position(instants))))])
-    return np.asarray(way[np.searchsorted(instants, run.time)])
+    travel = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(position(instants))))])
+    return np.asarray(travel[np.searchsorted(instants, run.time)])
 
 
 def _stopping_time(run: Reading, _: str) -> float | None:
@@ -150,8 +150,8 @@ def _per_stop(run: Reading, _: str) -> float:
 def _speed_drop(run: Reading, _: str) -> float:
     """Return the largest fall of the flywheel's speed, over the largest one before."""
     speed = run["flywheel_speed"]
-    before = np.maximum.accumulate(speed)
-    return float(((before - speed) / np.maximum(before, 1e-300)).max())
+    largest = np.maximum.accumulate(speed)
+    return float(((largest - speed) / np.maximum(largest, 1e-300)).max())
 
 
 START_STOP = (
@@ -159,27 +159,29 @@ START_STOP = (
              "longest time from a command to stop until the crank stands: the overall response "
              "time of ISO 16092, from the command on",
              MOTION, _stopping_time,
-             has=_stops, title="stopping time", shown="ms", extreme=Extreme.LARGEST),
+             available=_stops, title="stopping time", display_unit="ms", extreme=Extreme.LARGEST),
     Quantity("drive.stopping_angle_deg", "deg",
              "largest angle that the crank turns from a command to stop until it stands",
              MOTION, _stopping_angle,
-             has=_stops, title="stopping angle", under=True, extreme=Extreme.LARGEST),
+             available=_stops, title="stopping angle", is_detail=True, extreme=Extreme.LARGEST),
     Quantity("drive.stopping_travel", "m",
              "longest way of the output from a command to stop until it stands",
-             MOTION, lambda run, _: _over_stops(run, _way(run)),
-             has=_stops, title="stopping travel", shown="mm", under=True, extreme=Extreme.LARGEST),
+             MOTION, lambda run, _: _over_stops(run, _travel(run)),
+             available=_stops, title="stopping travel", display_unit="mm", is_detail=True,
+             extreme=Extreme.LARGEST),
     Quantity("drive.starting_time", "s",
              "longest time from a command to start until the clutch slips no more",
              MOTION, _starting_time,
-             has=_starts, title="starting time", shown="ms", extreme=Extreme.LARGEST),
+             available=_starts, title="starting time", display_unit="ms", extreme=Extreme.LARGEST),
     Quantity("drive.speed_drop", "",
              "largest fall of the flywheel's speed, over the largest one before",
              DIFFERENCE, _speed_drop,
-             has=_clutch, title="speed drop of the flywheel", extreme=Extreme.LARGEST),
+             available=_clutch, title="speed drop of the flywheel", extreme=Extreme.LARGEST),
     Quantity("drive.clutch_energy", "J", "energy that the clutch dissipates, for each start",
              ENERGY, _per_start,
-             has=_clutch, title="heat in the clutch, each start", cumulative=True),
+             available=_clutch, title="heat in the clutch, each start", cumulative=True),
     Quantity("drive.brake_energy", "J", "energy that the brake dissipates, for each stop",
              ENERGY, _per_stop,
-             has=_brakes, title="heat in the brake, each stop", under=True, cumulative=True),
+             available=_brakes, title="heat in the brake, each stop", is_detail=True,
+             cumulative=True),
 )  # fmt: skip

@@ -45,7 +45,7 @@ def summary(result: Result) -> dict[str, Any]:
     Plain numbers, texts, lists and dictionaries.
     """
     run = Reading(result)
-    before = result.info.get("figures")
+    figures = result.info.get("figures")
     info, values = result.info, values_of(result, run)
     declared = quantities_of(result.scene)
     costs = {name for name, placed in declared.items() if placed.quantity.kind is COST}
@@ -53,15 +53,15 @@ def summary(result: Result) -> dict[str, Any]:
         "status": info["status"],
         "reason": info["reason"],
         "end_time": info["end_time"],
-        "warnings": before["warnings"] if before else run_warnings(result),
+        "warnings": figures["warnings"] if figures else run_warnings(result),
         "assumed": assumed(result.scene),
-        "read_from": before["read_from"]
-        if before
+        "read_from": figures["read_from"]
+        if figures
         else dict(zip(("from", "to"), run.span, strict=True)),
         "quantities": {n: value.to_dict() for n, value in values.items() if n not in costs},
         "horizon": info.get("horizon"),
         "lyapunov_exponent": info.get("lyapunov_exponent"),
-        "strokes": before["strokes"] if before else _strokes(result, run),
+        "strokes": figures["strokes"] if figures else _strokes(result, run),
         "stress": info.get("stress", {}),
         "solids": info.get("solids", {}),
         "cost": {
@@ -105,7 +105,7 @@ def run_warnings(result: Result) -> list[str]:
                     f"{name.replace('_', ' ')}: eccentricity ratio up to {ratio:.3f}; film laws "
                     "for smooth surfaces are hardly valid there"
                 )
-        texts += _deep(name, joint, scene.joints[name])
+        texts += _penetration_warnings(name, joint, scene.joints[name])
     if scene.drive is not None and scene.drive.stops and still_turns(Reading(result)):
         speed = float(result["crank_speed"][-1]) * 30.0 / math.pi
         texts.append(
@@ -115,21 +115,21 @@ def run_warnings(result: Result) -> list[str]:
     return [
         *texts,
         *oil_warnings(result),
-        *_held_twice(scene),
-        *_solids(result),
+        *_redundancy_warnings(scene),
+        *_solid_warnings(result),
         *scene_warnings(scene),
     ]
 
 
-def _deep(name: str, joint: JointRecord, described: Joint) -> Iterator[str]:
+def _penetration_warnings(name: str, joint: JointRecord, described: Joint) -> Iterator[str]:
     """Yield a contact that is pressed in too deep for its law."""
     if not isinstance(described, DryJoint | LubricatedJoint) or described.contact is None:
         return
     depth = max(0.0, -float(joint.gap.min()))
-    shown, radius, clearance = name.replace("_", " "), described.radius, described.clearance
+    label, radius, clearance = name.replace("_", " "), described.radius, described.clearance
     if depth > DEEP * radius:
         yield (
-            f"{shown}: pressed in by up to {1e3 * depth:.3g} mm, "
+            f"{label}: pressed in by up to {1e3 * depth:.3g} mm, "
             f"{100.0 * depth / radius:.3g} % of its radius; contact laws are those of small "
             "deformations: are the modulus or the stiffness of [contact], and the loads, meant so?"
         )
@@ -137,14 +137,14 @@ def _deep(name: str, joint: JointRecord, described: Joint) -> Iterator[str]:
     wide = math.sqrt(depth * radius * (radius + clearance) / clearance)
     if hertz and described.contact.stiffness is None and wide > WIDE * radius:
         yield (
-            f"{shown}: pressed in by up to {1e6 * depth:.3g} um, so that the contact's radius is "
+            f"{label}: pressed in by up to {1e6 * depth:.3g} um, so that the contact's radius is "
             f"{wide / radius:.2g} times the ball's; Hertz's contact is small against it, and its "
             "stiffness, of a closely fitting ball, is too small there; the cure is a "
             "contact.stiffness of your own"
         )
 
 
-def _held_twice(scene: Scene) -> Iterator[str]:
+def _redundancy_warnings(scene: Scene) -> Iterator[str]:
     """Yield the ideal joints between which forces cannot be told apart."""
     constraints = independent_constraints(mechanism_of(scene), scene.joints.ideal)
     if constraints.keeps_redundant:
@@ -156,7 +156,7 @@ def _held_twice(scene: Scene) -> Iterator[str]:
         )
 
 
-def _solids(result: Result) -> Iterator[str]:
+def _solid_warnings(result: Result) -> Iterator[str]:
     """Yield differences of a flexible body's solid from the mechanism's body."""
     scene = result.scene
     mechanism = mechanism_of(scene)

@@ -1,4 +1,4 @@
-"""Runs as a table, for a terminal or a report, and the differences between them."""
+"""Quantities of runs as a table, for a terminal or a report, and their differences."""
 
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -7,7 +7,7 @@ from typing import Any
 
 from exu_press.quantities.catalogue import CATALOGUE
 from exu_press.quantities.kind import LOAD
-from exu_press.quantities.quantity import Place, Quantity
+from exu_press.quantities.quantity import Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.uncertain import uncertain
 from exu_press.quantities.value import Value, values_of
@@ -18,7 +18,7 @@ from exu_press.terminal.columns import columns
 
 __all__ = ["comparison_cells", "comparison_lines", "difference_lines", "run_lines", "shown_value"]
 
-MOST_PLACES = 3
+MOST_OWNERS = 3
 """Joints, guides or bodies that a line names: those with the largest loads."""
 
 ALIKE = 1e-2
@@ -50,19 +50,19 @@ def comparison_cells(results: Mapping[str, Result]) -> list[list[str]]:
     for declared in CATALOGUE:
         if declared.title:
             quantity = declared.in_scaled_unit(_sizes(declared, runs.values()))
-            cell = _at_places if quantity.place is not Place.RUN else _of_run
+            cell = _cell_of_run if quantity.owner is Owner.RUN else _cell_of_owners
             texts = [cell(quantity, results[label], values) for label, values in runs.items()]
             cells.append([_head(quantity, unit), *texts])
-            unit = quantity.shown
+            unit = quantity.display_unit
     return [line for line in cells if set(line[1:]) != {"-"}]
 
 
 def _sizes(quantity: Quantity, runs: Iterable[Mapping[str, Value]]) -> Iterator[float]:
-    """Yield how large a quantity may be, at all of its places in all runs, SI."""
+    """Yield the magnitudes of a quantity with its error, of all owners in all runs, SI."""
     for values in runs:
-        places = [""] if quantity.place is Place.RUN else _names(values, quantity.place)
-        known = (values.get(quantity.full_name(place)) for place in places)
-        yield from (abs(v.value) + (v.error or 0.0) for v in known if v and v.value is not None)
+        owners = [""] if quantity.owner is Owner.RUN else _owner_names(values, quantity.owner)
+        declared = (values.get(quantity.full_name(owner)) for owner in owners)
+        yield from (abs(v.value) + (v.error or 0.0) for v in declared if v and v.value is not None)
 
 
 def comparison_lines(results: Mapping[str, Result]) -> list[str]:
@@ -83,63 +83,58 @@ def _span(result: Result) -> str:
 
 def _head(quantity: Quantity, unit: str) -> str:
     """Return the head of a line; a detail has its unit where the line above has another."""
-    own = quantity.shown
-    words = quantity.title + f", {own}" * bool(own and not (quantity.under and own == unit))
-    return f"  {words}" if quantity.under else words
+    own = quantity.display_unit
+    text = quantity.title + f", {own}" * bool(own and not (quantity.is_detail and own == unit))
+    return f"  {text}" if quantity.is_detail else text
 
 
-def _of_run(quantity: Quantity, _: Result, values: Mapping[str, Value]) -> str:
+def _cell_of_run(quantity: Quantity, _: Result, values: Mapping[str, Value]) -> str:
     value = values.get(quantity.name)
     return "-" if value is None else shown_value(quantity, value)
 
 
-def _at_places(quantity: Quantity, result: Result, values: Mapping[str, Value]) -> str:
-    """Return a quantity at its places; alike members of a group as one, the busiest only."""
-    names = _names(values, quantity.place)
-    value_at = {at: values[name] for at in names if (name := quantity.full_name(at)) in values}
-    value_at = {at: value for at, value in value_at.items() if value.value is not None}
-    words = dict(zip(value_at, (at.replace("_", " ") for at in value_at), strict=True))
-    for group, members in mechanism_of(result.scene).groups.items():
-        member_names = (
-            [at for at in members if at in value_at] if quantity.place is Place.JOINT else []
-        )
-        if len(member_names) == len(members) and _alike([value_at[at] for at in member_names]):
-            largest = max(member_names, key=lambda at: abs(value_at[at].value or 0.0))
-            words[largest] = group.replace("_", " ")
-            for at in member_names:
-                if at != largest:
-                    del words[at]
-    listed, most = list(words), MOST_PLACES
-    if quantity.place is Place.JOINT:  # those with clearance, or the busiest ideal one
-        listed = [at for at in listed if at in result.clearance_joints] or listed
-        most = MOST_PLACES if result.clearance_joints else 1
-    busiest = sorted(listed, key=lambda at: -_load(values, quantity.place, at))[:most]
-    texts = [f"{words[at]} {shown_value(quantity, value_at[at])}" for at in listed if at in busiest]
+def _cell_of_owners(quantity: Quantity, result: Result, values: Mapping[str, Value]) -> str:
+    """Return a quantity of its owners; alike members of a group as one, the most loaded only."""
+    owners = _owner_names(values, quantity.owner)
+    value_of = {
+        owner: values[name] for owner in owners if (name := quantity.full_name(owner)) in values
+    }
+    value_of = {owner: value for owner, value in value_of.items() if value.value is not None}
+    labels = {owner: owner.replace("_", " ") for owner in value_of}
+    groups = mechanism_of(result.scene).groups if quantity.owner is Owner.JOINT else {}
+    for group, members in groups.items():
+        if value_of.keys() >= set(members) and _are_alike([value_of[member] for member in members]):
+            largest = max(members, key=lambda member: abs(value_of[member].value or 0.0))
+            labels[largest] = group.replace("_", " ")
+            for member in set(members) - {largest}:
+                labels.pop(member, None)
+    listed, most = list(labels), MOST_OWNERS
+    if quantity.owner is Owner.JOINT:  # those with clearance, or the most loaded ideal one
+        listed = [owner for owner in listed if owner in result.clearance_joints] or listed
+        most = MOST_OWNERS if result.clearance_joints else 1
+    loaded = sorted(listed, key=lambda owner: -_load(values, quantity.owner, owner))[:most]
+    texts = [
+        f"{labels[owner]} {shown_value(quantity, value_of[owner])}"
+        for owner in listed
+        if owner in loaded
+    ]
     rest = len(listed) - len(texts)
     return ", ".join([*texts, *[f"{rest} more"] * (rest > 0)]) or "-"
 
 
-def _names(values: Mapping[str, Value], place: Place) -> list[str]:
-    begin = f"{place.value}."
-    return list(
-        dict.fromkeys(
-            name.removeprefix(begin).split(".")[0] for name in values if name.startswith(begin)
-        )
-    )
+def _owner_names(values: Mapping[str, Value], kind: Owner) -> list[str]:
+    begin = f"{kind.value}."
+    names = (name.removeprefix(begin) for name in values if name.startswith(begin))
+    return list(dict.fromkeys(name.split(".")[0] for name in names))
 
 
-def _load(values: Mapping[str, Value], place: Place, at: str) -> float:
-    loads = (
-        values[name].value
-        for quantity in CATALOGUE
-        if quantity.place is place
-        and quantity.kind is LOAD
-        and (name := quantity.full_name(at)) in values
-    )
+def _load(values: Mapping[str, Value], kind: Owner, owner: str) -> float:
+    names = (q.full_name(owner) for q in CATALOGUE if q.owner is kind and q.kind is LOAD)
+    loads = (values[name].value for name in names if name in values)
     return next((abs(load) for load in loads if load is not None), 0.0)
 
 
-def _alike(values: Sequence[Value]) -> bool:
+def _are_alike(values: Sequence[Value]) -> bool:
     """Return whether values are the same to a hundredth."""
     numbers = [value.value or 0.0 for value in values]
     return max(numbers) - min(numbers) <= ALIKE * max(map(abs, numbers), default=0.0)

@@ -13,7 +13,7 @@ from exu_press.laws.wear import Contacts, archard, worn_by_angle
 from exu_press.mechanism import GROUND
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.kind import COUNT, FLOW, LOAD
-from exu_press.quantities.quantity import Extreme, Place, Quantity
+from exu_press.quantities.quantity import Extreme, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import Result
 from exu_press.result.channel import guide_channel
@@ -37,7 +37,7 @@ SECTORS = 72
 """Sectors of 5 degrees over which depths are averaged; as many parts of a guideway."""
 
 AT_ONCE = 4096
-"""Steps whose overlaps are worked out together."""
+"""Steps of a block."""
 
 
 @dataclass(frozen=True)
@@ -55,10 +55,10 @@ class Sliding:
 
 def sliding_of(result: Result, joint: str) -> Sliding:
     """Return the rubbing in a joint."""
-    return _slid(result, result[f"{joint}_normal_force"], result[f"{joint}_sliding"])
+    return _rub(result, result[f"{joint}_normal_force"], result[f"{joint}_sliding"])
 
 
-def _slid(result: Result, force: Array, speed: Array) -> Sliding:
+def _rub(result: Result, force: Array, speed: Array) -> Sliding:
     power = np.maximum(force, 0.0) * np.abs(speed)
     return Sliding(0.5 * (power[1:] + power[:-1]) * np.diff(result.time), power)
 
@@ -187,7 +187,7 @@ def guideway_depths(result: Result, body: str) -> Array:
     depths = np.zeros((2, 2, SECTORS))
     for end in (0, 1):
         for side, sign in enumerate((-1.0, 1.0)):
-            work = _slid(result, sign * force[:, end], speed[:, end]).work
+            work = _rub(result, sign * force[:, end], speed[:, end]).work
             depths[end, side] = rate * np.bincount(cell, weights=work, minlength=SECTORS)
     return depths
 
@@ -226,12 +226,12 @@ def _guide_wears(scene: Scene, body: str) -> bool:
     return body in wearing_guides(scene)
 
 
-def _per_revolution(worn: Callable[[Result, str], float], run: Reading, place: str) -> float | None:
+def _per_revolution(worn: Callable[[Result, str], float], run: Reading, owner: str) -> float | None:
     """Return the mean wear of whole revolutions; None where there is none."""
     if run.whole is None:
         return None
     last, turns = _whole(run, run.whole)
-    return worn(last, place) / turns
+    return worn(last, owner) / turns
 
 
 def _volume(result: Result, joint: str) -> float:
@@ -244,7 +244,7 @@ def _ends(result: Result, body: str) -> list[Sliding]:
     """Return the rubbing at the ends of a guided body."""
     channel = guide_channel(mechanism_of(result.scene), body)
     force, speed = result[f"{channel}_normal_force"], result[f"{channel}_sliding"]
-    return [_slid(result, np.abs(force[:, end]), speed[:, end]) for end in (0, 1)]
+    return [_rub(result, np.abs(force[:, end]), speed[:, end]) for end in (0, 1)]
 
 
 def _guide_volume(result: Result, body: str) -> float:
@@ -262,16 +262,16 @@ def _guideway_depth(result: Result, body: str) -> float:
 
 
 def _deepest(run: Reading) -> dict[str, float]:
-    """Return the largest depth of every joint and guide that wears, by the name of the place."""
+    """Return the largest depth of every joint and guide that wears, by owner."""
     result, scene = run.result, run.result.scene
     joints = {f"joints.{j}": max(_depth(0, result, j), _depth(1, result, j))
               for j in wearing_joints(scene)}  # fmt: skip
     return joints | {f"guides.{b}": _guideway_depth(result, b) for b in wearing_guides(scene)}
 
 
-def _rank(kind: str, run: Reading, place: str) -> int | None:
+def _rank(kind: str, run: Reading, owner: str) -> int | None:
     depths = run.once(_deepest)
-    return 1 + sum(depth > depths[f"{kind}.{place}"] for depth in depths.values())
+    return 1 + sum(depth > depths[f"{kind}.{owner}"] for depth in depths.values())
 
 
 def _pressure_velocity(run: Reading, joint: str) -> Array:
@@ -291,33 +291,34 @@ def _guide_pressure_velocity(run: Reading, body: str) -> Array:
 
 
 def _mean(
-    pressure_velocity: Callable[[Reading, str], Array], run: Reading, place: str
+    pressure_velocity: Callable[[Reading, str], Array], run: Reading, owner: str
 ) -> float | None:
-    return None if run.whole is None else run.mean(pressure_velocity(run, place))
+    return None if run.whole is None else run.mean(pressure_velocity(run, owner))
 
 
-def _largest(pressure_velocity: Callable[[Reading, str], Array], run: Reading, place: str) -> float:
-    return float(pressure_velocity(run, place).max(initial=0.0))
+def _largest(pressure_velocity: Callable[[Reading, str], Array], run: Reading, owner: str) -> float:
+    return float(pressure_velocity(run, owner).max(initial=0.0))
 
 
-def _rows(place: Place) -> tuple[Quantity, ...]:
-    """Return the quantities that joints and guides have alike."""
-    joint = place is Place.JOINT
-    has, kind = (_wears, "joints") if joint else (_guide_wears, "guides")
+def _shared_rows(owner: Owner) -> tuple[Quantity, ...]:
+    """Return the quantities that both joints and guides have."""
+    joint = owner is Owner.JOINT
+    available, kind = (_wears, "joints") if joint else (_guide_wears, "guides")
     pressure_velocity = _pressure_velocity if joint else _guide_pressure_velocity
     area = "the projected area" if joint else "the guided face"
     return (
         Quantity("wear.volume", "m^3",
                  "volume that a revolution wears off each of the two surfaces",
-                 FLOW, partial(_per_revolution, _volume if joint else _guide_volume), place, has),
+                 FLOW, partial(_per_revolution, _volume if joint else _guide_volume), owner,
+                 available),
         Quantity("wear.rank", "", "1 for the joint or guide that is worn deepest, and so on",
-                 COUNT, partial(_rank, kind), place, has),
+                 COUNT, partial(_rank, kind), owner, available),
         Quantity("wear.pressure_velocity", "W/m^2",
                  f"mean of pressure on {area} times sliding speed, over whole revolutions",
-                 LOAD, partial(_mean, pressure_velocity), place, has),
+                 LOAD, partial(_mean, pressure_velocity), owner, available),
         Quantity("wear.peak_pressure_velocity", "W/m^2",
                  f"largest pressure on {area} times sliding speed",
-                 LOAD, partial(_largest, pressure_velocity), place, has,
+                 LOAD, partial(_largest, pressure_velocity), owner, available,
                  extreme=Extreme.LARGEST),
     )  # fmt: skip
 
@@ -325,14 +326,14 @@ def _rows(place: Place) -> tuple[Quantity, ...]:
 WEAR = (
     Quantity("wear.bearing_depth", "m",
              "largest depth that a revolution wears off the bearing, mean over 5 degrees",
-             FLOW, partial(_per_revolution, partial(_depth, 1)), Place.JOINT, _wears,
-             title="worn off the bearing per revolution, max", shown="um"),
+             FLOW, partial(_per_revolution, partial(_depth, 1)), Owner.JOINT, _wears,
+             title="worn off the bearing per revolution, max", display_unit="um"),
     Quantity("wear.journal_depth", "m",
              "largest depth that a revolution wears off the journal, mean over 5 degrees",
-             FLOW, partial(_per_revolution, partial(_depth, 0)), Place.JOINT, _wears),
+             FLOW, partial(_per_revolution, partial(_depth, 0)), Owner.JOINT, _wears),
     Quantity("wear.guideway_depth", "m",
              "largest depth that a revolution wears off the guideway, mean over 1/72 of the stroke",
-             FLOW, partial(_per_revolution, _guideway_depth), Place.GUIDE, _guide_wears),
-    *_rows(Place.JOINT),
-    *_rows(Place.GUIDE),
+             FLOW, partial(_per_revolution, _guideway_depth), Owner.GUIDE, _guide_wears),
+    *_shared_rows(Owner.JOINT),
+    *_shared_rows(Owner.GUIDE),
 )  # fmt: skip

@@ -15,8 +15,8 @@ from exu_press.quantities.catalogue import CATALOGUE
 from exu_press.quantities.cost import COSTS
 from exu_press.quantities.energy import BALANCE, has_balance
 from exu_press.quantities.kind import LOAD
-from exu_press.quantities.quantity import Place
-from exu_press.quantities.table import MOST_PLACES, comparison_cells, shown_value
+from exu_press.quantities.quantity import Owner
+from exu_press.quantities.table import MOST_OWNERS, comparison_cells, shown_value
 from exu_press.quantities.value import values_of
 from exu_press.report.html import details, page, paragraph, picture, stills, table, warnings
 from exu_press.report.shown import ALL, Span
@@ -33,10 +33,10 @@ __all__ = ["changed_keys", "joint_table", "live_part", "run_report", "scene_part
 
 def joint_table(result: Result) -> str:
     """Return a table of all joints, those with the largest forces first; nothing where few are."""
-    if len(result.clearance_joints) <= MOST_PLACES:
+    if len(result.clearance_joints) <= MOST_OWNERS:
         return ""
     values, joints = values_of(result), result.scene.joints
-    shown = [q for q in CATALOGUE if q.place is Place.JOINT and q.title]
+    shown = [q for q in CATALOGUE if q.owner is Owner.JOINT and q.title]
     forces = next(q for q in shown if q.kind is LOAD)
     found = [name for name in joints if values[forces.full_name(name)].value is not None]
     rows = []
@@ -170,7 +170,7 @@ def _listed(
     read = [(quantity, value_of(result, quantity.name)) for quantity in quantities]
     values = [(quantity.in_scaled_unit([value.value or 0.0]), value) for quantity, value in read]
     rows = [
-        [quantity.meaning, f"{shown_value(quantity, value)} {quantity.shown}"]
+        [quantity.meaning, f"{shown_value(quantity, value)} {quantity.display_unit}"]
         for quantity, value in values
         if value.value is not None
     ]

@@ -186,7 +186,7 @@ def errors_of(
         of_all_runs = [values[name] for values in whole.values() if name in values]
         least = _least_error(quantity, of_all_runs, sizes, arm)
         reading = max(weight * abs(value - values[name]) for weight, values in rereadings)
-        reading += quantity.of_laws(result.scene, declared[name].at, value)
+        reading += quantity.law_error(result.scene, declared[name].owner, value)
         begin = [until_horizon, *late] if name in oscillating else [until_horizon]
         error = _error(
             name, quantity.extreme, whole, begin, beyond_horizon, least + reading, diverging
@@ -199,7 +199,7 @@ def errors_of(
             error["high"] = min(error["high"], 1.0)
         errors[name] = error
     for name, error in errors.items():
-        upper = errors.get(declared[name].quantity.at_most)
+        upper = errors.get(declared[name].quantity.upper_bound)
         if upper is not None:
             value = whole[1.0][name]
             error["high"] = max(min(error["high"], upper["high"]), value)

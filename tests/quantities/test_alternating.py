@@ -5,7 +5,7 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.quantities import alternating, quantity_of
-from exu_press.quantities.alternating import largest, steady
+from exu_press.quantities.alternating import peaks, remove_alternation
 from exu_press.quantities.value import numbers_of
 
 
@@ -24,19 +24,19 @@ def signs(run):
 
 
 def test_a_smooth_curve_is_left_as_it_is(run):
-    assert np.array_equal(steady(run.time, smooth(run)), smooth(run))
+    assert np.array_equal(remove_alternation(run.time, smooth(run)), smooth(run))
 
 
 @pytest.mark.parametrize("size", [3.0, 900.0])
 def test_what_alternates_is_taken_away(run, size):
-    found = steady(run.time, smooth(run) + size * signs(run))
+    found = remove_alternation(run.time, smooth(run) + size * signs(run))
     assert found[2:] == pytest.approx(smooth(run)[2:], abs=0.02 * size + 0.5)
 
 
 def test_a_peak_of_one_sample_stays(run):
     force = np.zeros((len(run.time), 2))
     force[40] = 500.0
-    assert np.array_equal(steady(run.time, force), force)
+    assert np.array_equal(remove_alternation(run.time, force), force)
 
 
 @pytest.mark.long
@@ -55,10 +55,10 @@ def test_the_peak_of_a_finer_run_is_not_worse():
 
 def test_a_record_read_in_parts_is_the_same(run, monkeypatch):
     values = smooth(run) + 900.0 * signs(run) * (run.time > 0.5 * run.time[-1])[:, None]
-    whole = steady(run.time, values)
+    whole = remove_alternation(run.time, values)
     assert not np.array_equal(whole, values)
     monkeypatch.setattr(alternating, "AT_ONCE", 50)
-    assert np.array_equal(steady(run.time, values), whole)
+    assert np.array_equal(remove_alternation(run.time, values), whole)
 
 
 @pytest.mark.parametrize("at_once", [7, 50, 10_000])
@@ -67,7 +67,7 @@ def test_the_largest_is_that_of_the_steady_load(run, monkeypatch, at_once):
     monkeypatch.setattr(alternating, "AT_ONCE", at_once)
     for count in (3, 7, 8, 15, 51, len(run.time)):
         time, values = run.time[:count], (smooth(run) + 300.0 * signs(run))[:count]
-        found, expected = largest(time, values), steady(time, values)
+        found, expected = peaks(time, values), remove_alternation(time, values)
         assert np.array_equal(found.columns, np.abs(expected).max(axis=0))
         assert found.length == np.linalg.norm(expected, axis=1).max()
-        assert largest(time, values[:, 0]).length == found.columns[0]
+        assert peaks(time, values[:, 0]).length == found.columns[0]

@@ -14,7 +14,7 @@ from scipy.io import netcdf_file
 import exu_press
 from exu_press import InputError, Scene, simulate
 from exu_press.plots.sweep import axes_of, sweep_figure
-from exu_press.quantities import CATALOGUE, Place, add, quantities_of, values_of
+from exu_press.quantities import CATALOGUE, Owner, add, quantities_of, values_of
 from exu_press.quantities.catalogue import QuantityAt, find_quantity, quantity_of
 from exu_press.quantities.table import run_lines
 from exu_press.report.run import run_report
@@ -49,7 +49,7 @@ def test_what_a_scene_will_have_is_what_its_run_has(scene):
 
 
 def test_names_are_unique_and_everything_is_said():
-    names = [(quantity.place, quantity.name) for quantity in CATALOGUE]
+    names = [(quantity.owner, quantity.name) for quantity in CATALOGUE]
     assert len(set(names)) == len(names)
     for quantity in CATALOGUE:
         assert quantity.meaning and quantity.scale > 0.0
@@ -150,7 +150,7 @@ def test_a_kind_follows_from_the_quantity_and_not_from_a_name(name, kind):
     """In a joint named power_pin the eccentricity counted as a load, [load.time] had no errors."""
     placed = find_quantity(name)
     assert placed is not None and placed.quantity.kind.name == kind
-    assert placed.quantity.place in (Place.JOINT, Place.LOAD)
+    assert placed.quantity.owner in (Owner.JOINT, Owner.LOAD)
 
 
 @pytest.mark.parametrize(
@@ -159,8 +159,8 @@ def test_a_kind_follows_from_the_quantity_and_not_from_a_name(name, kind):
         ({"name": "my speed"}, "quantity 'my speed': 'my speed' is no name"),
         ({"name": "mine."}, "quantity 'mine.': '' is no name"),
         (
-            {"name": "mine", "shown": "km/h"},
-            "quantity mine: shown = 'km/h'; allowed are nm/s, um/s, mm/s",
+            {"name": "mine", "display_unit": "km/h"},
+            "quantity mine: display_unit = 'km/h'; allowed are nm/s, um/s, mm/s",
         ),
     ],
 )

@@ -1,7 +1,11 @@
 """What a person reads of a run."""
 
+from dataclasses import replace
+
+import pytest
+
 from exu_press import Scene, simulate
-from exu_press.quantities.table import comparison_lines, run_lines
+from exu_press.quantities.table import comparison_lines, difference_lines, run_lines
 
 
 def test_guides_without_friction_say_what_friction_would_take():
@@ -53,3 +57,44 @@ def test_a_small_machine_has_units_of_its_size():
     (line,) = (x for x in run_lines(result) if x.startswith("joint force, max, "))
     peak = max(result.quantity(f"joints.{name}.peak_force").value for name in result.joints)
     assert line.startswith("joint force, max, uN ") and f" {1e6 * peak:.3g}" in line, (line, peak)
+
+
+@pytest.fixture(scope="module")
+def bare():
+    return simulate(Scene(joints={}, revolutions=0.01))
+
+
+def stated(low, high):
+    return {"error": (high - low) / 2.0, "determined": True, "low": low, "high": high}
+
+
+def runs(bare, **errors):
+    return {
+        label: replace(bare, info={**bare.info, "errors": entries})
+        for label, entries in errors.items()
+    }
+
+
+def test_only_what_errors_leave_open_is_named(bare):
+    dry = {"stroke": stated(1.0, 1.1), "peak_velocity": stated(2.0, 2.5)}
+    oil = {"stroke": stated(1.2, 1.3), "peak_velocity": stated(2.4, 2.6)}
+    (line,) = difference_lines(runs(bare, dry=dry, oil=oil))
+    assert "peak_velocity" in line and "stroke" not in line
+
+
+def test_nothing_is_said_without_errors(bare):
+    assert difference_lines({"dry": bare, "oil": bare}) == []
+
+
+def test_a_run_without_errors_is_named(bare):
+    (line,) = difference_lines(runs(bare, dry={"stroke": stated(1.0, 1.1)}) | {"old": bare})
+    assert "old has no errors" in line
+
+
+def test_many_names_are_wrapped(bare):
+    names = [f"joints.knuckle_{n}.peak_force" for n in range(20)]
+    dry = {name: stated(1.0, 2.0) for name in names}
+    oil = {name: stated(1.5, 2.5) for name in names}
+    lines = difference_lines(runs(bare, dry=dry, oil=oil))
+    assert max(map(len, lines)) <= 100
+    assert " ".join(line.strip() for line in lines).count("knuckle") == 20

@@ -23,7 +23,7 @@ def report_lines(report: Report) -> list[str]:
         name: quantity_of(study.scene, name).quantity.in_scaled_unit(report.numbers(name))
         for name in study.quantities
     }
-    heads = (with_unit(name, quantity.shown) for name, quantity in quantities.items())
+    heads = (with_unit(name, quantity.display_unit) for name, quantity in quantities.items())
     rows = [("", *map(with_unit, study.keys), *heads)]
     shown = sorted({report.chosen, *np.linspace(0, number - 1, MOST_LINES).astype(int).tolist()})
     for n in shown:
@@ -46,7 +46,7 @@ def report_lines(report: Report) -> list[str]:
         change = "the same" if value == before else f"{100 * (value / before - 1):+.2g} %"
         lines.append(
             f"chosen, at a tenth of the tolerance: {name} "
-            f"{significant(value * quantity.scale, 5)} {quantity.shown} ({change})"
+            f"{significant(value * quantity.scale, 5)} {quantity.display_unit} ({change})"
         )
     return lines
 

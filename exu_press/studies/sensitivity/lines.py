@@ -32,7 +32,7 @@ def _of_quantity(report: Report, place: int) -> list[str]:
     found, each = report.indices[place], report.spreads[place]
     quantity = quantity_of(study.scene, name).quantity.in_scaled_unit([each.middle])
     scale = quantity.scale
-    unit = f" {quantity.shown}" if quantity.shown else ""
+    unit = f" {quantity.display_unit}" if quantity.display_unit else ""
     if found is None:
         middle = significant(each.middle * scale, quantity.digits)
         return [f"{name}: does not move, {middle}{unit} in every run"]

@@ -133,8 +133,8 @@ def _little(scene: Scene, name: str, true: float) -> float:
     if placed.quantity is ECCENTRICITY_RATIO:
         return LITTLE
     least = NOTHING
-    if placed.quantity is JOINT_FORCE and placed.at in scene.joints.with_clearance:
-        least = _rounding(scene, placed.at)
+    if placed.quantity is JOINT_FORCE and placed.owner in scene.joints.with_clearance:
+        least = _rounding(scene, placed.owner)
     return max(LITTLE * abs(true), least)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.quantities import Place, Quantity
+from exu_press.quantities import Owner, Quantity
 from exu_press.quantities.catalogue import find_quantity
 from exu_press.studies.sweep.table import Table
 from exu_press.terminal.columns import columns
@@ -63,7 +63,7 @@ def _changing_most(table: Table) -> tuple[str, ...]:
         placed = find_quantity(name)
         if placed is None or not (placed.quantity.title and placed.quantity.kind.has_error):
             continue
-        if placed.quantity.place is Place.JOINT and loose and placed.at not in loose:
+        if placed.quantity.owner is Owner.JOINT and loose and placed.owner not in loose:
             continue
         if (change := _change(table, name)) > NO_CHANGE:
             before, _ = most.get(placed.quantity, (0.0, ""))

@@ -43,7 +43,7 @@ def shown_unit(
     if (placed := find_quantity(name)) is None:
         return unit_of(name) if other is None else other, 1.0
     quantity = placed.quantity.in_scaled_unit(values)
-    return quantity.shown, quantity.scale
+    return quantity.display_unit, quantity.scale
 
 
 def with_unit(name: str, unit: str | None = None) -> str:

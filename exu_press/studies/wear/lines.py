@@ -22,7 +22,7 @@ def report_lines(report: Report) -> list[str]:
     for name in study.names:
         values = report.values(name)
         quantity = quantity_of(study.scene, name).quantity.in_scaled_unit(filter(None, values))
-        heads.append(with_unit(name, quantity.shown))
+        heads.append(with_unit(name, quantity.display_unit))
         digits = 7 if quantity.unit == "m" else 4
         bodies.append(
             [

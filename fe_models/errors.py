@@ -2,6 +2,7 @@
 
 import errno
 import re
+from typing import ClassVar
 
 __all__ = ["DiskFullError", "InputError", "disk_full"]
 
@@ -21,8 +22,10 @@ LONG_WORD = re.compile(rf"\S{{{MOST_IN_A_WORD + 1},}}")
 class InputError(ValueError):
     """Something the user gave is wrong: the message says what, where, and what is allowed.
 
-    The command line prints the message in one line and exits with status 2.
+    The command line prints the message in one line and exits with `exit_status`.
     """
+
+    exit_status: ClassVar[int] = 2
 
     def __str__(self) -> str:
         """Return the message in one line; a very long one, or a long word, without its middle.
@@ -42,8 +45,10 @@ class InputError(ValueError):
 class DiskFullError(InputError):
     """A file cannot be written as there is no room left: the message names it.
 
-    The command line exits with status 3: what was computed before is kept.
+    What was computed before is kept.
     """
+
+    exit_status = 3
 
 
 def disk_full(error: BaseException, path: object = None) -> DiskFullError | None:

@@ -8,10 +8,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from exu_press.cli.precision import tell
+from exu_press.cli.study import show_report
 from exu_press.errors import InputError
 from exu_press.files.output_directory import output_directory, write_json
-from exu_press.studies.precision import Report, precision
+from exu_press.studies.precision import PrecisionReport, precision
 from precision.cases import chosen
 from precision.goals import goals_of
 from precision.peers import left_out
@@ -42,7 +42,7 @@ def run(options: argparse.Namespace) -> int:
     table = chosen(options.case)
     directory = output_directory(Path(options.out))
 
-    def keep(so_far: Report) -> None:
+    def keep(so_far: PrecisionReport) -> None:
         write_json(directory / "precision.json", so_far.to_dict())
 
     report = precision(
@@ -52,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
         after_case=keep,
         left_out=left_out(),
     )
-    tell(report, directory, options)
+    show_report(report, directory, options)
     if not (options.quick or options.quiet):
         durations = {name: case["duration"] for name, case in report.cases.items()}
         goals = goals_of(report.rows, durations)

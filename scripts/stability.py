@@ -7,9 +7,13 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from exu_press.cli.stability import run
+from exu_press.cli.study import show_report
 from exu_press.errors import InputError
-from stability.cases import cases, quick_cases
+from exu_press.files.lock import locked
+from exu_press.files.output_directory import output_directory
+from exu_press.studies.stability import stability
+from exu_press.studies.stability.run import Extremes
+from stability.cases import Campaign
 
 
 def parser() -> argparse.ArgumentParser:
@@ -34,9 +38,11 @@ def parser() -> argparse.ArgumentParser:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the cases, going on where DIR was left; 0, 1 if one is wrong, 2 for wrong input."""
     options = parser().parse_args(arguments)
-    table = quick_cases() if options.quick else cases()
     try:
-        return run(table, "--axis", options.axis, options.out, options, quick=options.quick)
+        study = Campaign.of(Extremes(axes=tuple(options.axis)), quick=options.quick)
+        with locked(output_directory(options.out)) as directory:
+            report = stability(study, directory, workers=options.workers, quiet=options.quiet)
+            return show_report(report, directory, options)
     except InputError as error:
         print(f"stability: {error}", file=sys.stderr)
         return 2

@@ -4,12 +4,13 @@ Run with: python scripts/sweep_blanking_force.py [--quick] [--out DIR]
 """
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 from exu_press import Scene
-from exu_press.plots.file import save_figures
-from exu_press.plots.sweep import sweep_figures
-from exu_press.studies.sweep import Sweep, report_lines, sweep
+from exu_press.plots.file import save_figure
+from exu_press.studies.sweep import Sweep, sweep
+from exu_press.studies.sweep.figure import sweep_picture
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="two short runs")
@@ -23,6 +24,7 @@ scene = Scene(revolutions=turns, start_angle_deg=start, load=load)
 forces = [1e4, 4e4] if quick else [0.0, 1e4, 2e4, 3e4, 4e4]
 study = Sweep(scene=scene, keys={"load.blanking.force": forces}, errors=True)
 shown = ("bottom_dead_centre", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")
-table = sweep(study, out, quiet=quick)
-print("\n".join(report_lines(table, show=shown)))
-print(*save_figures(sweep_figures(table, show=shown), out))
+report = replace(sweep(study, out, quiet=quick), selected=shown)
+print("\n".join(report.lines()))
+if (figure := sweep_picture(report)) is not None:
+    print(save_figure(figure, out / "sweep.png"))

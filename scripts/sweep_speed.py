@@ -4,12 +4,13 @@ Run with: python scripts/sweep_speed.py [--quick] [--out DIR]
 """
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 from exu_press import Scene
-from exu_press.plots.file import save_figures
-from exu_press.plots.sweep import sweep_figures
-from exu_press.studies.sweep import Sweep, report_lines, sweep
+from exu_press.plots.file import save_figure
+from exu_press.studies.sweep import Sweep, sweep
+from exu_press.studies.sweep.figure import sweep_picture
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--quick", action="store_true", help="two short runs")
@@ -23,6 +24,7 @@ scene = Scene(
 speeds = [200.0, 500.0] if quick else [200.0, 250.0, 300.0, 350.0, 400.0, 450.0, 500.0]
 study = Sweep(scene=scene, keys={"speed_rpm": speeds}, errors=True)
 shown = ("peak_acceleration.mean_1ms", "joints.crank_pin.peak_force", "joints.crank_pin.min_film")
-table = sweep(study, out, quiet=quick)
-print("\n".join(report_lines(table, show=shown)))
-print(*save_figures(sweep_figures(table, show=shown), out))
+report = replace(sweep(study, out, quiet=quick), selected=shown)
+print("\n".join(report.lines()))
+if (figure := sweep_picture(report)) is not None:
+    print(save_figure(figure, out / "sweep.png"))

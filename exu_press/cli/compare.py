@@ -78,8 +78,8 @@ def execute(options: argparse.Namespace) -> int:
     stored = {label: one for label, one in compared.items() if isinstance(one, Result)}
     if not options.no_pictures:
         from exu_press.plots.file import save_figures
-        from exu_press.plots.measured import measured_figure
         from exu_press.plots.save import comparison_figures
+        from exu_press.studies.measured_figure import measured_figure
 
         # they are refused here, where their files keep too little
         figures = comparison_figures(stored) if stored else {}

@@ -9,36 +9,19 @@ from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
-from typing import TextIO
+from typing import Any, TextIO
 
 import exu_press
-from exu_press.errors import DiskFullError, InputError
+from exu_press.errors import InputError
+from exu_press.studies.registry import STUDIES, study_command, study_source
 from fe_models.errors import disk_full
 from fe_models.temporary import remove_abandoned
 
-__all__ = ["main"]
+__all__ = ["COMMANDS", "load_command", "main"]
 
-COMMANDS = (
-    "new",
-    "draw",
-    "run",
-    "spectrum",
-    "compare",
-    "sweep",
-    "attractor",
-    "bifurcation",
-    "fit",
-    "sensitivity",
-    "optimise",
-    "wear",
-    "precision",
-    "stability",
-    "doctor",
-    "view",
-    "report",
-)
-"""Modules beside this one; the one that is asked for is loaded, which takes up to a second."""
+COMMANDS = ("new", "draw", "run", "spectrum", "compare", *STUDIES, "doctor", "view", "report")
+"""Studies, and modules beside this one; the one that is asked for is loaded, which takes up to a
+second."""
 
 STOPPED = 3
 """Exit status of a command that could not get to its end."""
@@ -60,12 +43,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         status = _execute(arguments)
         sys.stdout.flush()
-    except DiskFullError as error:
-        print(f"exu-press: {error}", file=sys.stderr)
-        return STOPPED
     except InputError as error:
         print(f"exu-press: {error}", file=sys.stderr)
-        return 2
+        return error.exit_status
     except KeyboardInterrupt:
         print("exu-press: interrupted", file=sys.stderr)
         return INTERRUPTED
@@ -104,16 +84,20 @@ def _open_closed_streams() -> None:
         setattr(sys, name, os.fdopen(number, mode, encoding="utf-8", closefd=False))
 
 
-def _loaded(name: str) -> ModuleType:
-    """Return the module of a command; Ctrl-C meanwhile ends the process without a word.
+def load_command(name: str) -> Any:
+    """Return the module of a command, or a study's command; None for an unknown name.
 
-    An exception inside the start of a compiled module would come out as any other one.
+    Ctrl-C meanwhile ends the process without a word: an exception inside the start of a compiled
+    module would come out as any other one.
     """
     usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if usual:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
-        return import_module(f"exu_press.cli.{name}")
+        if name in COMMANDS and name not in STUDIES:
+            return import_module(f"exu_press.cli.{name}")
+        study = study_command(name)
+        return None if study is None else import_module("exu_press.cli.study").command_of(study)
     finally:
         if usual:
             signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -121,7 +105,8 @@ def _loaded(name: str) -> ModuleType:
 
 def _summary(name: str) -> str:
     """Return the first line of a command's module, which is not loaded for it."""
-    text = Path(__file__).with_name(f"{name}.py").read_text(encoding="utf-8")
+    file = study_source(name) if name in STUDIES else Path(__file__).with_name(f"{name}.py")
+    text = file.read_text(encoding="utf-8")
     return text.partition("\n")[0].strip('"')
 
 
@@ -140,11 +125,15 @@ def _execute(arguments: Sequence[str] | None) -> int:
     version = f"%(prog)s {exu_press.__version__}" if "--version" in given else ""
     parser.add_argument("--version", action="version", version=version)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name in COMMANDS:
-        summary = _summary(name)
+    named = next(iter(given), "-")
+    registered = None
+    if named not in COMMANDS and not named.startswith("-"):
+        registered = load_command(named)  # of an installed distribution
+    for name in [*COMMANDS, named] if registered else COMMANDS:
+        summary = "a study that is installed" if name not in COMMANDS else _summary(name)
         command = commands.add_parser(name, help=summary, description=summary)
-        if given[:1] == [name]:
-            module = _loaded(name)
+        if name == named:
+            module = registered or load_command(name)
             command.epilog = f"example: {module.EXAMPLE}"
             module.add_arguments(command)
             command.set_defaults(execute=module.execute)

@@ -3,12 +3,11 @@
 import argparse
 import sys
 import textwrap
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import folder_name, write_json
+from exu_press.files.output_directory import folder_name
 from exu_press.mechanism import SHIPPED as MECHANISMS
 from exu_press.scene import Scene
 from exu_press.schema.checks import demand_known
@@ -20,9 +19,9 @@ __all__ = [
     "add_scene_arguments",
     "add_set_argument",
     "add_study_arguments",
+    "add_worker_arguments",
     "check_format",
     "directory_of",
-    "finish",
     "scene_of",
     "scene_path",
     "shipped_names",
@@ -85,15 +84,19 @@ def add_error_argument(parser: argparse.ArgumentParser) -> None:
 def add_study_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of every command on a study file."""
     parser.add_argument("study", metavar="STUDY.toml", help="a study file")
+    add_code_argument(parser)
+    parser.add_argument("--out", metavar="DIR", help="where to write (default: out/STUDY)")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
+
+
+def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add where runs are done side by side."""
     where = parser.add_mutually_exclusive_group()
     where.add_argument(
         "--workers", type=int, metavar="N", help="number of processes (default: the cores)"
     )
     where.add_argument("--dask", metavar="ADDRESS", help="a Dask scheduler, as in tcp://host:8786")
-    add_code_argument(parser)
-    parser.add_argument("--out", metavar="DIR", help="where to write (default: out/STUDY)")
-    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
 
 
 def add_format_argument(parser: argparse.ArgumentParser) -> None:
@@ -153,21 +156,3 @@ def scene_path(given: str) -> Path:
         )
     demand_known(f"{given}: no such scene", given, ["a file", *names])
     return SHIPPED / f"{given}.toml"
-
-
-def finish(
-    report: Any, file: Path, draw: Callable[[], Iterable[Path]], options: argparse.Namespace
-) -> None:
-    """Write, draw and print a report.
-
-    Args:
-        report: of a study, with `to_dict` and `lines`.
-        file: where it is written.
-        draw: its pictures, and returns their files.
-        options: with `no_pictures` and `quiet`.
-    """
-    write_json(file, report.to_dict())
-    written = [file] if options.no_pictures else [file, *draw()]
-    if not options.quiet:
-        print("\n".join(report.lines()))
-        print("written:", ", ".join(path.name for path in written), f"in {file.parent}")

@@ -49,7 +49,7 @@ def execute(options: argparse.Namespace) -> int:
     written: list[Path] = []
     directory = output_directory(options.out or file.parent)
     if not options.no_pictures:
-        from exu_press.plots.spectrum import save_spectra
+        from exu_press.studies.spectrum_figure import save_spectra
 
         written = save_spectra(found, run.scene, marks, directory, options.format)
     if not options.quiet:

@@ -1,108 +1,126 @@
-"""Commands on a study file: all have this form, and differ in what they run, print and draw."""
+"""The command of a study: its report is printed, drawn and written."""
 
 import argparse
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from importlib import import_module
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from exu_press.cli.options import (
     add_format_argument,
+    add_scene_arguments,
     add_study_arguments,
+    add_worker_arguments,
     check_format,
     directory_of,
+    scene_of,
     show_warnings,
 )
-from exu_press.files.lock import locked
-from exu_press.files.output_directory import output_directory, remove_pictures
-from exu_press.scene import Scene
-from exu_press.scene.warnings import scene_warnings
+from exu_press.errors import InputError
+from exu_press.files.lock import locked, remove_unused
+from exu_press.files.output_directory import FORMATS, output_directory
+from exu_press.studies.base.command import SceneCommand, StudyCommand
+from exu_press.studies.base.report import Report
 
-__all__ = ["Parts", "study_command"]
+__all__ = ["Command", "command_of", "show_report"]
 
 STOPPED = 3
 
-Parts = tuple[str, Callable[[argparse.ArgumentParser], None], Callable[[argparse.Namespace], int]]
-"""EXAMPLE, add_arguments and execute of a command's module."""
 
+@dataclass(frozen=True)
+class Command:
+    """A study's command in the form of the modules of commands.
 
-def study_command(
-    name: str,
-    kind: str,
-    figures: str,
-    written: Sequence[str],
-    *,
-    example: str,
-    add: Callable[[argparse.ArgumentParser], None] | None = None,
-    asked: Callable[[argparse.Namespace, Any], Mapping[str, Any]] | None = None,
-    warned: Callable[[Any, Any], Iterable[Scene]] = lambda study, report: [study.scene],
-    stopped: Callable[[Any], str] = lambda report: "",
-) -> Parts:
-    """Return a command's parts.
-
-    Args:
-        name: of the command, of the package in `exu_press.studies` and of the function in it that
-            runs a study and returns a report; its module `lines` has `report_lines`.
-        kind: the class of its studies.
-        figures: module and function of `exu_press.plots` that returns a report's figures by name.
-        written: files that it writes beside pictures.
-        example: of a call.
-        add: adds arguments of its own.
-        asked: checks these against the study, and returns them as keywords of lines and figures.
-        warned: from study and report to the scenes whose warnings are shown.
-        stopped: from a report to why the exit status is 3; nothing where it is 0.
+    Attributes:
+        EXAMPLE: a call.
+        add_arguments: adds its arguments to a parser.
+        execute: does it, and returns the exit status.
     """
+
+    EXAMPLE: str
+    add_arguments: Callable[[argparse.ArgumentParser], None]
+    execute: Callable[[argparse.Namespace], int]
+
+
+def command_of(study: type[StudyCommand]) -> Command:
+    """Return the command of a study."""
 
     def add_arguments(parser: argparse.ArgumentParser) -> None:
         """Add the command's arguments."""
-        add_study_arguments(parser)
+        if study.of_scene:
+            add_scene_arguments(parser)
+        else:
+            add_study_arguments(parser)
+        if study.uses_workers:
+            add_worker_arguments(parser)
         add_format_argument(parser)
-        if add is not None:
-            add(parser)
+        study.add_arguments(parser)
 
-    def execute(options: argparse.Namespace) -> int:
-        """Run the study; return 0, or 3 after Ctrl-C or where it did not come to its end."""
-        check_format(options)
-        directory = directory_of(options, options.study)
+    return Command(study.example, add_arguments, lambda options: _execute(study, options))
+
+
+def _execute(command: type[StudyCommand], options: argparse.Namespace) -> int:
+    """Run the study; return its report's exit status, or 3 after Ctrl-C."""
+    check_format(options)
+    if issubclass(command, SceneCommand):
+        _refuse_replaced(command, options)
+        study, file = command.study_of(scene_of(options), options), options.scene
+    else:
+        study, file = command.load(options), options.study
+    target = directory_of(options, file)
+    is_new = not target.exists()
+    how = {name: getattr(options, name) for name in ("workers", "dask") if name in options}
+    with locked(output_directory(target)) as directory:
         try:
-            return _execute(options, directory)
+            report = command.run(study, directory, quiet=options.quiet, **how)
+            return show_report(command.select(report, options), directory, options)
         except KeyboardInterrupt:
+            if not command.uses_workers:
+                raise
             print(
                 f"exu-press: interrupted: finished runs are kept in {directory}; the same command "
                 "goes on with them",
                 file=sys.stderr,
             )
             return STOPPED
+        finally:
+            if is_new:
+                remove_unused(directory)
 
-    def _execute(options: argparse.Namespace, directory: Path) -> int:
-        from exu_press.studies.base import load_study
 
-        package: Any = import_module(f"exu_press.studies.{name}")
-        lines: Any = import_module(f"exu_press.studies.{name}.lines")
-        study = load_study(options.study, getattr(package, kind), allow_code=options.allow_code)
-        more = {} if asked is None else asked(options, study)
-        with locked(output_directory(directory)):
-            report = getattr(package, name)(
-                study, directory, workers=options.workers, dask=options.dask, quiet=options.quiet
+def _refuse_replaced(command: type[SceneCommand], options: argparse.Namespace) -> None:
+    """Raise InputError where --set changes a key that the command has an argument for."""
+    for name in (assignment.partition("=")[0].strip() for assignment in options.set):
+        if name in command.replaced_keys:
+            raise InputError(
+                f"--set {name}: {options.command} has its own; allowed is "
+                f"{command.replaced_keys[name]} N"
             )
-            remove_pictures(directory, name)
-            files = list(written)
-            if not options.no_pictures:
-                from exu_press.plots.file import save_figures
 
-                module, _, function = figures.partition(".")
-                drawn = getattr(import_module(f"exu_press.plots.{module}"), function)(
-                    report, **more
-                )
-                files += [path.name for path in save_figures(drawn, directory, options.format)]
-        if not options.quiet:
-            print("\n".join(lines.report_lines(report, **more)))
-            show_warnings(w for scene in warned(study, report) for w in scene_warnings(scene))
-            print("written:", ", ".join(files), f"in {directory}")
-        if why := stopped(report):
-            print(f"exu-press: {why}", file=sys.stderr)
-            return STOPPED
-        return 0
 
-    return example, add_arguments, execute
+def show_report(report: Report, directory: Path, options: argparse.Namespace) -> int:
+    """Save, print and draw a report; return its exit status.
+
+    Args:
+        report: of a study.
+        directory: of its files.
+        options: with `quiet` and `no_pictures`, and `format` of pictures.
+    """
+    report.save(directory)
+    if not options.quiet:
+        print("\n".join(report.lines()), flush=True)
+        show_warnings(report.warnings())
+    files = list(report.files)
+    ending = getattr(options, "format", FORMATS[0])
+    for picture in report.pictures():
+        for old in FORMATS:
+            (directory / f"{picture.name}{old}").unlink(missing_ok=True)
+        if not options.no_pictures and (figure := picture.draw(report)) is not None:
+            from exu_press.plots.file import save_figure
+
+            files.append(save_figure(figure, directory / f"{picture.name}{ending}").name)
+    if not options.quiet:
+        print("written:", ", ".join(files), f"in {directory}")
+    for failure in report.failures:
+        print(f"exu-press: {failure}", file=sys.stderr)
+    return report.exit_status

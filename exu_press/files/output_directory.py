@@ -31,12 +31,6 @@ FORMATS = (".png", ".svg", ".pdf")
 PICTURES = {
     "run": ("slider", "orbit", "force", "press", "energy"),
     "compare": ("compare_slider", "compare_force", "compare_measured"),
-    "sweep": ("sweep",),
-    "bifurcation": ("bifurcation",),
-    "fit": ("fit", "profiles"),
-    "sensitivity": ("sensitivity",),
-    "wear": ("wear",),
-    "optimise": ("front",),
 }
 """Names of the pictures of a command, without their endings."""
 

@@ -1,7 +1,6 @@
 """Curves that zoom each by itself: measured beside computed, and how far keys are determined."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from exu_press.page.document import (
@@ -14,46 +13,9 @@ from exu_press.page.document import (
     styles,
 )
 from exu_press.plots.style import colour_of
+from exu_press.studies.base.report import Panel
 
-__all__ = ["Line", "Panel", "lines_viewer"]
-
-
-@dataclass(frozen=True)
-class Line:
-    """One of a panel's curves.
-
-    Attributes:
-        label: of it.
-        x: across.
-        y: up.
-        points: whether it is drawn as points.
-        low: least values, where errors are known.
-        high: largest values.
-    """
-
-    label: str
-    x: Sequence[float]
-    y: Sequence[float]
-    points: bool = False
-    low: Sequence[float] | None = None
-    high: Sequence[float] | None = None
-
-
-@dataclass(frozen=True)
-class Panel:
-    """Curves over one axis.
-
-    Attributes:
-        title: above it.
-        across: label of the x axis, with its unit.
-        up: label of the y axis.
-        lines: drawn over each other.
-    """
-
-    title: str
-    across: str
-    up: str
-    lines: Sequence[Line]
+__all__ = ["lines_viewer"]
 
 
 def lines_viewer(panels: Sequence[Panel]) -> Live | None:

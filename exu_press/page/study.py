@@ -1,7 +1,6 @@
 """The live part of a study's page: its runs as points, as lines over all keys, and in its table."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,68 +8,32 @@ import numpy as np
 from exu_press.page.blocks import Blocks
 from exu_press.page.document import Live, data_element, has_library, scripts, styles
 from exu_press.plots.typesetting import typeset
+from exu_press.studies.base.report import Column, Points
 
-__all__ = ["Column", "study_viewer"]
+__all__ = ["study_viewer"]
 
 MOST_PARALLEL = 4
 """Axes for quantities beside those for the keys."""
 
 
-@dataclass(frozen=True)
-class Column:
-    """The values of one key or quantity in the runs of a study.
-
-    Attributes:
-        name: of the key or quantity.
-        unit: of the values; "" where they have none.
-        values: a number, a text, or None of a run that has none.
-        low: least values, where errors are known.
-        high: largest values, likewise.
-    """
-
-    name: str
-    unit: str
-    values: Sequence[Any]
-    low: Sequence[float | None] | None = None
-    high: Sequence[float | None] | None = None
-
-    @property
-    def head(self) -> str:
-        """Its name with the unit."""
-        return typeset(f"{self.name}, {self.unit}" if self.unit else self.name)
-
-
-def study_viewer(
-    keys: Sequence[Column],
-    quantities: Sequence[Column],
-    commands: Sequence[str],
-    first: tuple[str, str] | None = None,
-    colour: str = "",
-) -> Live | None:
-    """Return the live part of a study's page; nothing without the extra `page`.
-
-    Args:
-        keys: that varied.
-        quantities: numbers of the runs.
-        commands: for each run, the text that its point opens: how to run it again.
-        first: columns of the picture at first, across and up; None: the first key and quantity.
-        colour: column that the colours show at first; "": the first key that is not across.
-    """
+def study_viewer(points: Points) -> Live | None:
+    """Return the live part of a study's page; nothing without the extra `page`."""
     if not has_library():
         return None
     from exu_press.page.figures import points_and_lines
 
     blocks = Blocks()
+    keys, quantities = points.keys, points.quantities
     columns = [*keys, *quantities]
-    across, up = first or (columns[0].name, (quantities or keys)[0].name)
+    across = points.across or columns[0].name
     data = {
         "columns": [_column(column, blocks) for column in columns],
         "keys": [key.name for key in keys],
         "side": [column.name for column in (*keys, *quantities[:MOST_PARALLEL])],
         "across": across,
-        "up": up,
-        "colour": colour or next((key.name for key in keys if key.name != across), ""),
-        "told": list(commands),
+        "up": points.up or (quantities or keys)[0].name,
+        "colour": points.colour or next((key.name for key in keys if key.name != across), ""),
+        "told": list(points.labels),
         **points_and_lines(),
     }
     body = "\n".join([LAYOUT, blocks.html(), data_element("page-data", data)])
@@ -88,7 +51,7 @@ def _column(column: Column, blocks: Blocks) -> dict[str, Any]:
         numbers = list(column.values)
     entry: dict[str, Any] = {
         "name": column.name,
-        "head": column.head,
+        "head": typeset(f"{column.name}, {column.unit}" if column.unit else column.name),
         "texts": texts,
         "values": blocks.add(_numbers(numbers), "f8"),
     }

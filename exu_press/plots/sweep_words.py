@@ -9,7 +9,7 @@ import numpy as np
 from exu_press.numerics.arrays import Array
 from exu_press.plots.typesetting import typeset
 from exu_press.quantities.catalogue import find_quantity
-from exu_press.studies.sweep.units import meaning_of, unit_of
+from exu_press.quantities.units import meaning_of, unit_of
 
 __all__ = ["axis_label", "in_unit", "label_with_unit", "setting", "words"]
 

@@ -1,29 +1,23 @@
 """The command that a file or a directory comes from, and its report."""
 
 from enum import Enum
-from importlib import import_module
 from pathlib import Path
 
 from exu_press.errors import InputError
 from exu_press.report.shown import ALL, Span
 from exu_press.result import Result
 from exu_press.result.checkpoint import checkpoint_directory
+from exu_press.studies.base.report import REPORT_FILE
 
 __all__ = ["Kind", "find_output", "report_of"]
 
 
 class Kind(Enum):
-    """Kinds of output with a report, by the file that tells; a module has the name of each."""
+    """Kinds of output with a page, by the file that tells."""
 
     RUN = "run.nc"
     COMPARISON = "comparison.json"
-    SWEEP = "table.csv"
-    OPTIMUM = "optimise.json"
-    FIT = "fit.json"
-    SENSITIVITY = "sensitivity.json"
-    BIFURCATION = "bifurcation.json"
-    ATTRACTOR = "attractor.json"
-    WEAR = "wear.json"
+    STUDY = REPORT_FILE
 
 
 def find_output(path: Path, wanted: Kind | None = None) -> tuple[Kind, Path]:
@@ -72,8 +66,12 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
         from exu_press.report.run import run_report
 
         return run_report(Result.load(file), f"{file.resolve().parent.name}/{file.name}", span)
-    if kind is not Kind.COMPARISON and span != ALL:
+    if kind is Kind.COMPARISON:
+        from exu_press.report.comparison import comparison_report
+
+        return comparison_report(file, span)
+    if span != ALL:
         raise InputError(f"--from, --to: {file.name} has no curves over time; allowed for runs")
-    name = kind.name.lower()
-    report = getattr(import_module(f"exu_press.report.{name}"), f"{name}_report")
-    return str(report(file, span) if kind is Kind.COMPARISON else report(file))
+    from exu_press.report.study import study_page
+
+    return study_page(file)

@@ -1,91 +1,89 @@
-"""The common parts of studies' reports: their files are read, their pictures shown."""
+"""The page of a study, made of the report that it wrote; no code of the study is needed."""
 
-import shlex
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.page import Live
-from exu_press.page.study import Column
-from exu_press.report.html import page, paragraph, picture, stills
+from exu_press.page.lines import lines_viewer
+from exu_press.page.study import study_viewer
+from exu_press.report.html import page, paragraph, picture, stills, table, warnings
 from exu_press.report.run import scene_parts
 from exu_press.scene import Scene
 from exu_press.schema.stored import from_json
-from exu_press.studies.sweep.units import shown_unit
+from exu_press.studies.base.report import Column, Line, Panel, Points, Table
 
-__all__ = ["command_of", "reading", "scaled", "shown_column", "study_page"]
+__all__ = ["reading", "study_page"]
 
 WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError)
 
 
 @contextmanager
-def reading(file: Path, wanted: str, name: str = "") -> Iterator[Any]:
-    """Yield a study's JSON, of its file or another one beside it; its faults are InputErrors."""
+def reading(file: Path, kind: str) -> Iterator[Any]:
+    """Yield the JSON of a file; its faults, and those of what is made of it, are InputErrors."""
     try:
-        told = file.with_name(name) if name else file
-        yield from_json(dict[str, Any], told.read_bytes(), told.name)
+        yield from_json(dict[str, Any], file.read_bytes(), file.name)
     except OSError as error:
         raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
     except WRONG as error:
-        raise InputError(f"{file}: not {wanted} ({error!s:.200})") from None
+        raise InputError(f"{file}: not {kind} ({error!s:.200})") from None
 
 
-def study_page(
-    file: Path,
-    title: str,
-    under: str,
-    sections: Sequence[tuple[str, str | Live | None]],
-    caption: str,
-    *,
-    scene: Scene | None = None,
-    drawn: str = "*.png",
-) -> str:
-    """Return the page of a study.
-
-    Args:
-        file: of the study; its pictures lie beside it.
-        title: of the page.
-        under: line below the title, before the file's name.
-        sections: its own, the live part among them.
-        caption: of each picture.
-        scene: whose keys and assumptions are shown at the end, if any.
-        drawn: pattern of the pictures' names.
-    """
-    live = next((inner for _, inner in sections if isinstance(inner, Live)), None)
-    found = [path for path in sorted(file.parent.glob(drawn)) if path.is_file()]
-    pictures = "\n".join(picture(path, caption) for path in found)
-    shown = stills(pictures or paragraph("None was drawn."), live)
-    about = [] if scene is None else scene_parts(scene)
-    under = f"{under}; {file.parent.name}/{file.name}"
-    return page(title, under, [*sections, ("Pictures", shown), *about])
+def study_page(file: Path) -> str:
+    """Return the page of a study, from its report and the pictures beside it."""
+    with reading(file, "a report of exu_press") as report:
+        live = _live(report)
+        title = "Curves" if report["points"] is None else str(report["points"]["title"])
+        tables = [(entry["title"], _table(Table(**entry))) for entry in report["tables"]]
+        pictures = [
+            picture(path, caption)
+            for name, caption in report["pictures"].items()
+            if (path := _picture_file(file, name)).is_file()
+        ]
+        drawn = "\n".join(pictures) or paragraph("None was drawn.")
+        scene = report["scene"]
+        about = [] if scene is None else scene_parts(Scene.from_dict(scene, resolve=False))
+        return page(
+            report["title"],
+            "; ".join(filter(None, [report["subtitle"], f"{file.parent.name}/{file.name}"])),
+            [
+                *([(title, live)] if live else []),
+                *tables,
+                ("Warnings", warnings(report["warnings"])),
+                ("Pictures", stills(drawn, live)),
+                *about,
+            ],
+        )
 
 
-def command_of(changes: Mapping[str, Any]) -> str:
-    """Return the command that runs a study's scene with keys changed; None leaves one as it is.
-
-    >>> command_of({"speed_rpm": 300.0, "film.law": None})
-    'exu-press run SCENE.toml --set speed_rpm=300.0'
-    """
-    told = (f"{name}={value}" for name, value in changes.items() if value is not None)
-    return " ".join(["exu-press run SCENE.toml", *(f"--set {shlex.quote(one)}" for one in told)])
+def _picture_file(file: Path, name: str) -> Path:
+    """Return the file of a picture, which lies beside the report."""
+    if Path(name).name != name or not name.isprintable():
+        raise ValueError(f"{name!r} is no name of a picture")
+    return file.with_name(f"{name}.png")
 
 
-def shown_column(
-    name: str,
-    values: Sequence[Any],
-    low: Sequence[float | None] | None = None,
-    high: Sequence[float | None] | None = None,
-    other: str | None = None,
-) -> Column:
-    """Return a key or a quantity of a study's runs, SI, in the unit of `shown_unit`."""
-    numbers = [value for value in values if isinstance(value, float)]
-    unit, scale = shown_unit(name, numbers, other)
-    ends = (None if each is None else scaled(each, scale) for each in (low, high))
-    return Column(name, unit, scaled(values, scale), *ends)
+def _table(entry: Table) -> str:
+    """Return a table with the lines above and below it; runs have their numbers."""
+    head, rows = list(entry.head), [list(row) for row in entry.rows]
+    if entry.of_points:
+        head, rows = ["run", *head], [[str(k), *row] for k, row in enumerate(rows)]
+    inner = table(head, rows, name="runs" if entry.of_points else "") if head else ""
+    parts = [*map(paragraph, entry.above), inner, *map(paragraph, entry.below)]
+    return "\n".join(filter(None, parts))
 
 
-def scaled(values: Sequence[Any], scale: float) -> list[Any]:
-    """Return values with a factor at the numbers among them."""
-    return [scale * value if isinstance(value, float) else value for value in values]
+def _live(report: dict[str, Any]) -> Live | None:
+    """Return the points or the curves of a report; nothing without the extra `page`."""
+    if report["points"] is not None:
+        entries = dict(report["points"])
+        for name in ("keys", "quantities"):
+            entries[name] = [Column(**column) for column in entries[name]]
+        return study_viewer(Points(**entries))
+    panels = [
+        Panel(**{**panel, "lines": [Line(**line) for line in panel["lines"]]})
+        for panel in report["panels"]
+    ]
+    return lines_viewer(panels)

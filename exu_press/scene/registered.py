@@ -1,4 +1,4 @@
-"""Joint kinds that installed distributions register, by the entry point `exu_press.kinds`.
+"""Joint kinds and studies that installed distributions register, by entry points.
 
 A distribution counts that lies in a folder of this interpreter's packages, and so does its module:
 what the working folder or PYTHONPATH brings under the same name is none of it.
@@ -20,12 +20,13 @@ __all__ = ["GROUP", "registered_class"]
 GROUP = "exu_press.kinds"
 
 
-def registered_class(name: str, base: type[Any]) -> type[Any] | None:
+def registered_class(name: str, base: type[Any], group: str = GROUP) -> type[Any] | None:
     """Return the class that a distribution registers by a name, or None.
 
     Args:
         name: of the entry point.
         base: that the class is derived from.
+        group: of the entry points; that of kinds, or of studies.
 
     Raises:
         InputError: two distributions register it, its module cannot be imported, or is another one
@@ -34,11 +35,12 @@ def registered_class(name: str, base: type[Any]) -> type[Any] | None:
     entries = {
         entry.value: (entry, str(distribution.name))
         for distribution in distributions(path=_folders())
-        for entry in distribution.entry_points.select(group=GROUP, name=name)
+        for entry in distribution.entry_points.select(group=group, name=name)
     }
     if not entries:
         return None
-    said = f"kind = {name!r}, registered by {' and '.join(owner for _, owner in entries.values())}"
+    what = f"kind = {name!r}" if group == GROUP else name
+    said = f"{what}, registered by {' and '.join(owner for _, owner in entries.values())}"
     if len(entries) > 1:
         raise InputError(f"{said}: allowed is one of them; remove the other")
     entry, _ = next(iter(entries.values()))

@@ -9,7 +9,7 @@ import numpy as np
 
 from exu_press.studies.base import Runs, Study
 from exu_press.studies.base.evaluation import with_errors_of
-from exu_press.studies.fit import Fit, Report
+from exu_press.studies.fit import Fit, FitReport
 from exu_press.studies.fit.problem import Problem
 from exu_press.studies.fit.run import fitted
 from recovery.cases import CASES, Case
@@ -28,7 +28,7 @@ class Recovered:
     """
 
     truth: Mapping[str, float]
-    reports: list[Report]
+    reports: list[FitReport]
     runs: int
 
     def held(self, key: str) -> int:

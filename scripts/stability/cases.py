@@ -6,14 +6,16 @@ after some milliseconds, so that a tenth of a revolution holds the first impacts
 
 import itertools
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, Self
 
 from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.scene import Film, Scene, flexible_press
 from exu_press.studies.stability.cases import PAIRS, Case
+from exu_press.studies.stability.run import Extremes, StabilityStudy
 
-__all__ = ["cases", "quick_cases"]
+__all__ = ["Campaign", "cases", "quick_cases"]
 
 Changes = Mapping[str, Any]
 
@@ -51,6 +53,21 @@ DRY = ("press", "slider-crank")
 FILM = ("press lubricated", "slider-crank lubricated")
 MIXED = ("press mixed", "slider-crank mixed")
 IDEAL = ("press ideal", "slider-crank ideal")
+
+
+@dataclass(frozen=True)
+class Campaign(StabilityStudy):
+    """The cases of this table, in the place of a scene's extremes."""
+
+    @classmethod
+    def of(cls, axes: Extremes, *, quick: bool = False) -> Self:
+        """Return the campaign along some axes, or its quick sample."""
+        return cls(_base("press"), stability=axes, quick=quick)
+
+    @property
+    def cases(self) -> tuple[Case, ...]:
+        """The cases along the axes."""
+        return self.along_axes(quick_cases() if self.quick else cases(), "--axis")
 
 
 @cache

@@ -8,8 +8,8 @@ from exu_press.cli import main
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--set", "revolutions=200"], "--set revolutions: a long run has its own; allowed is --"),
-        (["--set", "settle=2"], "--set settle: a long run has its own; allowed is --skip N"),
+        (["--set", "revolutions=200"], "--set revolutions: attractor has its own; allowed is --"),
+        (["--set", "settle=2"], "--set settle: attractor has its own; allowed is --skip N"),
         (["--skip", "0"], "--skip 0: allowed is a whole number >= 1"),
         (
             ["--revolutions", "30"],

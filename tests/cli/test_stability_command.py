@@ -4,7 +4,10 @@ import json
 
 import pytest
 
+from exu_press import Scene
 from exu_press.cli import main
+from exu_press.studies.stability import Row, StabilityReport
+from exu_press.studies.stability.run import StabilityCommand
 
 SCENE = ["slider_crank", "--set", "revolutions=0.03"]
 
@@ -27,10 +30,9 @@ def test_one_key_of_a_scene(tmp_path, capsys):
 
 
 def test_a_wrong_case_makes_the_command_fail(tmp_path, monkeypatch, capsys):
-    from exu_press.studies import stability as study
-
-    row = study.Row("b", "a", "c", {}, "wrong", "completed", reason="d")
-    monkeypatch.setattr(study, "stability", lambda *a, **k: study.Report(True, (row,)))
+    row = Row("b", "a", "c", {}, "wrong", "completed", reason="d")
+    report = StabilityReport(Scene(), True, (row,))
+    monkeypatch.setattr(StabilityCommand, "run", lambda *_, **__: report)
     arguments = ["stability", *SCENE, "--no-pictures", "--out", str(tmp_path)]
     assert main(arguments) == 1
     assert "wrong: b" in capsys.readouterr().out

@@ -10,7 +10,8 @@ from exu_press.report.html import page, table
 
 pytest.importorskip("bokeh")
 
-from exu_press.page.study import Column, study_viewer
+from exu_press.page.study import study_viewer
+from exu_press.studies.base.report import Column, Points
 
 HOSTILE = "<img src=x onerror='window.hacked=1'>$$x$$"
 CLEARANCE = [1e-5, 1e-4, 1e-3, 1e-5, 1e-4, 1e-3]
@@ -27,7 +28,7 @@ def study(tmp_path_factory):
     keys = [Column("clearance", "m", CLEARANCE), Column("kind", "", KIND)]
     quantities = [Column("force", "N", FORCE, low, high)]
     told = [f"--set clearance={c} {HOSTILE}" for c in CLEARANCE]
-    live = study_viewer(keys, quantities, told)
+    live = study_viewer(Points(keys, quantities, told))
     cells = zip(CLEARANCE, KIND, FORCE, strict=True)
     rows = [[str(k), *map(str, row)] for k, row in enumerate(cells)]
     text = page(

@@ -4,6 +4,7 @@ import dataclasses
 import importlib
 import re
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,14 +14,13 @@ from scipy.io import netcdf_file
 
 import exu_press
 from exu_press import InputError, Scene, simulate
-from exu_press.plots.sweep import axes_of, sweep_figure
 from exu_press.quantities import CATALOGUE, Owner, add, quantities_of, values_of
 from exu_press.quantities.catalogue import QuantityAt, find_quantity, quantity_of
 from exu_press.quantities.table import run_lines
+from exu_press.quantities.units import meaning_of, unit_of
 from exu_press.report.run import run_report
 from exu_press.studies.sweep import Sweep, sweep
-from exu_press.studies.sweep.lines import report_lines
-from exu_press.studies.sweep.units import meaning_of, unit_of
+from exu_press.studies.sweep.figure import axes_of, sweep_figure
 from exu_press.verification.run import with_errors
 
 ROOT = Path(exu_press.__file__).parent
@@ -118,7 +118,8 @@ def test_a_quantity_of_ones_own_is_everywhere(mine, tmp_path, monkeypatch):
 
     table = sweep(Sweep(scene=CRANK, keys={"speed_rpm": [100.0, 200.0]}), tmp_path, workers=1)
     assert table["lowest_velocity"][1] == pytest.approx(2.0 * table["lowest_velocity"][0], rel=1e-2)
-    assert "lowest_velocity, m/s" in report_lines(table, show=["lowest_velocity"])[0]
+    selected = replace(table, selected=["lowest_velocity"])
+    assert "lowest_velocity, m/s" in selected.lines()[0]
     figure = sweep_figure(table, axes_of(table), ["lowest_velocity"])
     assert any("lowest velocity" in text.get_text().lower() for text in figure.findobj(Text))
     with netcdf_file(tmp_path / "table.nc", mmap=False) as file:

@@ -40,7 +40,7 @@ def outputs(tmp_path_factory) -> dict[str, Path]:
     assert (
         main(["run", "slider_crank", *short, *stop, *quiet, "--out", str(folder / "stopped")]) == 3
     )
-    sweep = ["sweep", str(folder / "study.toml"), "--workers", "1", *quiet]
+    sweep = ["sweep", str(folder / "study.toml"), "--workers", "1", "--quiet"]
     assert main([*sweep, "--out", str(folder / "sweep")]) == 0
     return {name: folder / name for name in ("run", "compare", "stopped", "sweep")}
 

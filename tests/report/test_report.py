@@ -165,11 +165,11 @@ def test_a_flywheel_is_no_part_of_the_solid_that_a_crank_is():
 
 def test_the_file_names_the_kind(outputs, tmp_path):
     assert find_output(outputs["compare"])[0] is Kind.COMPARISON
-    assert find_output(outputs["sweep"] / "table.csv")[0] is Kind.SWEEP
+    assert find_output(outputs["sweep"])[0] is Kind.STUDY
     (tmp_path / "run.nc").touch()
     assert find_output(tmp_path) == (Kind.RUN, tmp_path / "run.nc")
-    (tmp_path / "table.csv").touch()
-    with pytest.raises(InputError, match=r"has run\.nc and table\.csv; name the file"):
+    (tmp_path / "report.json").touch()
+    with pytest.raises(InputError, match=r"has run\.nc and report\.json; name the file"):
         find_output(tmp_path)
     assert find_output(tmp_path, Kind.RUN) == (Kind.RUN, tmp_path / "run.nc")
 
@@ -177,7 +177,7 @@ def test_the_file_names_the_kind(outputs, tmp_path):
 @pytest.mark.parametrize(
     ("content", "path", "message"),
     [
-        ({}, ".", "has none of run.nc, comparison.json, table.csv, optimise.json, fit.json, s"),
+        ({}, ".", "has none of run.nc, comparison.json, report.json"),
         ({}, "no.nc", "cannot be read"),
         ({"run.nc": "x"}, "run.nc", "not a result of exu_press"),
         ({"comparison.json": "{"}, ".", "not a comparison of exu_press"),
@@ -187,12 +187,8 @@ def test_the_file_names_the_kind(outputs, tmp_path):
         ({"comparison.json": "[" * 100_000}, ".", "not a comparison of exu_press"),
         ({"comparison.json": '{"../a": 1}'}, ".", "'../a': allowed is the name of a variant"),
         ({"comparison.json": r'{"a\u0000": 1}'}, ".", r"'a\x00': allowed is the name of a variant"),
-        ({"table.csv": "a\n1\n"}, ".", "study.json: cannot be read"),
-        ({"table.csv": "a\n1\n", "study.json": "{}"}, ".", "not a sweep of exu_press"),
-        ({"table.csv": "a\n1\n", "study.json": "[1]"}, ".", "study.json = [1]: allowed is a table"),
-        ({"table.csv": "a\n1\n", "study.json": "[" * 100_000}, ".", "allowed is JSON"),
-        ({"table.csv": "a\n1,2\n1\n", "study.json": "{}"}, ".", "not a sweep of exu_press"),
-        ({"table.csv": "a\n" + 200_000 * "1", "study.json": "{}"}, ".", "not a sweep of exu"),
+        ({"report.json": "{}"}, ".", "not a report of exu_press"),
+        ({"report.json": "[" * 100_000}, ".", "allowed is JSON"),
         ({"summary.json": "{}"}, "summary.json", "allowed is a result file"),
     ],
 )
@@ -216,48 +212,17 @@ def test_where_it_is_written(outputs, tmp_path, capsys):
     assert main([*command[:-1], str(tmp_path / "no" / "page.html")]) == 2
 
 
-@pytest.mark.parametrize(
-    ("old", "new"),
-    [("0.0001,", "0.0003,"), ("0.0001,dry", "0.0001,x"), ("status", "state")],
-)
-def test_a_table_that_is_another_study_is_refused(outputs, tmp_path, capsys, old, new):
-    for name in ("table.csv", "study.json"):
-        (tmp_path / name).write_bytes((outputs["sweep"] / name).read_bytes())
-    table = (tmp_path / "table.csv").read_text()
-    assert old in table
-    (tmp_path / "table.csv").write_text(table.replace(old, new))
-    assert main(["report", str(tmp_path)]) == 2
-    assert "does not belong to the study.json beside it" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize("number", ["1" * 500, "1" * 5000, "-1e500", "nan", "inf"])
-@pytest.mark.parametrize("name", ["table.csv", "study.json"])
-def test_a_number_that_is_none_is_refused_by_its_name(outputs, tmp_path, capsys, name, number):
-    for each in ("table.csv", "study.json"):
-        (tmp_path / each).write_bytes((outputs["sweep"] / each).read_bytes())
-    text = (tmp_path / name).read_text()
-    old, where = {
-        "table.csv": ("0.0001,", "(column '"),
-        "study.json": ('"revolutions": 0.0', "scene.revolutions = "),
-    }[name]
+def test_a_number_that_is_none_is_refused_by_its_name(outputs, tmp_path, capsys, number):
+    text = (outputs["sweep"] / "report.json").read_text()
+    old = '"revolutions": 0.0'
     assert old in text
     other = number.replace("nan", "NaN").replace("inf", "Infinity")
-    new = f"{number}," if name == "table.csv" else f'"revolutions": {other}, "x": 0.0'
-    (tmp_path / name).write_text(text.replace(old, new, 1))
+    new = f'"revolutions": {other}, "x": 0.0'
+    (tmp_path / "report.json").write_text(text.replace(old, new, 1))
     assert main(["report", str(tmp_path)]) == 2
-    told = capsys.readouterr().err
-    assert where in told and told.count("\n") == 1 and len(told) < 600
-
-
-def test_hostile_text_of_a_table_is_text(outputs, tmp_path):
-    for name in ("table.csv", "study.json"):
-        (tmp_path / name).write_bytes((outputs["sweep"] / name).read_bytes())
-    table = (tmp_path / "table.csv").read_text()
-    hostile = r"completed,$\frac{$ or $x_$ <script>alert(1)</script>"
-    (tmp_path / "table.csv").write_text(table.replace("completed,", hostile, 1))
-    assert main(["report", str(tmp_path), "--quiet"]) == 0
-    page = (tmp_path / "report.html").read_text(encoding="utf-8")
-    assert "<script>alert" not in page and "&lt;script&gt;" in page
+    error = capsys.readouterr().err
+    assert "scene.revolutions = " in error and error.count("\n") == 1 and len(error) < 600
 
 
 def test_many_joints_have_a_table_of_all():

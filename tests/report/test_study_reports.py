@@ -1,160 +1,124 @@
-"""Pages of optima and fits, from the files that those commands write."""
+"""The page of a study is made of its report, whatever kind of study it is."""
 
 import json
+from dataclasses import dataclass
 
 import pytest
 from browser import opened
 
 from exu_press import Scene
 from exu_press.cli import main
-from exu_press.verification.distribution import Distribution
+from exu_press.studies.base.report import (
+    REPORT_FILE,
+    Column,
+    Line,
+    Panel,
+    Picture,
+    Points,
+    Report,
+    Table,
+)
 
 SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.1)
-TRIALS = """speed_rpm,drive.peak_torque,peak_velocity,front
-100.0,5.0,1.0,1
-150.0,9.0,0.9,0
-200.0,7.0,2.0,1
-250.0,,,0
-"""
+HOSTILE = "<b>why</b>"
 
 
-@pytest.fixture
-def optimum(tmp_path):
-    front = [{"keys": {"speed_rpm": rpm}, "quantities": {}} for rpm in (100.0, 200.0)]
-    (tmp_path / "optimise.json").write_text(
-        json.dumps({"front": front, "chosen": 1, "at_ends": []})
-    )
-    (tmp_path / "trials.csv").write_text(TRIALS)
-    SCENE.save(tmp_path / "chosen.toml")
-    return tmp_path
+@dataclass(frozen=True)
+class Trials(Report):
+    """Four trials, one without a number."""
+
+    name = "trials"
+    as_points: bool = True
+
+    title = "Four trials"
+    scene = SCENE
+
+    def tables(self):
+        rows = [("100", "5"), ("150", "9"), ("200", HOSTILE), ("250", "-")]
+        runs = Table("Trials", ("speed_rpm", "torque"), rows, ["above"], ["below"], of_points=True)
+        return [runs, Table("Lines", above=["2 +- 1 um"])]
+
+    def pictures(self):
+        return [Picture("drawn", "A picture.", "nowhere:nothing")]
+
+    def points(self):
+        if not self.as_points:
+            return None
+        keys = [Column("speed_rpm", "", [100.0, 150.0, 200.0, 250.0])]
+        torques = [Column("torque", "N m", [5.0, 9.0, 7.0, None])]
+        return Points(keys, torques, [f"run {k}" for k in range(3)] + ["others beat"])
+
+    def panels(self):
+        measured = Line("<i>measured", [0.0, 1.0], [1.0, 2.0], True, [0.9, 1.9], [1.1, 2.1])
+        return [Panel("Torque", "time, s", "N m", [measured, Line("fit", [0.0, 1.0], [1.0, 2.1])])]
 
 
-@pytest.fixture
-def fitted(tmp_path):
-    key = {"value": 3.0, "low": 2.0, "high": 4.0}
-    key |= {"low_remark": "end of the range", "high_remark": ""}
-    number = {"name": "<i>force", "value": 10.0, "uncertainty": 2.0, "computed": 13.0}
-    told = {
-        "keys": {"speed_rpm": key},
-        "chi_square": 2.25,
-        "degrees_of_freedom": 1.0,
-        "measured": [{**number, "error_over_uncertainty": 0.6}],
-        "largest_error_over_uncertainty": 0.6,
-        "curves": {
-            "torque": {
-                "channel": "drive_torque",
-                "unit": "N m",
-                "across": "time, s",
-                "at": [0.0, 1.0, 2.0],
-                "measured": [1.0, 2.0, 3.0],
-                "computed": [1.1, 2.1, 2.9],
-            }
-        },
-        "profiles": {"speed_rpm": [[2.0, 4.0], [3.0, 0.0], [4.0, 4.0]]},
-    }
-    (tmp_path / "fit.json").write_text(json.dumps(told))
-    SCENE.save(tmp_path / "fitted.toml")
-    return tmp_path
-
-
-def report_in(folder):
+def page_of(report, folder):
+    report.save(folder)
     assert main(["report", str(folder), "--quiet"]) == 0
     return folder / "report.html"
 
 
-def test_a_point_of_the_front_opens_its_scene(optimum, browser):
+def test_a_row_opens_its_point(tmp_path, browser):
     pytest.importorskip("bokeh")
-    with opened(browser, report_in(optimum)) as page:
+    with opened(browser, page_of(Trials(), tmp_path)) as page:
+        data = page.evaluate(
+            """() => { const d = Bokeh.documents[0].get_model_by_name('points-runs').data;
+            return [[...d.x], [...d.y]]; }"""
+        )
+        assert data == [[100.0, 150.0, 200.0], [5.0, 9.0, 7.0]]
         page.click("#runs tbody tr:nth-child(3) button")
-        assert "exu-press run front/02.toml" in page.inner_text("#chosen")
-        page.click("#runs tbody tr:nth-child(2) button")
+        assert "run 2" in page.inner_text("#chosen")
+        page.click("#runs tbody tr:nth-child(4) button")
         assert "others beat" in page.inner_text("#chosen")
+        assert HOSTILE in page.inner_text("body")
 
 
-def test_the_table_of_trials(optimum):
-    text = report_in(optimum).read_text(encoding="utf-8")
-    assert "4 trials, 2 on the front" in text and "02.toml, chosen" in text
-
-
-def test_measured_and_computed_lie_over_each_other(fitted, browser):
+def test_curves_lie_over_each_other(tmp_path, browser):
     pytest.importorskip("bokeh")
-    with opened(browser, report_in(fitted), 390, 844) as page:
-        assert page.locator("#viewer .plot canvas").count() >= 3
+    report = page_of(Trials(as_points=False), tmp_path)
+    with opened(browser, report, 390, 844) as page:
+        assert page.locator("#viewer .plot canvas").count() >= 1
         scroll, width = page.evaluate(
             "() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
         )
         assert scroll <= width
-        assert "<i>force" in page.inner_text("body")
-        assert "2 (end of the range)" in page.inner_text("body")
-        assert "own error is up to 0.6 of an uncertainty" in page.inner_text("body")
+        assert "<i>measured" in page.inner_text("body")
+
+
+def test_a_page_has_tables_lines_pictures_and_the_scene(tmp_path):
+    text = page_of(Trials(), tmp_path).read_text(encoding="utf-8")
+    headings = ("Points", "Trials", "Lines", "Warnings", "Pictures", "Scene", "Assumptions")
+    places = [text.index(f"<h2>{heading}</h2>") for heading in headings]
+    assert places == sorted(places)
+    assert "<p>above</p>" in text and "<p>below</p>" in text
+    assert "2 \N{PLUS-MINUS SIGN} 1 µm" in text
+    assert "None was drawn." in text
+
+
+def test_a_terminal_shows_an_excerpt_and_what_is_meant_for_it():
+    rows = [(str(k), f"{k**2}") for k in range(4)]
+    table = Table("", ("k", "square"), rows, ["first"], ["last"], right=True, excerpt=[0, 3])
+    assert table.lines() == ["first", "k  square", "0       0", "3       9", "last"]
 
 
 @pytest.mark.parametrize(
-    ("name", "content"), [("optimise.json", "{}"), ("fit.json", "{}"), ("fit.json", "[]")]
+    "change",
+    [
+        {"tables": [{"title": "a"}, 3]},
+        {"tables": [{"title": "a", "head": ["b"], "rows": [[3, 4]]}]},
+        {"pictures": {"../drawn": "a"}},
+        {"points": {"keys": 1}},
+        {"points": None, "panels": [{"title": "a"}]},
+        {"scene": {"mechanism": "nothing"}},
+        {"title": None},
+    ],
+    ids=str,
 )
-def test_what_no_study_wrote_is_refused(tmp_path, capsys, name, content):
-    (tmp_path / name).write_text(content)
-    (tmp_path / "trials.csv").write_text("a,front\n")
-    assert main(["report", str(tmp_path / name)]) == 2
-    assert name in capsys.readouterr().err
-
-
-@pytest.mark.long
-def test_every_point_of_a_section_is_in_the_diagram(tmp_path, browser):
-    pytest.importorskip("bokeh")
-    rows = [
-        {"value": value, "status": "completed", "reason": "", "points": [[x, 0.0] for x in found],
-         "in_words": f"period {len(found)}", "exponent": [-1.0, None, -0.5], "motion": "periodic"}
-        for value, found in ((100.0, [0.5]), (200.0, [0.4, 0.6]))
-    ]  # fmt: skip
-    rows.append({"value": 300.0, "status": "failed", "reason": "<b>why"})
-    for one in rows:
-        one["second"] = 0.1
-    told = {"key": "speed_rpm", "second_key": "film.viscosity", "branches": {"up": rows}}
-    (tmp_path / "bifurcation.json").write_text(json.dumps(told))
-    with opened(browser, report_in(tmp_path)) as page:
-        found = page.evaluate(
-            """() => { const d = Bokeh.documents[0].get_model_by_name('points-runs').data;
-            return [[...d.x], [...d.y]]; }"""
-        )
-        assert found == [[100.0, 200.0, 200.0], [0.5, 0.4, 0.6]]
-        assert "<b>why" in page.inner_text("body")
-
-
-def motion():
-    """What attractor.json has of four revolutions; one does not have the first figure."""
-    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"})
-    figures = {"stroke": [0.06, None, 0.07, 0.06], "peak_velocity": [1.0, 2.0, 3.0, 4.0]}
-    known = {name: [v for v in each if v is not None] for name, each in figures.items()}
-    exponent = {"per_revolution": -1.0, "low": None, "high": -0.5, "motion": "regular"}
-    return {
-        "scene": scene.to_dict(), "skip": 5, "revolutions": 4, "section_deg": 0.0,
-        "period": {"in_words": "<i>1 revolution", "distances": [1e-3], "error": 1e-2},
-        "lyapunov_exponent": {
-            **exponent, "per_second": -4.0, "low_per_second": None, "high_per_second": -2.0,
-        },
-        "figures": figures, "units": {"stroke": "m", "peak_velocity": "m/s"},
-        "distributions": {n: Distribution.from_values(each).to_dict() for n, each in known.items()},
-        "points": [[0.1 * k, -0.1 * k] for k in range(4)],
-    }  # fmt: skip
-
-
-def test_every_revolution_of_a_long_run_is_in_its_page(tmp_path, browser):
-    pytest.importorskip("bokeh")
-    (tmp_path / "attractor.json").write_text(json.dumps(motion()))
-    with opened(browser, report_in(tmp_path)) as page:
-        found = page.evaluate(
-            """() => { const d = Bokeh.documents[0].get_model_by_name('points-runs').data;
-            return [[...d.x], [...d.y]]; }"""
-        )
-        assert found == [[0.0, 0.1, 0.2, 0.1 * 3], [0.0, -0.1, -0.2, -0.1 * 3]]
-        text = page.inner_text("body")
-        assert "<i>1 revolution" in text
-        assert "below -2" in text
-        assert "peak_velocity" in text
-
-
-def test_a_long_run_without_its_points_is_refused(tmp_path, capsys):
-    (tmp_path / "attractor.json").write_text(json.dumps({**motion(), "points": [], "figures": 3}))
+def test_what_no_study_wrote_is_refused(tmp_path, capsys, change):
+    Trials().save(tmp_path)
+    report = json.loads((tmp_path / REPORT_FILE).read_text())
+    (tmp_path / REPORT_FILE).write_text(json.dumps({**report, **change}))
     assert main(["report", str(tmp_path)]) == 2
-    assert "not a motion of exu-press attractor" in capsys.readouterr().err
+    error = capsys.readouterr().err
+    assert REPORT_FILE in error and "not a report of exu_press" in error

@@ -7,8 +7,8 @@ from refused import refused
 
 from exu_press import Scene
 from exu_press.mechanism import mechanism_from_dict, mechanism_lines, shipped_mechanism
+from exu_press.quantities.units import with_unit
 from exu_press.scene.scene import mechanism_of
-from exu_press.studies.sweep.units import with_unit
 
 LINK = {
     "name": "link",

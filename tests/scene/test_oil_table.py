@@ -3,11 +3,11 @@
 import pytest
 
 from exu_press import InputError, Scene
+from exu_press.quantities.units import unit_of
 from exu_press.scene.assumptions import assumed
 from exu_press.scene.oil import Oil
 from exu_press.scene.template import template
 from exu_press.scene.warnings import scene_warnings
-from exu_press.studies.sweep.units import unit_of
 
 OIL = {"viscosity_cst": [68.0, 8.7], "density": 870.0, "supply_celsius": 40.0, "conductance": 5.0}
 

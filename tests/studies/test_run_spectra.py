@@ -5,9 +5,9 @@ import pytest
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
-from exu_press.plots.spectrum import spectrum_figure
 from exu_press.result.windows import window
 from exu_press.studies.spectrum import column_of, marks_of, spectra
+from exu_press.studies.spectrum_figure import spectrum_figure
 
 PIN = {"clearance": 1e-4, "radius": 0.03}
 DRY = Scene(

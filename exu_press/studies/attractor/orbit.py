@@ -28,6 +28,8 @@ AT_MOST = 10.0
 class NoMotion(InputError):  # noqa: N818  an end, as that of a run
     """A motion does not get to the next section."""
 
+    exit_status = 3
+
 
 class Orbit:
     """A press whose crank is at the section; each advance is one revolution.

@@ -16,6 +16,7 @@ from exu_press.scene import Scene
 from exu_press.scene.custom import custom_modules
 from exu_press.schema.stored import from_json
 from exu_press.studies.base.inputs import arguments_of, scene_from
+from exu_press.studies.base.report import Report
 from exu_press.studies.base.study import Study
 
 __all__ = ["Row", "Runs", "row_of", "run_scene"]
@@ -36,8 +37,8 @@ class Runs(Batch):
         study: Study,
         directory: str | Path,
         *,
-        written: Sequence[str] = (),
-        label: str = "study",
+        report: type[Report] | None = None,
+        label: str = "",
         function: Function | None = None,
         quiet: bool = True,
         **workers: Any,
@@ -47,8 +48,8 @@ class Runs(Batch):
         Args:
             study: whose runs these are.
             directory: of this study alone.
-            written: names of the files that the study writes in the end.
-            label: of the progress bar.
+            report: of the study; its files are written in the end.
+            label: of the progress bar; the report's name where there is none.
             function: of a run's arguments, for `rows`; `run_scene` unless told.
             quiet: False shows the progress on standard error.
             workers: `workers` or `dask`, as of a `Batch`.
@@ -62,11 +63,12 @@ class Runs(Batch):
             time_limit=study.time_limit,
             kept=_file_is_whole,
             modules=(*own_modules(), *custom_modules(study.to_dict())),
-            label=label,
+            label=label or ("study" if report is None else report.name),
             quiet=quiet,
             **workers,
         )
-        self._study, self._written = study, written
+        self._study = study
+        self._files = () if report is None else report.files
 
     def __enter__(self) -> Self:
         """Take the directory.
@@ -77,7 +79,7 @@ class Runs(Batch):
         output_directory(self.directory)
         self.enter_context(locked(self.directory))
         try:
-            _claim(self.directory, self._study.to_dict(), self._written)
+            _claim(self.directory, self._study.to_dict(), self._files)
         except BaseException:
             self.close()
             raise

@@ -1,4 +1,4 @@
-"""The result of a bifurcation study, as a file and as a dataset."""
+"""The report of a bifurcation study, and its points as a dataset."""
 
 import dataclasses
 from collections.abc import Iterator, Sequence
@@ -7,11 +7,17 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import required_package
+from exu_press.parallel.task import COMPLETED
+from exu_press.quantities.units import meaning_of, unit_of, with_unit
+from exu_press.scene import Scene
 from exu_press.studies.base import Row
+from exu_press.studies.base.report import Column, Picture, Points, Report, Table
 from exu_press.studies.bifurcation.study import Bifurcation
-from exu_press.studies.sweep.units import meaning_of, unit_of
 
-__all__ = ["Branch", "Report"]
+__all__ = ["BifurcationReport", "Branch"]
+
+MOST_LETTERS = 60
+"""Of a reason in the table."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,13 +41,16 @@ class Branch:
 
 
 @dataclasses.dataclass(frozen=True)
-class Report:
-    """The result.
+class BifurcationReport(Report):
+    """The result: the motions in the long run over one key, or over two.
 
     Attributes:
         study: whose report this is.
         branches: one or two, for each value of the second key.
     """
+
+    name = "bifurcation"
+    files = ("bifurcation.json",)
 
     study: Bifurcation
     branches: Sequence[Branch]
@@ -51,17 +60,87 @@ class Report:
         """The names of the branches, each once."""
         return list(dict.fromkeys(branch.name for branch in self.branches))
 
+    @property
+    def title(self) -> str:
+        """Heading of the page."""
+        return f"Bifurcation over {' and '.join(self.study.names)}"
+
+    @property
+    def subtitle(self) -> str:
+        """Number of runs."""
+        rows = [row for branch in self.branches for row in branch.rows]
+        failed = sum(row["status"] != COMPLETED for row in rows)
+        return f"{len(rows)} runs, {failed} without a result"
+
+    @property
+    def scene(self) -> Scene:
+        """The scene whose keys vary."""
+        return self.study.scene
+
+    def tables(self) -> list[Table]:
+        """Return period, exponent and motion at each point."""
+        head = (*map(with_unit, self.study.names), "way", "period", "exponent per revolution")
+        rows = [
+            (
+                f"{value:g}",
+                *([] if branch.second is None else [f"{branch.second:g}"]),
+                branch.name,
+                *(text[:MOST_LETTERS] for text in _motion_texts(row)),
+            )
+            for branch in self.branches
+            for value, row in branch
+        ]
+        return [Table("Runs", (*head, "motion"), rows)]
+
+    def pictures(self) -> list[Picture]:
+        """Return the diagram over one key, or the map over two."""
+        function = "exu_press.studies.bifurcation.figure:bifurcation_picture"
+        return [Picture("bifurcation", "The diagram.", function)]
+
+    def points(self) -> Points | None:
+        """Return every point of every section; None where no run has any."""
+        rows = [
+            ((value, branch.second), branch.name, row, point)
+            for branch in self.branches
+            for value, row in branch
+            if row["status"] == COMPLETED
+            for point in row["points"]
+        ]
+        if not rows:
+            return None
+        names = self.study.names
+        keys = [
+            Column(name, unit_of(name), [values[n] for values, *_ in rows])
+            for n, name in enumerate(names)
+        ]
+        texts = [
+            Column("way", "", [way for _, way, _, _ in rows]),
+            Column("period", "", [str(row["in_words"]) for _, _, row, _ in rows]),
+        ]
+        sections = [
+            Column(f"section, coordinate {k + 1}", "", [float(point[k]) for *_, point in rows])
+            for k in range(min(len(point) for *_, point in rows))
+        ]
+        exponents = [row["exponent"][0] for _, _, row, _ in rows]
+        return Points(
+            [*keys, *texts],
+            [*sections, Column("exponent per revolution", "", exponents)],
+            [f"{row['in_words']}, {row['motion']}, on the way {way}" for _, way, row, _ in rows],
+            names[0],
+            sections[0].name,
+            colour="way",
+        )
+
     def to_dict(self) -> dict[str, Any]:
         """Return the entries of bifurcation.json, without states."""
-        found: dict[str, list[dict[str, Any]]] = {way: [] for way in self.ways}
+        branches: dict[str, list[dict[str, Any]]] = {way: [] for way in self.ways}
         for branch in self.branches:
-            other = {} if branch.second is None else {"second": branch.second}
+            second = {} if branch.second is None else {"second": branch.second}
             for value, row in branch:
-                kept = {name: entry for name, entry in row.items() if name != "state"}
-                found[branch.name].append({"value": value, **other, **kept})
-        key = {"key": self.study.name}
-        other_key = {} if self.study.second is None else {"second_key": self.study.second}
-        return {**key, **other_key, "branches": found}
+                entries = {name: entry for name, entry in row.items() if name != "state"}
+                branches[branch.name].append({"value": value, **second, **entries})
+        second_key = {} if self.study.second is None else {"second_key": self.study.second}
+        return {"key": self.study.name, **second_key, "branches": branches}
 
     def to_xarray(self) -> Any:
         """Return every point as an `xarray.Dataset` over way, keys, revolution and coordinate.
@@ -74,35 +153,45 @@ class Report:
         """
         xarray = required_package("xarray", "to_xarray", "xarray")
         study = self.study
-        done = [row for branch in self.branches for row in branch.rows if "points" in row]
-        section = np.shape(done[0]["points"]) if done else (study.bifurcation.revolutions, 0)
+        completed = [row for branch in self.branches for row in branch.rows if "points" in row]
+        section = (
+            np.shape(completed[0]["points"]) if completed else (study.bifurcation.revolutions, 0)
+        )
         keys = {study.name: list(study.values)}
         if study.second is not None:
             keys[study.second] = [second for second in study.seconds if second is not None]
-        places: dict[str, Sequence[object]] = {"way": self.ways, **keys}
-        size = tuple(map(len, places.values()))
-        found = {name: np.full(size, np.nan) for name in ("period", "error")}
-        found |= {f"exponent{end}": np.full(size, np.nan) for end in ("", "_low", "_high")}
+        axes: dict[str, Sequence[object]] = {"way": self.ways, **keys}
+        size = tuple(map(len, axes.values()))
+        figures = {name: np.full(size, np.nan) for name in ("period", "error")}
+        figures |= {f"exponent{end}": np.full(size, np.nan) for end in ("", "_low", "_high")}
         points = np.full((*size, *section), np.nan)
         for branch in self.branches:
             for value, row in branch:
                 if "points" not in row:
                     continue
-                at = [self.ways.index(branch.name), study.values.index(value)]
-                at += [] if branch.second is None else [study.seconds.index(branch.second)]
-                here = tuple(at)
-                points[here] = row["points"]
+                index = [self.ways.index(branch.name), study.values.index(value)]
+                index += [] if branch.second is None else [study.seconds.index(branch.second)]
+                points[tuple(index)] = row["points"]
                 ends = [np.nan if end is None else end for end in row["exponent"]]
-                told = (row["period"] or 0) if row["told"] else np.nan
-                for name, entry in zip(found, (told, row["error"], *ends), strict=True):
-                    found[name][here] = entry
-        variables = {name: (tuple(places), values) for name, values in found.items()}
-        words = {n: {"units": unit_of(n), "long_name": meaning_of(n)} for n in keys}
+                period = (row["period"] or 0) if row["told"] else np.nan
+                for name, entry in zip(figures, (period, row["error"], *ends), strict=True):
+                    figures[name][tuple(index)] = entry
+        variables = {name: (tuple(axes), values) for name, values in figures.items()}
+        attributes = {n: {"units": unit_of(n), "long_name": meaning_of(n)} for n in keys}
         return xarray.Dataset(
-            {"points": ((*places, "revolution", "coordinate"), points), **variables},
+            {"points": ((*axes, "revolution", "coordinate"), points), **variables},
             coords={
                 "way": self.ways,
-                **{name: (name, values, words[name]) for name, values in keys.items()},
+                **{name: (name, values, attributes[name]) for name, values in keys.items()},
                 "revolution": study.bifurcation.skip + 1 + np.arange(section[0]),
             },
         )
+
+
+def _motion_texts(row: Row) -> tuple[str, str, str]:
+    """Return period, exponent and motion of a point, or why it has none."""
+    if row["status"] != COMPLETED:
+        return str(row["status"]), str(row["reason"]), ""
+    _, low, high = row["exponent"]
+    exponent = f"below {high:.3g}" if low is None else f"{low:.3g} to {high:.3g}"
+    return str(row["in_words"]), exponent, str(row["motion"])

@@ -1,4 +1,4 @@
-"""Run the study: the first key goes up and down, from state to state, or every run starts anew."""
+"""The long run over a key of the scene, up and down, or over two: periods, exponents."""
 
 import math
 from collections.abc import Sequence
@@ -8,21 +8,19 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import write_json
 from exu_press.model.state import State
 from exu_press.parallel import Chain
 from exu_press.scene import Scene
 from exu_press.studies.attractor import attractor
 from exu_press.studies.base import Row, Runs, arguments_of, scene_from
-from exu_press.studies.bifurcation.report import Branch, Report
+from exu_press.studies.base.command import StudyCommand
+from exu_press.studies.bifurcation.report import BifurcationReport, Branch
 from exu_press.studies.bifurcation.study import FROM_THE_START, Bifurcation
 
-__all__ = ["bifurcation", "carried", "run_point"]
-
-FILE = "bifurcation.json"
+__all__ = ["BifurcationCommand", "bifurcation", "carried", "run_point"]
 
 
-def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> Report:
+def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> BifurcationReport:
     """Run the study, going on where its directory was left, and write bifurcation.json.
 
     On the ways up and down each run starts in the state in which the run at the last value ended,
@@ -35,9 +33,7 @@ def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> Report
         how: workers, dask, quiet of `exu_press.studies.base.Runs`.
     """
     values = study.values
-    with Runs(
-        study, directory, written=[FILE], label="bifurcation", function=run_point, **how
-    ) as runs:
+    with Runs(study, directory, report=BifurcationReport, function=run_point, **how) as runs:
         if study.bifurcation.way == FROM_THE_START:
             points = [(value, second) for second in study.seconds for value in values]
             rows = iter(runs.rows([_arguments(study, *point, None) for point in points]))
@@ -56,8 +52,8 @@ def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> Report
                     branches.append(Branch(name, ways[name], found[-1], second))
                     chains.append(_way(study, ways[name], second, found[-1]))
             runs.follow(chains, len(chains) * len(values))
-    report = Report(study, branches)
-    write_json(Path(directory) / FILE, report.to_dict())
+    report = BifurcationReport(study, branches)
+    report.save(Path(directory))
     return report
 
 
@@ -154,3 +150,11 @@ def run_point(arguments: dict[str, Any]) -> dict[str, Any]:
         "motion": found.exponent.sign,
         "state": found.state,
     }
+
+
+class BifurcationCommand(StudyCommand):
+    """`exu-press bifurcation`."""
+
+    example = "exu-press bifurcation clearance.toml --out out/clearance"
+    study = Bifurcation
+    run = staticmethod(bifurcation)

@@ -85,6 +85,11 @@ class Bifurcation(Study):
         return list(self.keys)[1] if len(self.keys) == 2 else None
 
     @property
+    def names(self) -> list[str]:
+        """The dotted names of the keys, one or two."""
+        return list(self.keys)
+
+    @property
     def seconds(self) -> tuple[float | None, ...]:
         """Its values; None alone where there is no other key."""
         return (None,) if self.second is None else self._numbers(self.second)

@@ -1,19 +1,17 @@
-"""Run an optimum."""
+"""Find the keys that make a press best: one objective, or several against each other."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import subdirectory, write_json
 from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import Row
 from exu_press.scene import Scene
-from exu_press.schema.csv_table import write_csv
 from exu_press.studies.base import Range, Runs
+from exu_press.studies.base.command import StudyCommand
 from exu_press.studies.base.evaluation import (
     Evaluation,
     Point,
@@ -21,13 +19,12 @@ from exu_press.studies.base.evaluation import (
     numbers_in,
     with_errors_of,
 )
+from exu_press.studies.optimise.report import OptimiseReport
 from exu_press.studies.optimise.several import advised, chosen, front, searched
 from exu_press.studies.optimise.single import evolved, judged, simplex, spread_points
 from exu_press.studies.optimise.study import AUTO, EVOLUTION, NELDER_MEAD, NSGA, TPE, Optimise
 
-__all__ = ["Report", "optimise"]
-
-WRITTEN = ("optimise.json", "trials.csv", "chosen.toml")
+__all__ = ["OptimiseCommand", "optimise"]
 
 ROUGH = 0.01
 """Error of runs over the objective's spread: with a larger one a simplex goes astray."""
@@ -38,89 +35,11 @@ MOST_CHECKED = 12
 FINER = 0.1
 """Tolerance, or step, of the chosen point's second run over the scene's."""
 
-AT_END = 0.01
-"""Distance from the end of a key's range, over the range, at which a point lies on it."""
-
 SCREEN = 4
 """Part of the trials of one objective that is spread over the ranges first, as 1 / SCREEN."""
 
 
-@dataclass(frozen=True)
-class Report:
-    """The result of an optimisation.
-
-    Attributes:
-        study: whose report this is.
-        method: of the search.
-        why: it was taken.
-        trials: all points, with their objectives and limited quantities.
-        places: of the front among them, by the first objective; of one objective the best point.
-        chosen: place of the chosen one among these.
-        errors: quantity -> errors of the front's points, NaN where not looked for or unknown.
-        finer: quantities of the chosen point at a tenth of the tolerance.
-        told: how many runs gave numbers, in lines.
-    """
-
-    study: Optimise
-    method: str
-    why: str
-    trials: Evaluation
-    places: list[int]
-    chosen: int
-    errors: Mapping[str, Array]
-    finer: dict[str, float]
-    told: list[str]
-
-    @property
-    def scenes(self) -> list[Scene]:
-        """Return the scenes of the front."""
-        return [self.study.scene_at(self.trials.points[place]) for place in self.places]
-
-    def numbers(self, quantity: str) -> Array:
-        """Return a quantity along the front, SI."""
-        place = self.study.quantities.index(quantity)
-        return self.trials.numbers[self.places, place]
-
-    @property
-    def at_ends(self) -> list[str]:
-        """Return the keys of the chosen point that lie on an end of their ranges."""
-        point = self.trials.points[self.places[self.chosen]]
-        shares = {
-            name: float(key.share(np.array(point[name])))
-            for name, key in self.study.keys.items()
-            if isinstance(key, Range)
-        }
-        return [name for name, share in shares.items() if not AT_END < share < 1.0 - AT_END]
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the contents of optimise.json."""
-        names = dict.fromkeys(self.study.quantities)
-        points = [
-            {
-                "keys": dict(self.trials.points[place]),
-                "quantities": {
-                    name: {
-                        "value": float(self.numbers(name)[n]),
-                        "error": None if np.isnan(error := self.errors[name][n]) else float(error),
-                    }
-                    for name in names
-                },
-            }
-            for n, place in enumerate(self.places)
-        ]
-        return {
-            "method": self.method,
-            "why": self.why,
-            "front": points,
-            "chosen": self.chosen,
-            "at_ends": self.at_ends,
-            "chosen_at_a_tenth_of_the_tolerance": self.finer,
-            "trials": len(self.trials.points),
-            "runs": self.told,
-        }
-
-
-def optimise(study: Optimise, directory: str | Path, **how: Any) -> Report:
+def optimise(study: Optimise, directory: str | Path, **how: Any) -> OptimiseReport:
     """Do the runs that are missing, write optimise.json, trials.csv and scenes; return the result.
 
     Called again after a kill or Ctrl-C, it goes on.
@@ -136,7 +55,7 @@ def optimise(study: Optimise, directory: str | Path, **how: Any) -> Report:
             limits.
     """
     directory = Path(directory)
-    with Runs(study, directory, written=WRITTEN, label="optimise", **how) as runs:
+    with Runs(study, directory, report=OptimiseReport, **how) as runs:
         trials = Evaluation(study, study.quantities, runs.of)
 
         def checked(points: Sequence[Point]) -> list[Row]:
@@ -158,11 +77,11 @@ def optimise(study: Optimise, directory: str | Path, **how: Any) -> Report:
             found = error_in(each, name)
             errors[name][n] = np.nan if found is None else found
     finer = dict(zip(names, numbers_in(row, names), strict=True))
-    report = Report(
+    report = OptimiseReport(
         study, method, why, trials, places, best, errors,
         {name: value for name, value in finer.items() if np.isfinite(value)}, trials.told(),
     )  # fmt: skip
-    _save(report, directory)
+    report.save(directory)
     return report
 
 
@@ -255,21 +174,9 @@ def _finer(scene: Scene) -> Scene:
     return scene.replace({f"solver.{name}": FINER * getattr(scene.solver, name)})
 
 
-def _save(report: Report, directory: Path) -> None:
-    """Write optimise.json, trials.csv, the chosen scene and those of the front."""
-    write_json(directory / "optimise.json", report.to_dict())
-    trials, study = report.trials, report.study
-    on_front = set(report.places)
-    columns = {key: [point[key] for point in trials.points] for key in study.keys}
-    for name in dict.fromkeys(study.quantities):
-        numbers = trials.numbers[:, study.quantities.index(name)]
-        columns[name] = [None if np.isnan(value) else float(value) for value in numbers]
-    columns["front"] = [int(place in on_front) for place in range(len(trials.points))]
-    write_csv(directory / "trials.csv", columns)
-    scenes = report.scenes
-    scenes[report.chosen].save(directory / "chosen.toml", overwrite=True)
-    front = subdirectory(directory, "front")
-    for old in front.glob("*.toml"):
-        old.unlink()
-    for number, scene in enumerate(scenes, 1):
-        scene.save(front / f"{number:02}.toml", overwrite=True)
+class OptimiseCommand(StudyCommand):
+    """`exu-press optimise`."""
+
+    example = "exu-press optimise clearances.toml --out out/clearances"
+    study = Optimise
+    run = staticmethod(optimise)

@@ -1,4 +1,4 @@
-"""Everything that was measured, as it is written and read again."""
+"""The report of a work-precision study: runs of each case, orders, stated errors."""
 
 import os
 import platform
@@ -8,11 +8,18 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.installation.versions import version_of
+from exu_press.scene import Scene
+from exu_press.studies.base.report import Picture, Report, Table
 from exu_press.studies.precision.rows import Row
 from exu_press.studies.precision.stated import Stated
-from exu_press.studies.precision.table import case_lines, machine_lines, order_lines, stated_lines
+from exu_press.studies.precision.table import (
+    case_tables,
+    machine_lines,
+    order_table,
+    stated_tables,
+)
 
-__all__ = ["Report", "machine"]
+__all__ = ["PrecisionReport", "machine"]
 
 PACKAGES = ("exu-press", "exudyn", "numpy", "scipy", "numba", "scikit-sundae", "numbalsoda")
 
@@ -41,8 +48,8 @@ def _processor() -> str:
 
 
 @dataclass(frozen=True)
-class Report:
-    """The study's outcome.
+class PrecisionReport(Report):
+    """The measurements.
 
     Attributes:
         quick: whether it is the reduced form, whose times mean nothing.
@@ -53,6 +60,9 @@ class Report:
         left_out: runs that were left out, and why.
         machine: processor, system, versions.
     """
+
+    name = "precision"
+    files = ("precision.json",)
 
     quick: bool
     cases: Mapping[str, Mapping[str, Any]]
@@ -66,10 +76,29 @@ class Report:
         """Return the dictionary of precision.json."""
         return asdict(self)
 
-    def lines(self) -> list[str]:
-        """Return everything for the terminal, the table of a case after the other."""
-        parts = [machine_lines(self.machine, self.quick)]
+    @property
+    def title(self) -> str:
+        """Heading of the page."""
+        return f"Error against run time: {', '.join(self.cases)}"
+
+    @property
+    def scene(self) -> Scene | None:
+        """The first scene among the cases."""
+        scenes = [case["scene"] for case in self.cases.values() if case["scene"] is not None]
+        return Scene.from_dict(scenes[0]) if scenes else None
+
+    def tables(self) -> list[Table]:
+        """Return where times were taken, the runs of each case, orders, and stated errors."""
+        tables = [Table("Machine", above=machine_lines(self.machine, self.quick))]
         for name, case in self.cases.items():
-            parts.append(case_lines(name, case, [row for row in self.rows if row.case == name]))
-        parts += [order_lines(self.orders), stated_lines(self.stated), list(self.left_out)]
-        return [line for part in parts if part for line in ("", *part)][1:]
+            tables += case_tables(name, case, [row for row in self.rows if row.case == name])
+        tables += [order_table(self.orders), *stated_tables(self.stated)]
+        return [*tables, Table("Left out", above=self.left_out)] if self.left_out else tables
+
+    def pictures(self) -> list[Picture]:
+        """Return error over run time of each case."""
+        function = "exu_press.studies.precision.figure:precision_figure"
+        return [
+            Picture(f"precision_{name}", f"{case['title']}: error over time.", function, (name,))
+            for name, case in self.cases.items()
+        ]

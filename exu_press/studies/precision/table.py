@@ -1,16 +1,16 @@
-"""The parts of the report as a person reads them in a terminal."""
+"""Tables of a work-precision study."""
 
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple
 from typing import Any
 
+from exu_press.studies.base.report import Table
 from exu_press.studies.precision.errors import PEAKS_APART
 from exu_press.studies.precision.rows import ERRORS, Row
 from exu_press.studies.precision.stated import Stated
-from exu_press.terminal.columns import columns
 
-__all__ = ["case_lines", "horizon_words", "machine_lines", "order_lines", "stated_lines"]
+__all__ = ["case_tables", "horizon_text", "machine_lines", "order_table", "stated_tables"]
 
 INDENT = 2
 
@@ -51,23 +51,25 @@ def machine_lines(machine: Mapping[str, Any], quick: bool) -> list[str]:
     return lines
 
 
-def case_lines(name: str, case: Mapping[str, Any], rows: Sequence[Row]) -> list[str]:
-    """Return a case's reference and its runs."""
+def case_tables(name: str, case: Mapping[str, Any], rows: Sequence[Row]) -> list[Table]:
+    """Return a case's reference and its runs, and figures of whole dry runs."""
     reference = case["reference"]
     units = "rad, rad/s" if case["scene"] is None else "m, m/s"
-    return [
-        f"{name}: {case['title']}",
-        f"  {case['duration']:g} s simulated; {horizon_words(case)}",
+    title = f"{name}: {case['title']}"
+    above = [
+        title,
+        f"  {case['duration']:g} s simulated; {horizon_text(case)}",
         f"  errors up to then, {units} and relative; < smaller than the reference can tell; "
         "* one run, not the median of three",
         f"  reference: {reference['method']}; {_difference(reference)}",
-        *columns([HEAD, *(_cells(row) for row in rows)], INDENT),
-        *(f"  {row.solver} {_setting(row)}: {row.reason}" for row in rows if row.reason),
-        *(_late_lines(rows) if case["horizon"] < case["duration"] else ()),
     ]
+    below = [f"  {row.solver} {_setting(row)}: {row.reason}" for row in rows if row.reason]
+    runs = Table(title, HEAD, [_cells(row) for row in rows], above, below, INDENT)
+    late = _late_tables(title, rows) if case["horizon"] < case["duration"] else []
+    return [runs, *late]
 
 
-def order_lines(orders: Sequence[Mapping[str, Any]]) -> list[str]:
+def order_table(orders: Sequence[Mapping[str, Any]]) -> Table:
     """Return the observed orders."""
     cells = [
         (
@@ -78,13 +80,11 @@ def order_lines(orders: Sequence[Mapping[str, Any]]) -> list[str]:
         )
         for order in orders
     ]
-    return [
-        "observed orders (slope of the error over the setting, three finest points)",
-        *columns([ORDER_HEAD, *cells], INDENT),
-    ]
+    above = "observed orders (slope of the error over the setting, three finest points)"
+    return Table("Orders", ORDER_HEAD, cells, [above], indent=INDENT)
 
 
-def horizon_words(case: Mapping[str, Any]) -> str:
+def horizon_text(case: Mapping[str, Any]) -> str:
     """Return the horizon in words, and how fast trajectories diverge."""
     rate = case["lyapunov_exponent"]
     how = "" if rate is None or rate <= 0.0 else f" tenfold in {math.log(10.0) / rate:.2g} s"
@@ -93,7 +93,7 @@ def horizon_words(case: Mapping[str, Any]) -> str:
     return f"no horizon: trajectories {'diverge' if how else 'stay together'}{how}"
 
 
-def stated_lines(stated: Sequence[Stated]) -> list[str]:
+def stated_tables(stated: Sequence[Stated]) -> list[Table]:
     """Return how stated errors cover the true ones, where there are any."""
     cells: list[tuple[str, ...]] = [
         (
@@ -109,8 +109,8 @@ def stated_lines(stated: Sequence[Stated]) -> list[str]:
     ]
     if not cells:
         return []
-    title = "stated against true errors of all figures until the horizon; of the peak acceleration"
-    return [title, *columns([STATED_HEAD, *cells], INDENT)]
+    above = "stated against true errors of all figures until the horizon; of the peak acceleration"
+    return [Table("Stated errors", STATED_HEAD, cells, [above], indent=INDENT)]
 
 
 def _difference(reference: Mapping[str, Any]) -> str:
@@ -147,7 +147,7 @@ def _error(row: Row, name: str) -> str:
     return ("<" if name in row.at_most else "") + _number(getattr(row, name), 2)
 
 
-def _late_lines(rows: Sequence[Row]) -> list[str]:
+def _late_tables(title: str, rows: Sequence[Row]) -> list[Table]:
     """Return the figures of whole dry runs, where any errors are."""
     cells: list[tuple[str, ...]] = [
         (
@@ -161,11 +161,11 @@ def _late_lines(rows: Sequence[Row]) -> list[str]:
     ]
     if not cells:
         return []
-    title = (
+    above = (
         "  the whole run: touches, their error; relative errors; graph distance; peaks: largest "
         f"accelerations of each {PEAKS_APART:g} s, of all starts"
     )
-    return [title, *columns([LATE_HEAD, *cells], INDENT)]
+    return [Table(f"{title}, the whole run", LATE_HEAD, cells, [above], indent=INDENT)]
 
 
 def _number(value: float | None, digits: int) -> str:

@@ -1,96 +1,24 @@
-"""Run a sensitivity study."""
+"""Find out which tolerances decide: Sobol indices, a tornado, and the spread of presses."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import write_json
 from exu_press.numerics.arrays import Array
-from exu_press.schema.csv_table import write_csv
 from exu_press.studies.base import Runs
+from exu_press.studies.base.command import StudyCommand
 from exu_press.studies.base.evaluation import Evaluation, error_in, with_errors_of
-from exu_press.studies.sensitivity.indices import Indices, Sample, indices, sample
-from exu_press.studies.sensitivity.spread import Spread, spread, tornado
+from exu_press.studies.sensitivity.indices import indices, sample
+from exu_press.studies.sensitivity.report import SensitivityReport
+from exu_press.studies.sensitivity.spread import spread, tornado
 from exu_press.studies.sensitivity.study import Sensitivity
 
-__all__ = ["Report", "sensitivity"]
-
-WRITTEN = ("sensitivity.json", "samples.csv")
+__all__ = ["SensitivityCommand", "sensitivity"]
 
 
-@dataclass(frozen=True)
-class Report:
-    """The result of a sensitivity study; quantities and keys in the study's order.
-
-    Attributes:
-        study: whose report this is.
-        sample: values at the sampled points.
-        indices: of each quantity; None of one that does not move.
-        spreads: of each quantity.
-        middle: values with all keys at their medians, (s,).
-        bars: values with one key at the ends of its distribution, (k, 2, s).
-        errors: of each quantity in the run with all keys at their medians; None where unknown.
-        told: how many runs gave numbers, in lines.
-    """
-
-    study: Sensitivity
-    sample: Sample
-    indices: list[Indices | None]
-    spreads: list[Spread]
-    middle: Array
-    bars: Array
-    errors: list[float | None]
-    told: list[str]
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the contents of sensitivity.json."""
-        names = self.study.sensitivity.quantities
-        found = {name: self._of(place) for place, name in enumerate(names)}
-        return {"runs": self.told, "drawn": self.sample.drawn, "quantities": found}
-
-    def columns(self) -> dict[str, list[float]]:
-        """Return keys and quantities of the two independent samples, the contents of samples.csv.
-
-        These presses are drawn from the distributions, and no key is the same in two of them.
-        """
-        shares = np.concatenate(self.sample.shares)
-        points = [self.study.point_at(share) for share in shares]
-        found = {name: [point[name] for point in points] for name in self.study.keys}
-        names = self.study.sensitivity.quantities
-        return found | dict(zip(names, self.sample.values.tolist(), strict=True))
-
-    def _of(self, place: int) -> dict[str, Any]:
-        """Return the entry of one quantity."""
-        one, each = self.indices[place], self.spreads[place]
-        keys: dict[str, Any] = {}
-        for n, key in enumerate(self.study.keys):
-            ends = self.bars[n, :, place]
-            keys[key] = {"alone": [None if np.isnan(end) else float(end) for end in ends]}
-            if one is not None:
-                keys[key]["first_order"] = _told(one.first, one.first_bounds, n)
-                keys[key]["total_order"] = _told(one.total, one.total_bounds, n)
-        return {
-            "percentiles": {"5": each.low, "50": each.middle, "95": each.high},
-            "mean": each.mean,
-            "deviation": each.deviation,
-            "share": self.study.sensitivity.share,
-            "half_width": each.half,
-            "half_width_standard_error": each.half_error,
-            "error_of_a_run": self.errors[place],
-            "moves": one is not None,
-            "keys": keys,
-        }
-
-
-def _told(values: Array, bounds: Array, place: int) -> dict[str, float]:
-    low, high = map(float, bounds[place])
-    return {"value": float(values[place]), "low": low, "high": high}
-
-
-def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Report:
+def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> SensitivityReport:
     """Do the runs that are missing, write sensitivity.json and samples.csv; return the result.
 
     Called again after a kill or Ctrl-C, it goes on.
@@ -105,7 +33,7 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Report
             or so many runs fail that no sample is left.
     """
     asked, keys = study.sensitivity, study.keys
-    with Runs(study, directory, written=WRITTEN, label="sensitivity", **how) as runs:
+    with Runs(study, directory, report=SensitivityReport, **how) as runs:
         evaluation = Evaluation(study, asked.quantities, runs.of)
 
         def evaluate(shares: Array) -> Array:
@@ -120,7 +48,7 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Report
             )
     medians = study.scene_at(study.point_at(np.full(len(keys), 0.5)))
     (checked,) = with_errors_of(study, directory, [medians], **how)
-    report = Report(
+    report = SensitivityReport(
         study,
         found,
         indices(found),
@@ -130,6 +58,13 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Report
         [error_in(checked, name) for name in asked.quantities],
         evaluation.told(),
     )
-    write_json(Path(directory) / "sensitivity.json", report.to_dict())
-    write_csv(Path(directory) / "samples.csv", report.columns())
+    report.save(Path(directory))
     return report
+
+
+class SensitivityCommand(StudyCommand):
+    """`exu-press sensitivity`."""
+
+    example = "exu-press sensitivity tolerances.toml --out out/tolerances"
+    study = Sensitivity
+    run = staticmethod(sensitivity)

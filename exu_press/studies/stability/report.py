@@ -1,14 +1,16 @@
-"""The result of the study, as it is written and as a user reads it."""
+"""The report of a stability study: how many cases are right, and why others are not."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from exu_press.plots.words import ONE_LINE, describe
+from exu_press.scene import Scene
+from exu_press.studies.base.report import Picture, Report, Table
 from exu_press.studies.stability.judge import RIGHT, STOPPED, WRONG
-from exu_press.terminal.columns import columns
 
-__all__ = ["Report", "Row"]
+__all__ = ["Row", "StabilityReport"]
 
 HEAD = ("axis", "cases", "right", "stopped", "wrong", "worst residual", "longest, s")
 
@@ -48,21 +50,46 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Report:
+class StabilityReport(Report):
     """Rows of all cases that were run.
 
     Attributes:
+        base: scene of the study.
         quick: whether it is the fixed sample.
         rows: one a case.
     """
 
+    name = "stability"
+    files = ("stability.json",)
+
+    base: Scene
     quick: bool
     rows: tuple[Row, ...]
 
+    @property
+    def title(self) -> str:
+        """Heading of the page."""
+        return f"At the extremes: {describe([self.scene], ONE_LINE)}"
+
+    @property
+    def subtitle(self) -> str:
+        """Number of cases with each verdict."""
+        return ", ".join(f"{count} {verdict}" for verdict, count in self.counts().items())
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of the study."""
+        return self.base
+
+    @property
+    def exit_status(self) -> int:
+        """1 if a case is wrong."""
+        return 1 if self.counts()[WRONG] else 0
+
     def counts(self) -> dict[str, int]:
         """Return how many cases have each verdict."""
-        found = Counter(row.verdict for row in self.rows)
-        return {verdict: found[verdict] for verdict in (RIGHT, STOPPED, WRONG)}
+        counts = Counter(row.verdict for row in self.rows)
+        return {verdict: counts[verdict] for verdict in (RIGHT, STOPPED, WRONG)}
 
     def too_coarse(self) -> int:
         """Return how many cases stopped because their own setting is plainly too coarse."""
@@ -71,7 +98,7 @@ class Report:
             for row in self.rows
             if row.verdict == STOPPED and row.status == "under-resolved"
         )
-        return sum("step" in each or each["tolerance"] >= TOO_COARSE for each in solvers)
+        return sum("step" in s or s["tolerance"] >= TOO_COARSE for s in solvers)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the dictionary of stability.json."""
@@ -82,28 +109,38 @@ class Report:
             "cases": [asdict(row) for row in self.rows],
         }
 
-    def lines(self) -> list[str]:
-        """Return a table, a line an axis, then every case that is not right, then the counts."""
-        table: list[tuple[str, ...]] = [HEAD]
-        for axis in dict.fromkeys(row.axis for row in self.rows):
-            rows = [row for row in self.rows if row.axis == axis]
-            found = Counter(row.verdict for row in rows)
-            worst = max((row.residual for row in rows if row.residual is not None), default=None)
-            longest = max(row.wall_time or 0.0 for row in rows)
-            numbers = len(rows), *(found[verdict] for verdict in (RIGHT, STOPPED, WRONG))
-            residual = "-" if worst is None else f"{worst:.1e}"
-            table.append((axis, *map(str, numbers), residual, f"{longest:.3g}"))
-        lines, counts = columns(table, right=True), self.counts()
-        for verdict in (STOPPED, WRONG):
-            for row in self.rows:
-                if row.verdict == verdict:
-                    lines += ["", f"{verdict}: {row.name}", f"    {row.reason}"]
-        total, coarse = len(self.rows), self.too_coarse()
+    def tables(self) -> list[Table]:
+        """Return a row an axis, then every case that is not right, then the counts."""
+        rows = [self._axis(axis) for axis in dict.fromkeys(row.axis for row in self.rows)]
+        failed = [
+            line
+            for verdict in (STOPPED, WRONG)
+            for row in self.rows
+            if row.verdict == verdict
+            for line in ("", f"{verdict}: {row.name}", f"    {row.reason}")
+        ][1:]
+        counts, total, coarse = self.counts(), len(self.rows), self.too_coarse()
         share = (counts[STOPPED] - coarse) / total
-        lines += [
-            "",
+        summary = (
             f"{total} cases: {counts[RIGHT]} right, {counts[STOPPED]} stopped with a reason "
             f"({coarse} of them for a step or tolerance plainly too coarse, {share:.1%} others), "
-            f"{counts[WRONG]} wrong",
-        ]
-        return lines
+            f"{counts[WRONG]} wrong"
+        )
+        not_right = [Table("Cases that are not right", above=failed)] if failed else []
+        axes = Table("Axes", HEAD, rows, right=True)
+        return [axes, *not_right, Table("All cases", above=[summary])]
+
+    def pictures(self) -> list[Picture]:
+        """Return the map of the cases."""
+        function = "exu_press.studies.stability.figure:stability_figure"
+        return [Picture("stability", "Every axis from end to end.", function)]
+
+    def _axis(self, axis: str) -> tuple[str, ...]:
+        """Return the row of an axis."""
+        rows = [row for row in self.rows if row.axis == axis]
+        counts = Counter(row.verdict for row in rows)
+        worst = max((row.residual for row in rows if row.residual is not None), default=None)
+        longest = max(row.wall_time or 0.0 for row in rows)
+        numbers = len(rows), *(counts[verdict] for verdict in (RIGHT, STOPPED, WRONG))
+        residual = "-" if worst is None else f"{worst:.1e}"
+        return axis, *map(str, numbers), residual, f"{longest:.3g}"

@@ -1,26 +1,22 @@
-"""The study: jumps over strokes, each as long as its halves agree with it."""
+"""Wear a press over many strokes: clearances grow, their shapes follow, the runs are repeated."""
 
-import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from exu_press.files.output_directory import write_json
 from exu_press.laws.wear import Contacts
 from exu_press.parallel import Chain
 from exu_press.parallel.task import COMPLETED
-from exu_press.quantities.uncertain import significant
-from exu_press.scene import Scene
 from exu_press.studies.base import Row, Runs, arguments_of, row_of, scene_from
+from exu_press.studies.base.command import StudyCommand
+from exu_press.studies.wear.report import Point, WearReport
 from exu_press.studies.wear.shape import Depths, begun, worn_scene
 from exu_press.studies.wear.study import WearStudy
 
-__all__ = ["FILE", "SCENE", "Point", "Report", "run_worn", "wear"]
-
-FILE, SCENE = "wear.json", "worn.toml"
+__all__ = ["WearCommand", "run_worn", "wear"]
 
 LONGEST, SHORTEST = 4.0, 0.2
 """Times the last jump that the next one may be."""
@@ -35,93 +31,7 @@ TRIES = 8
 """Shorter and shorter jumps after one whose run failed."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Point:
-    """The press after some strokes.
-
-    Attributes:
-        strokes: since the start.
-        jump: that led here, strokes.
-        error: sum of the differences of jumps and their halves, m; the largest of all joints.
-        depths: joint -> worn off since the joint was new.
-        ways: guided body -> worn off its ways so far, m.
-        row: of the run with these depths.
-    """
-
-    strokes: float
-    jump: float
-    error: float
-    depths: Mapping[str, Depths]
-    ways: Mapping[str, float]
-    row: Row
-
-
-@dataclasses.dataclass(frozen=True)
-class Report:
-    """The course of wear, and how it ended.
-
-    Attributes:
-        study: whose report this is.
-        points: from the start on.
-        reason: why it ended before all strokes were done; empty where they are.
-    """
-
-    study: WearStudy
-    points: Sequence[Point]
-    reason: str = ""
-
-    @property
-    def jumps(self) -> str:
-        """Return the number of jumps in words."""
-        number = len(self.points) - 1
-        return f"{number} jump{'s' * (number != 1)}"
-
-    @property
-    def ended(self) -> str:
-        """Return why it ended before all strokes were done; empty where they are."""
-        strokes = significant(self.study.wear.strokes, 4)
-        return f"ended before {strokes} strokes: {self.reason}" if self.reason else ""
-
-    def clearances(self, joint: str) -> list[float]:
-        """Return a joint's clearance where it is largest, point by point, m."""
-        new = self._clearance(joint)
-        return [new + point.depths[joint].deepest for point in self.points]
-
-    def values(self, quantity: str) -> list[float | None]:
-        """Return a quantity point by point."""
-        return [point.row.get(quantity) for point in self.points]
-
-    def scene(self) -> Scene:
-        """Return the scene with the joints as worn as at the last point."""
-        return worn_scene(self.study.scene, self.points[-1].depths)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the entries of wear.json."""
-        return {
-            "status": "stopped" if self.reason else COMPLETED,
-            "reason": self.reason,
-            "strokes": [point.strokes for point in self.points],
-            "jump": [point.jump for point in self.points],
-            "error": [point.error for point in self.points],
-            "joints": {
-                name: {
-                    "clearance": self.clearances(name),
-                    "bearing_depth": [p.depths[name].bearing.tolist() for p in self.points],
-                    "journal_depth": [p.depths[name].journal.tolist() for p in self.points],
-                }
-                for name in self.study.joints
-            },
-            "guides": {
-                body: [point.ways[body] for point in self.points] for body in self.points[0].ways
-            },
-            "quantities": {name: self.values(name) for name in self.study.names},
-        }
-
-    def _clearance(self, joint: str) -> float:
-        return float(self.study.scene.joints[joint].clearance)
-
-
-def wear(study: WearStudy, directory: str | Path, **how: Any) -> Report:
+def wear(study: WearStudy, directory: str | Path, **how: Any) -> WearReport:
     """Run the study, going on where its directory was left; write wear.json and worn.toml.
 
     A jump takes the depths on by the midpoint rule: a run at the start of the jump tells what a
@@ -141,12 +51,11 @@ def wear(study: WearStudy, directory: str | Path, **how: Any) -> Report:
     if how.get("dask") is None:
         how["workers"] = how.get("workers") or 1
     with Runs(
-        study, directory, written=[FILE, SCENE], label="wear, at most", function=run_worn, **how
+        study, directory, report=WearReport, label="wear, at most", function=run_worn, **how
     ) as runs:
         runs.follow([_course(study, points, ended)], 2 * study.wear.most_jumps + 1)
-    report = Report(study, points, "".join(ended))
-    write_json(Path(directory) / FILE, report.to_dict())
-    report.scene().save(Path(directory) / SCENE, overwrite=True)
+    report = WearReport(study, points, "".join(ended))
+    report.save(Path(directory))
     return report
 
 
@@ -236,3 +145,11 @@ def _rates(row: Row, study: WearStudy) -> dict[str, Contacts]:
         area = float(stored.pop("area"))
         rates[joint] = Contacts(**{n: np.array(v) for n, v in stored.items()}, area=area)
     return rates
+
+
+class WearCommand(StudyCommand):
+    """`exu-press wear`."""
+
+    example = "exu-press wear million.toml --out out/million"
+    study = WearStudy
+    run = staticmethod(wear)

@@ -9,8 +9,8 @@ from slider_cranks import FILM
 from exu_press import InputError, simulate
 from exu_press.integrate import SolverStatus
 from exu_press.studies.attractor import attractor
-from exu_press.studies.attractor.lines import attractor_lines
 from exu_press.studies.attractor.orbit import Orbit
+from exu_press.studies.attractor.report import AttractorReport
 
 MOTOR = FILM.replace({"drive": {"rated_torque": 200.0, "inertia": 2.0}})
 NAMES = ["stroke", "crank_speed", "crank_pin_force.x"]
@@ -64,7 +64,7 @@ def test_its_revolutions_take_as_long_as_they_take(turned):
 def test_channels_are_kept_on_the_section_with_their_units(turned):
     assert list(turned.figures) == NAMES
     assert turned.units == {"stroke": "m", "crank_speed": "rad/s", "crank_pin_force.x": "N"}
-    assert "crank_pin_force.x, N" in "\n".join(attractor_lines(turned))
+    assert "crank_pin_force.x, N" in "\n".join(AttractorReport(turned).lines())
 
 
 @pytest.fixture(scope="module")

@@ -9,9 +9,9 @@ from slider_cranks import FILM
 from exu_press import InputError
 from exu_press.cli import main
 from exu_press.model.state import State
-from exu_press.plots.bifurcation import bifurcation_figure
 from exu_press.studies.attractor.orbit import Orbit
 from exu_press.studies.bifurcation import Bifurcation, bifurcation
+from exu_press.studies.bifurcation.figure import bifurcation_figure
 from exu_press.studies.bifurcation.run import carried, run_point
 
 SHORT = {"skip": 1, "revolutions": 20, "longest": 2}

@@ -5,9 +5,8 @@ import pytest
 from slider_cranks import FILM
 
 from exu_press import InputError
-from exu_press.plots.bifurcation import period_map_figure
-from exu_press.studies.bifurcation import Bifurcation, Branch, Report, bifurcation
-from exu_press.studies.bifurcation.lines import report_lines
+from exu_press.studies.bifurcation import Bifurcation, BifurcationReport, Branch, bifurcation
+from exu_press.studies.bifurcation.figure import period_map_figure
 
 SHORT = {"skip": 1, "revolutions": 20, "longest": 2}
 KEYS = {"joints.crank_pin.clearance": [5e-5, 1e-4, 2e-4], "speed_rpm": [200.0, 240.0]}
@@ -30,7 +29,7 @@ def report():
     lower = [row(1, value=0.1), row(2), {"status": "failed", "reason": "why not"}]
     upper = [row(None), row(None, told=False), row(1)]
     branches = [Branch("down", values, lower, 200.0), Branch("down", values, upper, 240.0)]
-    return Report(study, branches)
+    return BifurcationReport(study, branches)
 
 
 def test_every_point_has_both_keys(report):
@@ -39,8 +38,8 @@ def test_every_point_has_both_keys(report):
     places = [(one["value"], one["second"]) for one in told["branches"]["down"]]
     assert places == [(x, y) for y in (200.0, 240.0) for x in (2e-4, 1e-4, 5e-5)]
     assert "state" not in told["branches"]["down"][0]
-    lines = report_lines(report)
-    assert lines[0].split()[:3] == [*KEYS, "way"]
+    lines = report.lines()
+    assert lines[0].split()[:4] == ["joints.crank_pin.clearance,", "m", "speed_rpm", "way"]
     assert len(lines) == 7
     assert "why not" in lines[3]
 

@@ -6,7 +6,6 @@ import pytest
 from exu_press import InputError, Scene, simulate
 from exu_press.studies.base import load_study
 from exu_press.studies.fit import Fit, fit
-from exu_press.studies.fit.lines import report_lines
 from exu_press.studies.fit.profile import OPEN
 
 SLIDER, ROD = "slider_crank.slider_mass", "slider_crank.rod_mass"
@@ -46,7 +45,7 @@ def test_masses_are_found_from_forces(tmp_path):
     assert report.chi_square == pytest.approx(0.0, abs=0.01)
     assert report.freedom == 1
     assert Scene.load(tmp_path / "fitted.toml") == report.scene
-    lines = report_lines(report)
+    lines = report.lines()
     assert any(line.startswith(SLIDER) and " to " in line for line in lines)
     again = fit(study(start={SLIDER: 1000.0}), tmp_path, workers=1)
     assert again.to_dict() == report.to_dict()
@@ -73,7 +72,7 @@ def test_a_key_without_effect_is_named(tmp_path):
     for one in given:
         one["uncertainty"] *= 5.0
     report = fit(study(keys=keys, measured=given), tmp_path, workers=1)
-    text = "\n".join(report_lines(report))
+    text = "\n".join(report.lines())
     assert "not determined: slider_crank.rod_inertia; over its whole range" in text
     assert report.remarks["slider_crank.rod_inertia"] == (OPEN, OPEN)
 
@@ -90,7 +89,7 @@ def test_two_keys_that_act_as_one_are_named(tmp_path):
     ]
     asked = study(scene=scene, keys=keys, measured=given, fit={"starts": 1})
     report = fit(asked, tmp_path, workers=1)
-    text = "\n".join(report_lines(report))
+    text = "\n".join(report.lines())
     assert "together leave every measured number where it is" in text
     assert f"{SLIDER} +10.0 % and gravity -10." in text or "gravity +10.0 % and" in text
     product = report.values[SLIDER] * report.values["gravity"]
@@ -141,7 +140,7 @@ def test_a_curve_through_a_sensor(tmp_path):
     ((_, told),) = report.curves
     assert told.shift == pytest.approx(0.002, abs=2e-4)
     assert told.offset == pytest.approx(50.0, abs=3.0)
-    assert "curve torque: 60 samples" in "\n".join(report_lines(report))
+    assert "curve torque: 60 samples" in "\n".join(report.lines())
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from exu_press.studies.precision import case_of, precision
 from exu_press.studies.precision.cases import QUICK
 from exu_press.studies.precision.errors import Trajectory
 from exu_press.studies.precision.references import divergence
-from exu_press.studies.precision.table import horizon_words
+from exu_press.studies.precision.table import horizon_text
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +55,7 @@ def test_a_horizon_is_measured_where_neighbours_part(report):
     text = "\n".join(report.lines())
     assert "no horizon: trajectories " in text
     case = {"duration": 0.2, "horizon": 0.08, "lyapunov_exponent": found.rate}
-    assert horizon_words(case) == "horizon 0.08 s: trajectories diverge tenfold in 0.02 s"
+    assert horizon_text(case) == "horizon 0.08 s: trajectories diverge tenfold in 0.02 s"
 
 
 def test_stated_errors_stand_beside_the_true_ones(report):

@@ -5,7 +5,6 @@ import pytest
 
 from exu_press import InputError, Scene
 from exu_press.studies.sensitivity import Sensitivity, sensitivity
-from exu_press.studies.sensitivity.lines import report_lines
 
 RADIUS, ROD = "slider_crank.crank_radius", "slider_crank.rod_length"
 SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, settle=0.0, revolutions=1.0)
@@ -31,7 +30,7 @@ def test_the_stroke_is_twice_the_crank(tmp_path):
     assert found.total[1:] == pytest.approx([0.0, 0.0], abs=1e-3)
     ends = 0.06 + 2.0 * 2e-5 * 1.6448536 * np.array([-1.0, 1.0])
     assert report.bars[0, :, 0] == pytest.approx(ends, abs=2e-7)
-    text = "\n".join(report_lines(report))
+    text = "\n".join(report.lines())
     assert "+-" in text
     assert "rod_length    0.00 (" in text.replace("slider_crank.", "")
     assert (tmp_path / "sensitivity.json").exists()

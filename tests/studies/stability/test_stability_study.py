@@ -9,7 +9,13 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.mechanism.press import PAPER_LAWS
-from exu_press.studies.stability import Report, Row, extremes, stability
+from exu_press.studies.stability import (
+    Row,
+    StabilityReport,
+    StabilityStudy,
+    extremes,
+    stability,
+)
 from exu_press.studies.stability import judge as judging
 from exu_press.studies.stability.cases import PAIRS
 from exu_press.studies.stability.checks import agreement, checks_of
@@ -168,21 +174,24 @@ def test_what_a_scene_refuses_is_left_out():
 
 
 def test_rows_are_kept_and_not_run_again(tmp_path):
-    table = extremes(Scene.from_dict(SHORT), "mine")
-    chosen = [*table[:1], *(case for case in table if case.axis == "film.viscosity")][:2]
-    first = stability(chosen, tmp_path, workers=1)
+    class Few(StabilityStudy):
+        @property
+        def cases(self):
+            table = extremes(self.scene, "mine")
+            return [table[0], next(case for case in table if case.axis == "film.viscosity")]
+
+    study = Few(Scene.from_dict(SHORT))
+    first = stability(study, tmp_path, workers=1)
     assert sum(first.counts().values()) == 2
-    assert [row.name for row in first.rows] == [case.name for case in chosen]
+    assert [row.name for row in first.rows] == [case.name for case in study.cases]
     lines = (tmp_path / "runs.jsonl").read_text()
-    again = stability(chosen, tmp_path, workers=1)
+    assert stability(study, tmp_path, workers=1) == first
     assert (tmp_path / "runs.jsonl").read_text() == lines
-    assert again == first
 
 
 def test_a_worker_that_fails_gives_a_wrong_case_and_the_map_shows_all(tmp_path):
-    from exu_press.plots.stability import save_stability
-
-    table = extremes(Scene.from_dict(SHORT), "mine")
+    scene = Scene.from_dict(SHORT)
+    table = extremes(scene, "mine")
     pair = replace(table[1], axis=PAIRS, value="one + other", name="one + other, mine")
     verdicts = ["right", "stopped", "wrong"]
     rows = tuple(
@@ -192,9 +201,10 @@ def test_a_worker_that_fails_gives_a_wrong_case_and_the_map_shows_all(tmp_path):
         )
         for case, i in zip([*table, pair], [0, 1, 2, *[0] * 999], strict=False)
     )  # fmt: skip
-    report = Report(True, rows)
+    report = StabilityReport(scene, True, rows)
     assert report.counts() == {"right": len(rows) - 2, "stopped": 1, "wrong": 1}
-    text = "\n".join(report.lines())
-    assert f"wrong: {rows[2].name}" in text
+    assert f"wrong: {rows[2].name}" in report.lines()
     assert report.lines()[-1].endswith(f"{1 / len(rows):.1%} others), 1 wrong")
-    assert save_stability(report, tmp_path).stat().st_size > 10_000
+    assert report.exit_status == 1
+    figure = report.pictures()[0].draw(report)
+    assert len(figure.axes[0].collections) == len(rows) - 1

@@ -5,8 +5,8 @@ import pytest
 
 from exu_press import InputError
 from exu_press.studies.base.keys import keys_from
+from exu_press.studies.sweep.report import flat
 from exu_press.studies.sweep.study import grid, listed, sample
-from exu_press.studies.sweep.table import flat
 
 
 def test_a_grid_has_every_combination_the_last_key_fastest():

@@ -11,7 +11,7 @@ from exu_press import InputError, Result, Scene, simulate
 from exu_press.parallel import run_batch
 from exu_press.studies.base import run_scene
 from exu_press.studies.sweep import Sweep, sweep
-from exu_press.studies.sweep.table import RUN_TIMES
+from exu_press.studies.sweep.report import RUN_TIMES
 
 LIST = {"way": "list"}
 IDEAL = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.01)

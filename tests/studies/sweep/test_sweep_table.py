@@ -2,6 +2,7 @@
 
 import csv
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,8 +10,7 @@ from scipy.io import netcdf_file
 
 from exu_press import InputError, Scene
 from exu_press.studies.sweep import Sweep
-from exu_press.studies.sweep.lines import report_lines, shown
-from exu_press.studies.sweep.table import table_of
+from exu_press.studies.sweep.report import report_of
 
 ROWS = [
     {
@@ -39,7 +39,7 @@ def table():
         scene=Scene(joints={"crank_pin": "ideal", "balls": "ideal"}),
         keys={"speed_rpm": [200.0, 300.0, 400.0]},
     )
-    return table_of(study, ROWS, ["1.nc", "2.nc", "3.nc"])
+    return report_of(study, ROWS, ["1.nc", "2.nc", "3.nc"])
 
 
 def test_what_varies_comes_first_and_times_last(table):
@@ -53,7 +53,7 @@ def test_what_varies_comes_first_and_times_last(table):
 
 
 def test_csv_reads_back_bit_by_bit(table, tmp_path):
-    table.save_csv(tmp_path / "table.csv")
+    table.save(tmp_path)
     with (tmp_path / "table.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert [row["status"] for row in rows] == ["completed", "failed", "film broke down"]
@@ -74,15 +74,15 @@ def test_netcdf_reads_back(table, tmp_path):
         assert texts == [row["reason"] for row in ROWS]
 
 
-def test_what_is_shown(table):
-    assert shown(table) == ("bottom_dead_centre", "joints.crank_pin.peak_force")
-    assert shown(table, ["cost.steps"]) == ("cost.steps",)
+def test_which_quantities_are_shown(table):
+    assert table.quantities() == ("bottom_dead_centre", "joints.crank_pin.peak_force")
+    assert replace(table, selected=["cost.steps"]).quantities() == ("cost.steps",)
     with pytest.raises(InputError, match=r"--show status: allowed are .*bottom_dead_centre"):
-        shown(table, ["status"])
+        replace(table, selected=["status"]).quantities()
 
 
 def test_the_table_in_a_terminal(table):
-    head, first, second, third, *rest = report_lines(table)
+    head, first, second, third, *rest = table.lines()
     assert head.split() == [
         "speed_rpm",
         "bottom_dead_centre,",

@@ -47,7 +47,7 @@ def test_what_is_worn_off_is_archards_volume(coarse):
     report, _ = coarse
     by_hand = 1e-4 / 2e9 * 500.0 * 9.81 * 2.0 * np.pi * 0.05 * STROKES
     area = 2.0 * np.pi * 0.05 * WEAR["length"]
-    last = report.points[-1]
+    last = report.course[-1]
     assert last.strokes == STROKES
     for depths in (last.depths["shaft"].journal, last.depths["shaft"].bearing):
         assert depths.mean() * area == pytest.approx(by_hand, rel=2e-3)
@@ -58,9 +58,9 @@ def test_what_is_worn_off_is_archards_volume(coarse):
 def test_the_pin_sinks_into_its_bearing_as_it_bores_it(coarse):
     """The clearance grows below alone, the slower the wider the pin lies, and dead centre sinks."""
     report, _ = coarse
-    deepest = np.degrees(ANGLES[report.points[-1].depths["shaft"].bearing.argmax()])
+    deepest = np.degrees(ANGLES[report.course[-1].depths["shaft"].bearing.argmax()])
     assert deepest == pytest.approx(270.0, abs=8.0)
-    strokes = np.array([point.strokes for point in report.points])
+    strokes = np.array([point.strokes for point in report.course])
     grown = np.array(report.clearances("shaft"))
     speed = np.diff(grown) / np.diff(strokes)
     assert grown[0] == 5e-5
@@ -78,7 +78,7 @@ def test_the_dent_is_as_wide_and_deep_as_the_pin_that_bores_it(coarse):
         return np.maximum(eccentricity * np.cos(ANGLES - 1.5 * np.pi) - round_clearance, 0.0)
 
     bored = brentq(lambda e: dent(e).sum() * area - volume, round_clearance, 3.0 * round_clearance)
-    depths = report.points[-1].depths["shaft"]
+    depths = report.course[-1].depths["shaft"]
     assert depths.bearing.max() == pytest.approx(dent(bored).max(), rel=0.03)
     assert report.clearances("shaft")[-1] == pytest.approx(bored, rel=0.01)
     wide = np.count_nonzero(depths.bearing > 0.01 * depths.bearing.max())
@@ -89,7 +89,7 @@ def test_the_dent_is_as_wide_and_deep_as_the_pin_that_bores_it(coarse):
 def test_jumps_of_other_lengths_lead_to_the_same_clearance(coarse, tmp_path):
     report, _ = coarse
     finer = wear(study(tolerance=0.02), tmp_path)
-    assert len(finer.points) > len(report.points)
+    assert len(finer.course) > len(report.course)
     ends = [one.clearances("shaft")[-1] for one in (report, finer)]
     assert ends[0] == pytest.approx(ends[1], abs=0.05 * 5e-5)
 
@@ -105,7 +105,7 @@ def test_it_is_read_where_it_was_done_and_the_worn_scene_runs(coarse):
     worn = Scene.load(directory / "worn.toml")
     row = run_worn({"scene": worn.to_dict()})
     force = "joints.shaft.peak_force"
-    assert row[force] == pytest.approx(report.points[-1].row[force], rel=1e-6)
+    assert row[force] == pytest.approx(report.course[-1].row[force], rel=1e-6)
 
 
 def test_even_wear_is_a_larger_clearance_to_the_last_digits():

@@ -11,10 +11,10 @@ from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
 from exu_press.quantities.uncertain import significant
-from exu_press.studies.wear.run import Report
+from exu_press.studies.wear.report import WearReport
 from exu_press.studies.wear.shape import ANGLES
 
-__all__ = ["wear_figure", "wear_figures"]
+__all__ = ["wear_figure"]
 
 MOST_SHAPES = 6
 
@@ -26,9 +26,9 @@ LEAST_SPREAD = 1e-8
 
 
 @with_style
-def wear_figure(report: Report) -> Figure:
+def wear_figure(report: WearReport) -> Figure:
     """Return worn depths by angle, and clearances and quantities over the strokes."""
-    study, points = report.study, report.points
+    study, points = report.study, report.course
     names, joints = study.names, study.joints
     text = f"{describe([study.scene], 130)}\n{significant(points[-1].strokes, 4)} strokes in "
     text += report.jumps
@@ -61,14 +61,9 @@ def wear_figure(report: Report) -> Figure:
     return figure
 
 
-def wear_figures(report: Report) -> dict[str, Figure]:
-    """Return the picture of a wear study by its name."""
-    return {"wear": wear_figure(report)}
-
-
-def _shapes(axes: Axes, report: Report, joint: str) -> None:
+def _shapes(axes: Axes, report: WearReport, joint: str) -> None:
     """Draw the depth worn off a bearing over the angle on it, at some of the points."""
-    points = report.points[1:] or report.points
+    points = report.course[1:] or report.course
     picked = sorted({round(i) for i in np.linspace(0, len(points) - 1, MOST_SHAPES)})
     for number, i in enumerate(picked):
         shape = points[i].depths[joint]

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from exu_press import Scene
-from exu_press.plots.fit import fit_figure, profiles_figure
-from exu_press.plots.front import front_figure
-from exu_press.plots.sensitivity import sensitivity_figure
 from exu_press.studies.fit import Fit, fit
+from exu_press.studies.fit.figure import fit_figure, profiles_figure
 from exu_press.studies.optimise import Optimise, optimise
+from exu_press.studies.optimise.figure import front_figure
 from exu_press.studies.sensitivity import Sensitivity, sensitivity
+from exu_press.studies.sensitivity.figure import sensitivity_figure
 
 SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.02, settle=0.0)
 MASS, ROD = "slider_crank.slider_mass", "slider_crank.rod_length"

@@ -1,7 +1,6 @@
 """Work-precision pictures: error against run time, one picture a case, all solvers in it."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,16 +10,15 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from exu_press.plots.file import save_figures
 from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, with_style
 from exu_press.plots.title import figure_with_title
-from exu_press.studies.precision import Report, Row
 from exu_press.studies.precision.measured import FIXED, TOLERANCE
-from exu_press.studies.precision.rows import series_of
+from exu_press.studies.precision.report import PrecisionReport
+from exu_press.studies.precision.rows import Row, series_of
 from exu_press.studies.precision.stated import Stated
-from exu_press.studies.precision.table import horizon_words
+from exu_press.studies.precision.table import horizon_text
 
-__all__ = ["precision_figure", "save_precision"]
+__all__ = ["precision_figure"]
 
 OWN = {
     TOLERANCE: {"color": COLOURS["vermilion"], "marker": "o", "linewidth": 2.2, "zorder": 4},
@@ -39,7 +37,7 @@ MARKERS = ("1", "2", "3", "4", "+", "x")
 
 
 @with_style
-def precision_figure(report: Report, name: str) -> Figure:
+def precision_figure(report: PrecisionReport, name: str) -> Figure:
     """Return position and peak acceleration error of a case over run time, and stated over true.
 
     Where trajectories diverge before the end, the error of the whole run's peaks, as distributions.
@@ -73,16 +71,6 @@ def precision_figure(report: Report, name: str) -> Figure:
     handles.append(Patch(color=SHADE, label="below the error\nof the reference"))
     key.legend(handles=handles, loc="upper left", handlelength=2.6, borderaxespad=0.0)
     return figure
-
-
-def save_precision(report: Report, directory: str | Path) -> list[Path]:
-    """Draw every case; return the files, precision_CASE.png.
-
-    Raises:
-        InputError: a file cannot be written.
-    """
-    figures = {f"precision_{name}": precision_figure(report, name) for name in report.cases}
-    return save_figures(figures, directory)
 
 
 def _draw(axes: Axes, series: Mapping[str, Sequence[Row]], error: str, case: Any) -> None:
@@ -162,13 +150,13 @@ def _style(solver: str, index: int) -> dict[str, Any]:
     return {**style, **varied, "markersize": 9.0, "zorder": 2, "linestyle": ":"}
 
 
-def _words(report: Report, case: Mapping[str, Any]) -> str:
+def _words(report: PrecisionReport, case: Mapping[str, Any]) -> str:
     """Return the reference of the errors, and the machine of the times."""
     reference = case["reference"]
     text = f"reference: {reference['method']}"
     if reference["status"] != "ok":
         text = f"NO REFERENCE ({reference['method']})"
-    text += f"; {horizon_words(case)}, of {case['duration']:g} s"
+    text += f"; {horizon_text(case)}, of {case['duration']:g} s"
     if report.quick:
         text += "; reduced form, times mean nothing"
     return f"{text}; {report.machine['processor']}"

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.plots.attractor import attractor_figure
 from exu_press.studies.attractor import Attractor, Exponent, period_of
+from exu_press.studies.attractor.figure import attractor_figure
 
 SCENE = Scene(mechanism="slider_crank", joints={}, revolutions=1.0)
 

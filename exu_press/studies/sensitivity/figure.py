@@ -12,21 +12,21 @@ from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
-from exu_press.studies.sensitivity import Report
 from exu_press.studies.sensitivity.indices import Indices
+from exu_press.studies.sensitivity.report import SensitivityReport
 
-__all__ = ["sensitivity_figure", "sensitivity_figures"]
+__all__ = ["sensitivity_figure"]
 
 BINS = 30
 BARS = COLOURS["sky blue"], COLOURS["blue"]
 
 
 @with_style
-def sensitivity_figure(report: Report) -> Figure:
+def sensitivity_figure(report: SensitivityReport) -> Figure:
     """Return a row a quantity: its distribution, the tornado, and the indices."""
     study = report.study
     names, keys = study.sensitivity.quantities, list(study.keys)
-    lines = [describe([study.scene], 130), report.told[0]]
+    lines = [describe([study.scene], 130), report.run_summary[0]]
     height = 1.0 + len(names) * (1.6 + 0.32 * len(keys))
     figure = figure_with_title("Effect of tolerances", "\n".join(lines), (11.5, height))
     panels = figure.subplots(len(names), 3, squeeze=False, width_ratios=(1.0, 1.0, 1.0))
@@ -63,12 +63,7 @@ def sensitivity_figure(report: Report) -> Figure:
     return figure
 
 
-def sensitivity_figures(report: Report) -> dict[str, Figure]:
-    """Return the picture of a sensitivity study by its name."""
-    return {"sensitivity": sensitivity_figure(report)}
-
-
-def _spread(axes: Axes, values: Array, report: Report, number: int) -> None:
+def _spread(axes: Axes, values: Array, report: SensitivityReport, number: int) -> None:
     axes.hist(values, BINS, color=COLOURS["sky blue"], edgecolor="white", linewidth=0.5)
     name = report.study.sensitivity.quantities[number]
     quantity = quantity_of(report.study.scene, name).quantity

@@ -1,7 +1,6 @@
 """A map of the stability study: every axis a line, from end to end; pairs as a matrix."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,14 +11,13 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from exu_press.plots.file import save_figure
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, with_style
 from exu_press.plots.title import figure_with_title
-from exu_press.studies.stability import Report, Row
 from exu_press.studies.stability.cases import PAIRS
 from exu_press.studies.stability.checks import RESIDUAL_LIMIT
+from exu_press.studies.stability.report import Row, StabilityReport
 
-__all__ = ["save_stability", "stability_figure"]
+__all__ = ["stability_figure"]
 
 RESIDUALS = (1e-7, RESIDUAL_LIMIT)
 """Energy residuals at the ends of the colours."""
@@ -42,7 +40,7 @@ IN_WORDS = {
 
 
 @with_style
-def stability_figure(report: Report) -> Figure:
+def stability_figure(report: StabilityReport) -> Figure:
     """Return the map of a report."""
     single = [row for row in report.rows if row.axis != PAIRS]
     pairs = [row for row in report.rows if row.axis == PAIRS]
@@ -69,15 +67,6 @@ def stability_figure(report: Report) -> Figure:
     ]  # fmt: skip
     figure.legend(handles=handles, loc="outside upper right", ncols=3)
     return figure
-
-
-def save_stability(report: Report, directory: str | Path) -> Path:
-    """Draw the map as stability.png and return the file.
-
-    Raises:
-        InputError: the file cannot be written.
-    """
-    return save_figure(stability_figure(report), Path(directory) / "stability.png")
 
 
 def _line(row: Row) -> tuple[str, str]:
@@ -125,7 +114,7 @@ def _mark(axes: Axes, x: float, y: float, row: Row, colours: ScalarMappable) -> 
     axes.scatter([x], [y], zorder=3, **style)
 
 
-def _words(report: Report) -> str:
+def _words(report: StabilityReport) -> str:
     counts = report.counts()
     sample = "a fixed sample of " if report.quick else ""
     return (

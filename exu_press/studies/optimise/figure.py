@@ -16,9 +16,9 @@ from exu_press.plots.typesetting import wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
 from exu_press.studies.base import Range
-from exu_press.studies.optimise import Report
+from exu_press.studies.optimise.report import OptimiseReport
 
-__all__ = ["front_figure", "front_figures"]
+__all__ = ["front_figure"]
 
 ACROSS = 3
 
@@ -27,7 +27,7 @@ WIDE = 3.0
 
 
 @with_style
-def front_figure(report: Report) -> Figure:
+def front_figure(report: OptimiseReport) -> Figure:
     """Return a panel for each pair of objectives, and one for each key over the first objective.
 
     Of one objective: all points over each key.
@@ -40,7 +40,7 @@ def front_figure(report: Report) -> Figure:
     across = min(ACROSS, count)
     down = -(-count // across)
     heading = "Objectives against each other" if pairs else "The objective over each key"
-    text = f"{describe([study.scene], 110)}\n{report.told[0]}; {report.method}"
+    text = f"{describe([study.scene], 110)}\n{report.run_summary[0]}; {report.method}"
     figure = figure_with_title(heading, text, (4.3 * across + 0.4, 1.3 + 3.3 * down))
     panels = list(figure.subplots(down, across, squeeze=False).flat)
     for (first, second), panel in zip(pairs, panels, strict=False):
@@ -61,18 +61,15 @@ def front_figure(report: Report) -> Figure:
     return figure
 
 
-def front_figures(report: Report) -> dict[str, Figure]:
-    """Return the picture of an optimum by its name."""
-    return {"front": front_figure(report)}
-
-
-def _all(report: Report, quantity: str) -> Array:
+def _all(report: OptimiseReport, quantity: str) -> Array:
     column = report.study.quantities.index(quantity)
     scale = quantity_of(report.study.scene, quantity).quantity.scale
     return np.asarray(report.trials.numbers[:, column] * scale)
 
 
-def _points(panel: Axes, report: Report, across: Array, up: Array, names: tuple[str, str]) -> None:
+def _points(
+    panel: Axes, report: OptimiseReport, across: Array, up: Array, names: tuple[str, str]
+) -> None:
     """Draw all points, the front with its errors, and the chosen one."""
     panel.plot(across, up, ".", color="0.75", markersize=4, label="tried")
     bars: dict[str, Any] = {}

@@ -4,7 +4,6 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.stats import chi2
 
-from exu_press.plots.measured import curve_panel
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, SHADE, with_style
 from exu_press.plots.sweep_words import in_unit, words
@@ -13,16 +12,17 @@ from exu_press.plots.typesetting import plain, wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
-from exu_press.studies.fit import Report
 from exu_press.studies.fit.profile import between
+from exu_press.studies.fit.report import FitReport
+from exu_press.studies.measured_figure import curve_panel
 
-__all__ = ["fit_figure", "fit_figures", "profiles_figure"]
+__all__ = ["fit_figure", "profiles_figure"]
 
 MOST_ACROSS = 3
 
 
 @with_style
-def fit_figure(report: Report) -> Figure:
+def fit_figure(report: FitReport) -> Figure:
     """Return the residuals of numbers in uncertainties, and each curve beside the computed one."""
     study = report.study
     number, curves = len(study.measured), len(study.curve)
@@ -58,7 +58,7 @@ def fit_figure(report: Report) -> Figure:
 
 
 @with_style
-def profiles_figure(report: Report) -> Figure:
+def profiles_figure(report: FitReport) -> Figure:
     """Return chi-square above the least over each key, the others fitted again at each value."""
     names = list(report.values)
     across = min(MOST_ACROSS, len(names))
@@ -97,8 +97,3 @@ def profiles_figure(report: Report) -> Figure:
     for panel in list(panels):
         panel.axis("off")
     return figure
-
-
-def fit_figures(report: Report) -> dict[str, Figure]:
-    """Return the pictures of a fit by their names."""
-    return {"fit": fit_figure(report), "profiles": profiles_figure(report)}

@@ -6,16 +6,17 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.spectrum import draw_spectrum
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, with_style
 from exu_press.plots.sweep_words import words as in_words
 from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe
-from exu_press.studies.attractor import Attractor
+from exu_press.studies.attractor.report import AttractorReport
+from exu_press.studies.attractor.study import Attractor
 from exu_press.studies.spectrum import Spectra, spectra
+from exu_press.studies.spectrum_figure import draw_spectrum
 
-__all__ = ["attractor_figure"]
+__all__ = ["attractor_figure", "attractor_picture"]
 
 ORDERS = 30
 
@@ -51,6 +52,11 @@ def attractor_figure(motion: Attractor) -> Figure:
     _histogram(panels[1, 2], label, values)
     _by_revolution(panels[1, 3], label, values, motion.skip)
     return figure
+
+
+def attractor_picture(report: AttractorReport) -> Figure:
+    """Return the picture of a report."""
+    return attractor_figure(report.motion)
 
 
 def _scatter(values: Array) -> float:

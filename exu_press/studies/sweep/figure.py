@@ -16,10 +16,9 @@ from exu_press.plots.sweep_words import in_unit, label_with_unit, setting, words
 from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe
-from exu_press.studies.sweep import Table
-from exu_press.studies.sweep.lines import shown
+from exu_press.studies.sweep.report import SweepReport
 
-__all__ = ["axes_of", "sweep_figure", "sweep_figures"]
+__all__ = ["axes_of", "sweep_figure", "sweep_picture"]
 
 MOST_CURVES = 6
 
@@ -27,14 +26,16 @@ LOGARITHMIC_FROM = 50.0
 """Ratio of an axis' ends."""
 
 
-def axes_of(table: Table, chosen: Sequence[str] = ()) -> tuple[str, ...]:
+def axes_of(report: SweepReport, chosen: Sequence[str] = ()) -> tuple[str, ...]:
     """Return the one or two keys to draw over: those wanted, or the first numbers that vary.
 
     Raises:
         InputError: a wanted key does not vary, or is no number.
     """
-    study = table.study
-    possible = [name for name in study.keys if table.is_numeric(name) and len(set(table[name])) > 1]
+    study = report.study
+    possible = [
+        name for name in study.keys if report.is_numeric(name) and len(set(report[name])) > 1
+    ]
     for name in chosen:
         if name not in possible:
             raise InputError(
@@ -47,29 +48,29 @@ def axes_of(table: Table, chosen: Sequence[str] = ()) -> tuple[str, ...]:
 
 
 @with_style
-def sweep_figure(table: Table, axes: Sequence[str], quantities: Sequence[str]) -> Figure:
+def sweep_figure(report: SweepReport, axes: Sequence[str], quantities: Sequence[str]) -> Figure:
     """Return one panel a quantity.
 
     A curve for every combination of the other keys, where a grid has few of them; else a map over
     two keys, or points. Runs without a number are crosses.
 
     Args:
-        table: of the sweep.
+        report: of the sweep.
         axes: one or two numeric columns.
         quantities: numeric columns.
     """
     columns = min(2, len(quantities))
     rows = -(-len(quantities) // columns)
-    heading = f"{len(table)} runs over {' and '.join(map(words, axes))}"
+    heading = f"{len(report)} runs over {' and '.join(map(words, axes))}"
     size = (6.4 * columns, 1.0 + 3.7 * rows)
-    figure = figure_with_title(heading, _words(table, int(80 * columns)), size)
+    figure = figure_with_title(heading, _words(report, int(80 * columns)), size)
     panels = figure.subplots(rows, columns, squeeze=False)
-    curves = _curves(table, axes)
+    curves = _curves(report, axes)
     for panel, quantity in zip(panels.flat, quantities, strict=False):
         if curves is None:
-            _draw_map(figure, panel, table, axes, quantity)
+            _draw_map(figure, panel, report, axes, quantity)
         else:
-            _draw_curves(panel, table, axes[0], quantity, curves)
+            _draw_curves(panel, report, axes[0], quantity, curves)
     if curves is not None and len(curves) > 1:
         panels.flat[0].legend(loc="best")
     for panel in panels.flat[len(quantities) :]:
@@ -77,59 +78,59 @@ def sweep_figure(table: Table, axes: Sequence[str], quantities: Sequence[str]) -
     return figure
 
 
-def sweep_figures(
-    table: Table, over: Sequence[str] = (), show: Sequence[str] = ()
-) -> dict[str, Figure]:
-    """Return the picture of a sweep, or none where no number varies or none came out.
+def sweep_picture(report: SweepReport) -> Figure | None:
+    """Return the picture of a sweep; None where no number varies or none came out.
 
     Raises:
         InputError: an axis or a quantity is not there.
     """
-    axes, drawn = axes_of(table, over), shown(table, show)
-    return {"sweep": sweep_figure(table, axes, drawn)} if axes and drawn else {}
+    axes, quantities = axes_of(report, report.axes), report.quantities()
+    return sweep_figure(report, axes, quantities) if axes and quantities else None
 
 
-def _curves(table: Table, axes: Sequence[str]) -> dict[str, list[int]] | None:
+def _curves(report: SweepReport, axes: Sequence[str]) -> dict[str, list[int]] | None:
     """Return the runs of every curve by label, or None for a map.
 
     A grid has a curve for every combination of its other keys, if they are few; else a map shows
     two keys, and of more than two every run is a point.
     """
-    everything = list(range(len(table)))
-    if table.study.way != "grid":
+    everything = list(range(len(report)))
+    if report.study.way != "grid":
         return {"": everything} if len(axes) == 1 else None
-    more_keys = [name for name in table.study.keys if name != axes[0] and len(set(table[name])) > 1]
+    more_keys = [
+        name for name in report.study.keys if name != axes[0] and len(set(report[name])) > 1
+    ]
     runs_of_curve: dict[str, list[int]] = {}
     for run in everything:
-        label = plain(", ".join(setting(name, table[name][run]) for name in more_keys))
+        label = plain(", ".join(setting(name, report[name][run]) for name in more_keys))
         runs_of_curve.setdefault(label, []).append(run)
     if len(runs_of_curve) <= MOST_CURVES:
         return runs_of_curve
     return None if len(axes) == 2 and len(more_keys) == 1 else {"": everything}
 
 
-def _words(table: Table, width: int) -> str:
-    ends = Counter(table["status"])
+def _words(report: SweepReport, width: int) -> str:
+    ends = Counter(report["status"])
     statuses = ", ".join(f"{number} {status}" for status, number in ends.items())
-    return f"{describe(table.study.scenes, width)}\n{statuses}"
+    return f"{describe(report.study.scenes, width)}\n{statuses}"
 
 
 def _draw_curves(
-    panel: Axes, table: Table, axis: str, quantity: str, curves: Mapping[str, Sequence[int]]
+    panel: Axes, report: SweepReport, axis: str, quantity: str, curves: Mapping[str, Sequence[int]]
 ) -> None:
     """Draw a quantity over one key: a line with its points for every group of runs.
 
     Scattered runs have no line; runs without a number are crosses along the edge.
     """
-    x, across = in_unit(axis, table.numbers(axis))
-    y, up = in_unit(quantity, table.numbers(quantity))
+    x, across = in_unit(axis, report.numbers(axis))
+    y, up = in_unit(quantity, report.numbers(quantity))
     for index, (label, runs) in enumerate(curves.items()):
         ordered = sorted(runs, key=lambda run: float(x[run]))
         colour: Any = colour_of(0) if len(curves) == 1 else PATH_COLOURS(index / (len(curves) - 1))
-        one_each = table.study.way != "sample" and len(set(x[ordered])) == len(ordered)
+        one_each = report.study.way != "sample" and len(set(x[ordered])) == len(ordered)
         style = "o-" if one_each else "o"
         panel.plot(x[ordered], y[ordered], style, color=colour, markersize=4.5, label=label)
-        _draw_errors(panel, table, quantity, ordered, x, y, colour)
+        _draw_errors(panel, report, quantity, ordered, x, y, colour)
     missing = np.isnan(y)
     if missing.any():
         edge = panel.get_xaxis_transform()
@@ -142,28 +143,34 @@ def _draw_curves(
 
 
 def _draw_errors(
-    panel: Axes, table: Table, quantity: str, runs: Sequence[int], x: Array, y: Array, colour: Any
+    panel: Axes,
+    report: SweepReport,
+    quantity: str,
+    runs: Sequence[int],
+    x: Array,
+    y: Array,
+    colour: Any,
 ) -> None:
     """Draw the error bars of those runs that know their errors."""
-    stated = {run: error for run in runs if (error := table.error(quantity, run)) is not None}
+    stated = {run: error for run in runs if (error := report.error(quantity, run)) is not None}
     if not stated:
         return
     known = list(stated)
     ends = np.array([[stated[run]["low"], stated[run]["high"]] for run in known], dtype=float)
-    largest = np.nanmax(np.abs(table.numbers(quantity)))
+    largest = np.nanmax(np.abs(report.numbers(quantity)))
     scale = np.nanmax(np.abs(y)) / largest if largest else 1.0
     lengths = np.abs(scale * ends - y[known][:, None]).T
     panel.errorbar(x[known], y[known], lengths, fmt="none", ecolor=colour, capsize=2.5)
 
 
 def _draw_map(
-    figure: Figure, panel: Axes, table: Table, axes: Sequence[str], quantity: str
+    figure: Figure, panel: Axes, report: SweepReport, axes: Sequence[str], quantity: str
 ) -> None:
     """Draw a quantity over two keys as colour: cells of a grid, points of scattered runs."""
-    (x, across), (y, up) = (in_unit(name, table.numbers(name)) for name in axes)
-    values, unit = in_unit(quantity, table.numbers(quantity))
+    (x, across), (y, up) = (in_unit(name, report.numbers(name)) for name in axes)
+    values, unit = in_unit(quantity, report.numbers(quantity))
     missing = np.isnan(values)
-    if table.study.way == "grid" and len(table) == len(set(x)) * len(set(y)):
+    if report.study.way == "grid" and len(report) == len(set(x)) * len(set(y)):
         columns, rows = np.unique(x), np.unique(y)
         cells = np.full((len(rows), len(columns)), np.nan)
         cells[np.searchsorted(rows, y), np.searchsorted(columns, x)] = values

@@ -1,13 +1,15 @@
 """The picture of a sweep: curves, maps, points, crosses."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.plots.sweep import axes_of, sweep_figure, sweep_figures
 from exu_press.plots.sweep_words import in_unit
 from exu_press.studies.sweep import Sweep
-from exu_press.studies.sweep.table import table_of
+from exu_press.studies.sweep.figure import axes_of, sweep_figure, sweep_picture
+from exu_press.studies.sweep.report import report_of
 
 SPEEDS = [200.0, 300.0, 400.0]
 CLEARANCES = [5e-5 + 1e-5 * n for n in range(8)]
@@ -32,7 +34,7 @@ def table(missing=(), errors=None, **way):
         | ({"errors": errors} if errors else {})
         for run, scene in enumerate(study.scenes)
     ]
-    return table_of(study, rows, [])
+    return report_of(study, rows, [])
 
 
 SHOWN = ("joints.crank_pin.peak_force", "joints.crank_pin.min_film")
@@ -65,12 +67,9 @@ def test_numbers_have_their_errors():
     assert not film.containers
     ends = [bar.vertices[:, 1] for bar in force.containers[0].lines[2][0].get_paths()]
     assert np.allclose(ends, [150.0, 450.0])
-    force = ["joints.crank_pin.peak_force, kN", "200 +- 250"]
-    assert some.in_words("joints.crank_pin.peak_force", range(1)) == force
-    assert some.in_words("joints.crank_pin.min_film", range(1)) == [
-        "joints.crank_pin.min_film, um",
-        "50",
-    ]
+    runs = replace(some, selected=SHOWN).tables()[0]
+    assert runs.head[1:3] == ("joints.crank_pin.peak_force, kN", "joints.crank_pin.min_film, um")
+    assert runs.rows[0][1:3] == ("200 +- 250", "50")
 
 
 def test_a_grid_of_many_is_a_map():
@@ -115,8 +114,8 @@ def test_what_is_drawn_over_what():
 
 
 def test_nothing_to_draw_is_no_picture(tmp_path):
-    assert sweep_figures(table(keys={"mechanism": ["press"]})) == {}
-    assert sweep_figures(table(missing=[0, 1, 2], keys={"speed_rpm": SPEEDS})) == {}
+    assert sweep_picture(table(keys={"mechanism": ["press"]})) is None
+    assert sweep_picture(table(missing=[0, 1, 2], keys={"speed_rpm": SPEEDS})) is None
 
 
 @pytest.mark.parametrize(

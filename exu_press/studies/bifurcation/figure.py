@@ -16,9 +16,9 @@ from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe
 from exu_press.studies.base import Row
-from exu_press.studies.bifurcation import Report
+from exu_press.studies.bifurcation.report import BifurcationReport
 
-__all__ = ["bifurcation_figure", "bifurcation_figures", "period_map_figure"]
+__all__ = ["bifurcation_figure", "bifurcation_picture", "period_map_figure"]
 
 MARKERS = {"up": "^", "down": "v", "from the start": "o"}
 
@@ -26,7 +26,7 @@ MOST_TICKS = 9
 
 
 @with_style
-def bifurcation_figure(report: Report) -> Figure:
+def bifurcation_figure(report: BifurcationReport) -> Figure:
     """Return the diagram of one key: eccentricity on the section, period, exponent over it."""
     study, values = report.study, report.study.values
     own = study.bifurcation
@@ -75,14 +75,14 @@ def bifurcation_figure(report: Report) -> Figure:
     return figure
 
 
-def bifurcation_figures(report: Report) -> dict[str, Figure]:
-    """Return the diagram over one key, or the map over two, by its name."""
+def bifurcation_picture(report: BifurcationReport) -> Figure:
+    """Return the diagram over one key, or the map over two."""
     figure = bifurcation_figure if report.study.second is None else period_map_figure
-    return {"bifurcation": figure(report)}
+    return figure(report)
 
 
 @with_style
-def period_map_figure(report: Report) -> Figure:
+def period_map_figure(report: BifurcationReport) -> Figure:
     """Return a row of two maps for each way: the period, and the upper end of the exponent."""
     study = report.study
     assert study.second is not None

@@ -1,0 +1,377 @@
+"""The report of a fit: best values, intervals, and how well they are determined."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.stats import chi2
+
+from exu_press.numerics.arrays import Array
+from exu_press.plots.words import ONE_LINE, describe
+from exu_press.quantities.uncertain import significant
+from exu_press.quantities.units import shown_unit, with_unit
+from exu_press.scene import Scene
+from exu_press.studies.base import Range
+from exu_press.studies.base.report import Line, Panel, Picture, Report, Table
+from exu_press.studies.fit.curve import Curve, Matched
+from exu_press.studies.fit.determined import Determined, Direction
+from exu_press.studies.fit.minimum import Minimum
+from exu_press.studies.fit.profile import OPEN, between
+from exu_press.studies.fit.study import Fit
+
+__all__ = ["FitReport"]
+
+UNLIKELY = 0.01
+"""Probability of chi-square below which the scene does not explain the measurement."""
+
+UNREACHED = (
+    "no values of the keys within their ranges give the measured numbers: look at the largest "
+    "residuals"
+)
+"""Told where even the true values would leave so large a chi-square less often than UNLIKELY: at
+them it is that of all numbers, and the minimum is not larger."""
+
+EXACT = 0.3
+"""Largest error of evaluations over the uncertainty of a number."""
+
+NEARLY = 0.05
+"""Relative, between the two halves of an interval that is called symmetric."""
+
+
+@dataclass(frozen=True)
+class FitReport(Report):
+    """The result of a fit; keys in the study's order.
+
+    Attributes:
+        study: whose report this is.
+        values: key -> best value.
+        low, high: key -> ends of its interval.
+        remarks: key -> what a reader has to know of the low and of the high end; mostly empty.
+        minima: other minima too, best first.
+        lost: starts that led nowhere.
+        determined: identifiability of the keys.
+        effect: change of all residuals over a key's whole range, (keys,).
+        profiles: key -> its values and chi-square above the least, (points, 2).
+        count: independent numbers less the sensors' parameters.
+        numbers: computed beside [[measured]].
+        curves: measured and computed beside [[curve]].
+        errors: of runs over the uncertainties, of numbers and of samples of curves, (numbers,).
+        run_summary: how many runs gave numbers, in lines.
+    """
+
+    name = "fit"
+    files = ("fit.json", "fitted.toml")
+
+    study: Fit
+    values: dict[str, float]
+    low: dict[str, float]
+    high: dict[str, float]
+    remarks: dict[str, tuple[str, str]]
+    minima: list[Minimum]
+    lost: int
+    determined: Determined
+    effect: Array
+    profiles: dict[str, Array]
+    count: float
+    numbers: list[float]
+    curves: list[tuple[Array, Matched]]
+    errors: Array
+    run_summary: list[str]
+
+    @property
+    def largest_error(self) -> float:
+        """Largest error of a run in a number or a sample of a curve, over its uncertainty."""
+        return float(self.errors.max(initial=0.0))
+
+    @property
+    def chi_square(self) -> float:
+        """Sum of squared residuals over their uncertainties."""
+        return self.minima[0].chi_square
+
+    @property
+    def freedom(self) -> float:
+        """Numbers less the combinations of keys that they determine."""
+        return self.count - self.determined.rank
+
+    @property
+    def probability(self) -> float | None:
+        """Probability that chance makes chi-square as large; None without a degree of
+        freedom."""
+        return float(chi2.sf(self.chi_square, self.freedom)) if self.freedom > 0.0 else None
+
+    @property
+    def title(self) -> str:
+        """Heading of the page."""
+        return f"Fit: {describe([self.scene], ONE_LINE)}"
+
+    @property
+    def subtitle(self) -> str:
+        """Misfit."""
+        return f"chi-square {self.chi_square:.4g} with {self.freedom:g} degrees of freedom"
+
+    @property
+    def scene(self) -> Scene:
+        """The fitted scene."""
+        return self.study.scene_at(self.values)
+
+    def tables(self) -> list[Table]:
+        """Return best values with intervals, undetermined keys, the misfit and residuals."""
+        level = f"{100 * self.study.fit.level:g} %"
+        open_keys = [self._not_determined(direction) for direction in self.determined.open]
+        numbers = self._residual_rows()
+        head = ("measured", "value", "uncertainty", "computed", "error of a run", "residual")
+        return [
+            Table("Runs", above=[*self.run_summary, *self._searches()]),
+            Table(
+                "Keys",
+                ("key", "best", f"{level} interval", ""),
+                self._key_rows(),
+                below=[*open_keys, *self._correlation()],
+            ),
+            Table("Misfit", above=self._misfit()),
+            Table(
+                "Numbers and curves",
+                head if numbers else (),
+                numbers,
+                below=[*self._curve_lines(), *_inexact(self.largest_error)],
+            ),
+        ]
+
+    def pictures(self) -> list[Picture]:
+        """Return residuals and curves, and how well each key is determined."""
+        figure = "exu_press.studies.fit.figure"
+        return [
+            Picture("fit", "Measured and computed.", f"{figure}:fit_figure"),
+            Picture("profiles", "Chi-square over each key.", f"{figure}:profiles_figure"),
+        ]
+
+    def panels(self) -> list[Panel]:
+        """Return the curves, the numbers in uncertainties, and chi-square over each key."""
+        panels = [
+            Panel(
+                f"Curve {curve.name}",
+                _across(curve),
+                f"{curve.read.name}, {model.unit}",
+                [
+                    Line("measured", curve.read.at.tolist(), measured.tolist(), points=True),
+                    Line(
+                        "computed, through the sensor",
+                        curve.read.at.tolist(),
+                        model.values.tolist(),
+                    ),
+                ],
+            )
+            for curve, (measured, model) in zip(self.study.curve, self.curves, strict=True)
+        ]
+        if self.study.measured:
+            residuals = np.array(
+                [
+                    (number - one.value) / one.uncertainty
+                    for one, number in zip(self.study.measured, self.numbers, strict=True)
+                ]
+            )
+            errors = self.errors[: len(residuals)]
+            low, high = (residuals - errors).tolist(), (residuals + errors).tolist()
+            title = "(computed - measured) / uncertainty"
+            line = Line(title, list(range(len(low))), residuals.tolist(), True, low, high)
+            panels.append(Panel("Numbers", "place in the table", "in uncertainties", [line]))
+        for name, points in self.profiles.items():
+            at, risen = points.T
+            values, rises = between(points, self.values[name], float(points[:, 1].max()) or 1.0)
+            line = Line("chi-square above its least", values.tolist(), rises.tolist())
+            fits = Line("other keys fitted again", at.tolist(), risen.tolist(), points=True)
+            title = f"How well {name} is determined"
+            panels.append(Panel(title, with_unit(name), "chi-square", [line, fits]))
+        return panels
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the contents of fit.json."""
+        keys = {
+            name: {
+                "value": value,
+                "low": self.low[name],
+                "high": self.high[name],
+                "low_remark": self.remarks[name][0],
+                "high_remark": self.remarks[name][1],
+            }
+            for name, value in self.values.items()
+        }
+        correlation = [
+            [None if np.isnan(x) else float(x) for x in row] for row in self.determined.correlation
+        ]
+        return {
+            "keys": keys,
+            "level": self.study.fit.level,
+            "chi_square": self.chi_square,
+            "degrees_of_freedom": self.freedom,
+            "probability": self.probability,
+            "correlation": correlation,
+            "not_determined": [one.vector.tolist() for one in self.determined.open],
+            "singular_values": self.determined.singular.tolist(),
+            "minima": [[one.chi_square, one.times] for one in self.minima],
+            "measured": [
+                {"name": one.name, "value": one.value, "uncertainty": one.uncertainty,
+                 "computed": number, "error_over_uncertainty": float(error)}
+                for one, number, error in zip(
+                    self.study.measured, self.numbers, self.errors, strict=False
+                )
+            ],
+            "sensors": {
+                one.name: told.plain()
+                for one, (_, told) in zip(self.study.curve, self.curves, strict=True)
+            },
+            "curves": {
+                one.name: {
+                    "channel": one.read.name,
+                    "unit": told.unit,
+                    "across": _across(one),
+                    "at": one.read.at.tolist(),
+                    "measured": wanted.tolist(),
+                    "computed": told.values.tolist(),
+                }
+                for one, (wanted, told) in zip(self.study.curve, self.curves, strict=True)
+            },
+            "profiles": {name: points.tolist() for name, points in self.profiles.items()},
+            "largest_error_over_uncertainty": self.largest_error,
+            "runs": self.run_summary,
+        }  # fmt: skip
+
+    def save(self, directory: Path) -> None:
+        """Write fit.json, the fitted scene, and the file of which a page is made."""
+        super().save(directory)
+        self.scene.save(directory / "fitted.toml", overwrite=True)
+
+    def _searches(self) -> list[str]:
+        minima = ", ".join(
+            f"{significant(one.chi_square, 3)} ({one.times} start{'s' * (one.times > 1)})"
+            for one in self.minima
+        )
+        lost = f"; {self.lost} starts led to runs that fail" if self.lost else ""
+        return [f"chi-square of the minima found: {minima}{lost}"]
+
+    def _key_rows(self) -> list[tuple[str, ...]]:
+        """Return each key with its interval."""
+        rows: list[tuple[str, ...]] = []
+        for name, best in self.values.items():
+            low, high = self.low[name], self.high[name]
+            digits = _digits(best, low, high)
+            ends = [
+                significant(end, digits) + (f" ({remark})" if remark else "")
+                for end, remark in zip((low, high), self.remarks[name], strict=True)
+            ]
+            symmetric = abs((high - best) - (best - low)) < NEARLY * (high - low)
+            word = "" if symmetric or any(self.remarks[name]) else "not symmetric"
+            if self.remarks[name] == (OPEN, OPEN):
+                word = "not determined"
+            rows.append(
+                (with_unit(name), significant(best, digits), f"{ends[0]} to {ends[1]}", word)
+            )
+        return rows
+
+    def _not_determined(self, one: Direction) -> str:
+        """Return a key or a combination of keys that the measurement does not determine."""
+        names = list(self.study.keys)
+        keys = [names[k] for k in one.keys]
+        if len(keys) == 1:
+            effect = significant(float(self.effect[one.keys[0]]), 2)
+            return (
+                f"not determined: {keys[0]}; over its whole range the measured numbers change by "
+                f"{effect} of their uncertainties"
+            )
+        parts = []
+        for k, name in zip(one.keys, keys, strict=True):
+            each = self.study.keys[name]
+            assert isinstance(each, Range)
+            value = self.values[name]
+            width = math.log(each.high / each.low) if each.log else (each.high - each.low) / value
+            parts.append((name, float(one.vector[k]) * width))
+        scale = 10.0 / parts[0][1]
+        text = " and ".join(f"{name} {change * scale:+.1f} %" for name, change in parts)
+        return f"not determined: {text} together leave every measured number where it is"
+
+    def _correlation(self) -> list[str]:
+        names, table = list(self.study.keys), self.determined.correlation
+        pairs = [
+            (abs(table[i, j]), f"{names[i]} and {names[j]} {table[i, j]:+.2f}")
+            for i in range(len(names))
+            for j in range(i)
+            if np.isfinite(table[i, j])
+        ]
+        return [
+            f"correlation: {', '.join(text for _, text in sorted(pairs, reverse=True)[:6])}"
+        ] * (len(pairs) > 0)
+
+    def _misfit(self) -> list[str]:
+        chance = self.probability
+        text = f"chi-square {significant(self.chi_square, 3)}, degrees of freedom {self.freedom:g}"
+        if chance is None:
+            text += ": nothing is left to judge the scene by"
+            reached = chi2.sf(self.chi_square, self.count) >= UNLIKELY
+            return [text] if reached else [text, UNREACHED]
+        text += (
+            f": chance alone makes it as large in {significant(100 * chance, 2)} % of measurements"
+        )
+        if chance < UNLIKELY:
+            return [
+                text,
+                "the scene does not explain the measurement: intervals hold only if the "
+                "uncertainties are right and the scene is; look at the largest residuals",
+            ]
+        return [text]
+
+    def _residual_rows(self) -> list[tuple[str, ...]]:
+        """Return each number with its residual."""
+        rows: list[tuple[str, ...]] = []
+        number = len(self.study.measured)
+        for one, computed, error in zip(
+            self.study.measured, self.numbers, self.errors[:number], strict=True
+        ):
+            unit, scale = shown_unit(one.quantity, [one.value])
+            rows.append(
+                (
+                    with_unit(one.name, unit),
+                    f"{scale * one.value:.6g}",
+                    significant(scale * one.uncertainty, 2),
+                    f"{scale * computed:.6g}",
+                    f"{scale * error * one.uncertainty / one.weight**0.5:.1g}",
+                    f"{(computed - one.value) / one.uncertainty:+.2f}",
+                )
+            )
+        return rows
+
+    def _curve_lines(self) -> list[str]:
+        """Return each curve with its residual and its sensor."""
+        lines = []
+        for curve, (measured, model) in zip(self.study.curve, self.curves, strict=True):
+            size = float(np.sqrt(np.mean((model.values - measured) ** 2))) / curve.uncertainty
+            sensor = ", ".join(f"{name} {value:.4g}" for name, value in model.plain().items())
+            lines.append(
+                f"curve {curve.name}: {len(measured)} samples, rms residual {size:.2f} "
+                f"uncertainties; sensor: {sensor}"
+            )
+        return lines
+
+
+def _digits(best: float, low: float, high: float) -> int:
+    """Return the digits that show two of the interval's half."""
+    half = (high - low) / 2.0
+    if half <= 0.0 or best == 0.0:
+        return 3
+    return min(max(2, 2 + math.ceil(math.log10(abs(best) / half) - 1e-9)), 7)
+
+
+def _inexact(largest_error: float) -> list[str]:
+    """Return a line where errors of runs, the largest over its uncertainty, touch the fit."""
+    if largest_error <= EXACT:
+        return []
+    return [
+        f"a run's own error is up to {significant(largest_error, 2)} of an uncertainty; the cure "
+        "is a lower solver.tolerance"
+    ]
+
+
+def _across(curve: Curve) -> str:
+    """Return the label of what a curve is over."""
+    return "time, s" if curve.read.over == "time" else "crank angle, deg"

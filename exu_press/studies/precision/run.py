@@ -1,0 +1,164 @@
+"""Measure error against run time of a scene, with tolerances and with fixed steps; draw both."""
+
+import argparse
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from exu_press.scene import Scene
+from exu_press.schema.checks import Table, key
+from exu_press.studies.base import Study
+from exu_press.studies.base.command import SceneCommand
+from exu_press.studies.base.keys import Key
+from exu_press.studies.precision.cases import FULL, QUICK, Amount, Case, case_of
+from exu_press.studies.precision.measured import LONG_RUN, timed
+from exu_press.studies.precision.references import Reference
+from exu_press.studies.precision.report import PrecisionReport, machine
+from exu_press.studies.precision.rows import ERRORS, Row, orders_of, row_of
+from exu_press.studies.precision.stated import Stated
+from exu_press.terminal.progress import Progress
+
+__all__ = ["PrecisionCommand", "PrecisionStudy", "Reduction", "precision"]
+
+
+def precision(
+    cases: Sequence[Case],
+    *,
+    quick: bool = False,
+    quiet: bool = True,
+    after_case: Callable[[PrecisionReport], object] = lambda report: None,
+    left_out: Sequence[str] = (),
+) -> PrecisionReport:
+    """Run cases and return the measurements.
+
+    Args:
+        cases: of a user's scene from `case_of`, or a table of your own.
+        quick: a reduced form, whose times mean nothing.
+        quiet: False shows the progress on standard error.
+        after_case: called after every case with the report so far: all of them take half
+            an hour.
+        left_out: runs that were left out, and why.
+    """
+    amount = QUICK if quick else FULL
+    rows: list[Row] = []
+    described: dict[str, dict[str, Any]] = {}
+    stated: list[Stated] = []
+
+    def report() -> PrecisionReport:
+        return PrecisionReport(
+            quick=quick,
+            cases=dict(described),
+            rows=tuple(rows),
+            orders=tuple(orders_of(rows)),
+            left_out=tuple(left_out),
+            machine=machine(),
+            stated=tuple(stated),
+        )
+
+    for case in (whole.within(amount) for whole in cases):
+        reference = case.reference(amount)
+        horizon = reference.diverged.horizon or case.duration
+        some = _run(case, amount, reference, horizon, quiet)
+        rows += some
+        stated += case.stated(amount, horizon)
+        described[case.name] = _describe(case, reference, horizon, some)
+        after_case(report())
+    return report()
+
+
+def _run(
+    case: Case, amount: Amount, reference: Reference, horizon: float, quiet: bool
+) -> list[Row]:
+    """Run and compare; before a solver's first run it is warmed up by one that does not count.
+
+    Where distributions are judged, every run has as many starts, however long it takes.
+    """
+    rows, warm, attempts = [], set(), case.attempts(amount)
+    longest = math.inf if reference.starts else LONG_RUN
+    with Progress(case.name, len(attempts), unit="runs", quiet=quiet) as progress:
+        for done, attempt in enumerate(attempts):
+            if attempt.solver not in warm:
+                attempt.again(0) if attempt.again else attempt.run()
+                warm.add(attempt.solver)
+            run = timed(attempt, case.repeats or amount.repeats, longest)
+            errors, late = case.errors(run, reference, horizon)
+            rows.append(row_of(case.name, attempt, run, errors, reference.floor, late))
+            progress.update(done + 1)
+    return rows
+
+
+def _describe(
+    case: Case, reference: Reference, horizon: float, rows: Sequence[Row]
+) -> dict[str, Any]:
+    """Return the entry of a case in precision.json."""
+    is_resolved = any(row.resolved(error) is not None for row in rows for error in ERRORS)
+    return {
+        "title": case.title,
+        "scene": None if case.scene is None else case.scene.to_dict(),
+        "duration": case.duration,
+        "horizon": horizon,
+        "lyapunov_exponent": reference.diverged.rate,
+        "reference": {
+            "status": "ok" if is_resolved else "no reference",
+            "method": reference.method,
+            "difference": dataclasses.asdict(reference.difference),
+            "floor": dataclasses.asdict(reference.floor),
+        },
+    }
+
+
+@dataclasses.dataclass(frozen=True)
+class Reduction(Table):
+    """How much is measured."""
+
+    table = "precision"
+
+    label: str = key("scene", "name of the scene in tables and files")
+    quick: bool = key(False, "a reduced form, whose times mean nothing")
+
+
+@dataclasses.dataclass(frozen=True)
+class PrecisionStudy(Study):
+    """Error against run time of one scene.
+
+    Attributes:
+        precision: how much is measured.
+    """
+
+    with_keys = plain_runs = False
+    tables = MappingProxyType({"precision": Reduction})
+
+    keys: Mapping[str, Key] = dataclasses.field(default_factory=dict)
+    precision: Reduction = Reduction()
+
+
+class PrecisionCommand(SceneCommand):
+    """`exu-press precision`; its runs are done one after the other, as their times count."""
+
+    example = "exu-press precision slider_crank --quick --out out/precision"
+    study = PrecisionStudy
+    uses_workers = False
+
+    @staticmethod
+    def add_arguments(parser: argparse.ArgumentParser) -> None:
+        """Add the reduced form."""
+        parser.add_argument(
+            "--quick",
+            action="store_true",
+            help="a reduced form, less than two minutes; times mean nothing",
+        )
+
+    @classmethod
+    def study_of(cls, scene: Scene, options: argparse.Namespace) -> Study:
+        """Return the study of a scene."""
+        reduction = Reduction(Path(options.scene).stem, options.quick)
+        return PrecisionStudy(scene, precision=reduction)
+
+    @staticmethod
+    def run(study: PrecisionStudy, directory: Path, **how: Any) -> PrecisionReport:
+        """Measure, and return the report."""
+        case = case_of(study.precision.label, study.scene)
+        return precision((case,), quick=study.precision.quick, **how)

@@ -1,0 +1,139 @@
+"""Push a scene to its extremes: each run is right, stopped with a reason, or wrong."""
+
+import argparse
+import dataclasses
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.scene import Scene
+from exu_press.schema.checks import Table, key
+from exu_press.studies.base import Runs, Study, arguments_of
+from exu_press.studies.base.command import SceneCommand
+from exu_press.studies.base.keys import Key
+from exu_press.studies.stability.cases import Case, extremes
+from exu_press.studies.stability.judge import WRONG, judge
+from exu_press.studies.stability.report import Row, StabilityReport
+
+__all__ = ["TIME_LIMIT", "Extremes", "StabilityCommand", "StabilityStudy", "stability"]
+
+TIME_LIMIT = 300.0
+"""s for one case; its budget of steps ends it long before, so that a case that gets here hangs."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Extremes(Table):
+    """The cases of a scene.
+
+    Attributes:
+        axes: keys that are pushed; every number that the scene uses where there are none.
+    """
+
+    table = "stability"
+
+    label: str = key("scene", "name of the scene in names of cases")
+    axes: tuple[str, ...] = ()
+
+
+@dataclasses.dataclass(frozen=True)
+class StabilityStudy(Study):
+    """A scene and its extremes.
+
+    Attributes:
+        stability: which of them.
+        quick: whether the cases are a sample of a larger table.
+
+    Raises:
+        InputError: there is no such axis.
+    """
+
+    with_keys = plain_runs = False
+    tables = MappingProxyType({"stability": Extremes})
+
+    keys: Mapping[str, Key] = dataclasses.field(default_factory=dict)
+    time_limit: float | None = TIME_LIMIT
+    stability: Extremes = Extremes()
+    quick: bool = False
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.cases  # noqa: B018  checks the axes
+
+    @property
+    def cases(self) -> tuple[Case, ...]:
+        """The cases along the axes."""
+        return self.along_axes(extremes(self.scene, self.stability.label), "--key")
+
+    def along_axes(self, table: tuple[Case, ...], option: str) -> tuple[Case, ...]:
+        """Return the cases of a table that are asked for; `option` asks for an axis."""
+        axes = dict.fromkeys(case.axis for case in table)
+        for axis in self.stability.axes:
+            if axis not in axes:
+                raise InputError(f"{option} {axis}: allowed are {', '.join(axes)}")
+        allowed = self.stability.axes or axes
+        return tuple(case for case in table if case.axis in allowed)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the scene: cases along further axes are of the same study."""
+        return {"scene": self.scene.to_dict()}
+
+
+def stability(study: StabilityStudy, directory: str | Path, **how: Any) -> StabilityReport:
+    """Judge the cases, write stability.json, and return the report.
+
+    Called again after a kill or Ctrl-C, it goes on.
+
+    Args:
+        study: of a scene, or with a table of cases of its own.
+        directory: of this study alone.
+        how: workers, dask, quiet of `exu_press.studies.base.Runs`.
+
+    Raises:
+        InputError: the directory cannot be used or belongs to another study.
+    """
+    cases = study.cases
+    with Runs(study, directory, report=StabilityReport, function=judge, **how) as runs:
+        rows = runs.rows([{"name": case.name, **arguments_of(case.scene)} for case in cases])
+    results = tuple(_row(case, row) for case, row in zip(cases, rows, strict=True))
+    report = StabilityReport(study.scene, study.quick, results)
+    report.save(Path(directory))
+    return report
+
+
+def _row(case: Case, row: Mapping[str, Any]) -> Row:
+    """Return the result of a case; a run that failed is wrong."""
+    about: dict[str, Any] = {"name": case.name, "axis": case.axis, "value": case.value}
+    about["parameters"] = case.scene.to_dict()
+    if "verdict" not in row:
+        reason = f"{row['status']}: {row['reason']}"
+        return Row(**about, verdict=WRONG, status=row["status"], reason=reason)
+    names = ("verdict", "status", "reason", "checks", "residual", "steps", "wall_time")
+    return Row(**about, **{name: row[name] for name in names})
+
+
+class StabilityCommand(SceneCommand):
+    """`exu-press stability`."""
+
+    example = "exu-press stability slider_crank --key contact.modulus --out out/stability"
+    study = StabilityStudy
+    run = staticmethod(stability)
+
+    @staticmethod
+    def add_arguments(parser: argparse.ArgumentParser) -> None:
+        """Add which keys are pushed."""
+        parser.add_argument(
+            "--key",
+            action="append",
+            default=[],
+            metavar="KEY",
+            help="change this key alone; may be repeated (default: every number that the scene "
+            "uses)",
+        )
+
+    @classmethod
+    def study_of(cls, scene: Scene, options: argparse.Namespace) -> Study:
+        """Return the study of a scene."""
+        axes = Extremes(Path(options.scene).stem, tuple(options.key))
+        return StabilityStudy(scene, stability=axes)

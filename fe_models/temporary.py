@@ -28,6 +28,8 @@ class TemporaryFolder:
         remove_abandoned()
         self._folder = tempfile.TemporaryDirectory(prefix=BEGINNING, ignore_cleanup_errors=True)
         self.path = Path(self._folder.name)
+        if sys.platform == "win32":
+            return
         new = self.path / f"{LOCK}.new"
         self._lock = os.open(new, os.O_RDWR | os.O_CREAT | os.O_EXCL)
         _lock(self._lock)
@@ -70,7 +72,7 @@ def _remove_abandoned(folder: Path) -> None:
 
 def _lock(file: int) -> bool:
     """Lock an open file without waiting; return whether that was possible."""
-    if sys.platform == "win32":
+    if sys.platform == "win32":  # folders that killed processes leave there stay
         return False
     import fcntl
 

@@ -129,7 +129,7 @@ def issue_links(release: Release) -> str:
         for name, (url, about) in links.items()
         if url.startswith("http")
     ]
-    return "".join(["contact_links:\n", *lines]) if lines else "contact_links: []\n"
+    return "".join(["contact_links:\n", *lines] if lines else [])
 
 
 BLOCKS: dict[str, list[Callable[[Release], str]]] = {

@@ -1,6 +1,7 @@
 """exu-press: finds the command, turns errors into one line and an exit status."""
 
 import argparse
+import io
 import os
 import signal
 import sys
@@ -39,6 +40,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         after Ctrl-C, 141 where the reader of the output has gone.
     """
     _open_closed_streams()
+    if isinstance(sys.stdout, io.TextIOWrapper):  # a name that the console lacks letters for
+        sys.stdout.reconfigure(errors="backslashreplace")
     os.environ.pop("MPLBACKEND", None)  # pictures go to files: no window of matplotlib is opened
     try:
         status = _execute(arguments)

@@ -16,6 +16,10 @@ from exu_press.schema.stored import from_json
 __all__ = ["RowFile"]
 
 
+SYSTEM_FLAGS = sum(getattr(os, f"O_{name}", 0) for name in ("NOFOLLOW", "NONBLOCK", "BINARY"))
+"""Of opening a file, where a system has them: follow no link, wait for nobody, change no byte."""
+
+
 class Record(TypedDict):
     """A line.
 
@@ -115,8 +119,7 @@ def _opened(path: Path) -> FileIO:
         OSError: it cannot be opened.
     """
     refuse_link(path)
-    flags = os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK
-    number = os.open(path, flags, 0o666)
+    number = os.open(path, os.O_RDWR | os.O_APPEND | os.O_CREAT | SYSTEM_FLAGS, 0o666)
     about = os.fstat(number)
     if not stat.S_ISREG(about.st_mode) or about.st_nlink > 1:
         os.close(number)

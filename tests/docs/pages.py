@@ -145,7 +145,9 @@ def run_python(text: str, place: Path, *, short: bool) -> None:
     if not short:
         run([sys.executable, "-c", text], place)
         return
-    process = get_context("fork" if sys.platform == "linux" else "spawn").Process(target=as_script, args=(text, place))
+    process = get_context("fork" if sys.platform == "linux" else "spawn").Process(
+        target=as_script, args=(text, place)
+    )
     process.start()
     process.join(900)
     assert process.exitcode == 0, text

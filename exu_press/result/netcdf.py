@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError, prefixed, required_package
+from exu_press.files.file_format import NewerFormatError, refuse_newer_format
 from exu_press.files.output_directory import replacing
 from exu_press.result.channel import AXES, Channel
 from exu_press.result.classic import (
@@ -115,7 +116,7 @@ def read(path: Path, kind: type[Kind]) -> Kind:
     A file of an older version, which has no checksums, is read with a warning.
 
     Raises:
-        InputError: it cannot be read, is no result, or is damaged.
+        InputError: it cannot be read, is no result, is damaged, or a later version's.
     """
     try:
         file = _open_checked(path)
@@ -131,6 +132,8 @@ def read(path: Path, kind: type[Kind]) -> Kind:
         )
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error})") from None
+    except NewerFormatError as error:
+        raise InputError(f"{path}: {error}") from None
     except InputError as error:
         raise InputError(f"{path}: not a result of exu_press, or damaged: {error!s:.400}") from None
 
@@ -188,6 +191,7 @@ def _open_checked(path: Path) -> Classic:
             stacklevel=4,
         )
         return file
+    refuse_newer_format(form, FORMAT)
     if form not in (FORMAT, UNCHECKED):
         raise InputError(f"has no format = {FORMAT!r}")
     file.check_header()

@@ -1,0 +1,62 @@
+"""Files that earlier versions have written are read, and a later version's refused by that name.
+
+`tests/stored/before_0.9` was written by commit 318beaad, `tests/stored/0.9` as 0.9 writes them: a
+run and a sweep of a slider-crank with a dry crank pin.
+"""
+
+import shutil
+import warnings
+from pathlib import Path
+
+import pytest
+from stored_results import rewritten
+
+from exu_press import Result
+from exu_press.cli import main
+from exu_press.errors import InputError
+from exu_press.files.file_format import NewerFormatError, refuse_newer_format
+from exu_press.parallel.rows import RowFile
+
+STORED = Path(__file__).parent / "stored"
+VERSIONS = sorted(path.name for path in STORED.iterdir())
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_stored_run_is_read(version):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = Result.load(STORED / version / "run.nc")
+    assert ["without checksums" in str(w.message) for w in caught] == (
+        [True] if version == "before_0.9" else []
+    )
+    assert result.completed
+    assert result.time[-1] == pytest.approx(0.02 * 0.25)
+    assert result.scene.joints["crank_pin"].clearance == 1e-4
+    assert result["slider_position"][-1] == pytest.approx(-0.3531142, abs=1e-6)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_stored_study_is_read(version, tmp_path):
+    folder = tmp_path / "sweep"
+    shutil.copytree(STORED / version, folder, ignore=shutil.ignore_patterns("run.nc"))
+    with RowFile(folder / "runs.jsonl") as file:
+        assert file.count == 2
+    assert main(["report", str(folder), "--quiet"]) == 0
+    assert "joints.crank_pin.clearance" in (folder / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_run_of_a_later_version_is_refused_as_such(tmp_path, capsys):
+    content = (STORED / "0.9" / "run.nc").read_bytes()
+    later = tmp_path / "run.nc"
+    later.write_bytes(rewritten(content, {"format": "exu_press result 3"}))
+    with pytest.raises(InputError, match=r"run\.nc: is of format 3, written by a newer version"):
+        Result.load(later)
+    assert main(["report", str(later), "--quiet"]) == 2
+    assert "update exu_press" in capsys.readouterr().err
+
+
+def test_formats_are_compared_by_name_and_number():
+    for stored in ("exu_press result 2", "exu_press result 1", "exu_press sweep 3", "", "result x"):
+        refuse_newer_format(stored, "exu_press result 2")
+    with pytest.raises(NewerFormatError, match=r"format 10, .* reads formats up to 2"):
+        refuse_newer_format("exu_press result 10", "exu_press result 2")

@@ -1,4 +1,4 @@
-"""Formats of files: a name, and a number that grows where older versions cannot read what is new."""
+"""Formats of files: a name and a number, which grows with what older versions cannot read."""
 
 from exu_press.errors import InputError
 from exu_press.installation.versions import version_of

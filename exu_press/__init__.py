@@ -86,26 +86,26 @@ _NAMES = {
     "scene": "Scene",
     "verification.simulate": "simulate",
 }
-"""Module -> what it lends to this face: all of the above, and the work of methods of `Scene`,
-`Result` and `Mechanism` that is done by modules which know these classes."""
+"""Module -> its names in the public API, and functions behind methods of `Scene`, `Result` and
+`Mechanism` in modules that know these classes."""
 
 _load = lazy_names(__name__, _NAMES)
 
-_ROOMS = ("laws", "quantities")
-"""Packages that are used by their own names: `exu_press.quantities`."""
+_SUBPACKAGES = ("laws", "quantities")
+"""Subpackages of the public API, as `exu_press.quantities`."""
 
 
 def __dir__() -> list[str]:
-    """Return the public names, for those who look for them at a prompt."""
-    return [*__all__, *_ROOMS]
+    """Return the public names."""
+    return [*__all__, *_SUBPACKAGES]
 
 
 def __getattr__(name: str) -> "Any":
-    """Load a public name from its home; the version is that of the installed package."""
+    """Load a public name from its module; the version is that of the installed package."""
     if name == "__version__":
         from importlib.metadata import version
 
         return version("exu-press")
-    if name in _ROOMS:
+    if name in _SUBPACKAGES:
         return importlib.import_module(f"exu_press.{name}")
     return _load(name)

@@ -1,4 +1,4 @@
-"""The start of `exu-press`: until its command runs, Ctrl-C ends the process without a word."""
+"""Entry of `exu-press`: until the command runs, Ctrl-C ends the process quietly."""
 
 import signal
 
@@ -6,7 +6,7 @@ __all__ = ["main"]
 
 
 def main() -> int:
-    """Load the command line and run what it is asked; return the exit status."""
+    """Run the command line and return the exit status."""
     usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if usual:
         signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -1,4 +1,4 @@
-"""The one kind of error that a user's input can raise; the package below this one raises it too."""
+"""Errors of a user's input; fe_models, on which this package builds, raises them too."""
 
 import importlib
 from collections.abc import Iterator
@@ -20,7 +20,7 @@ for error in (InputError, DiskFullError):
 
 
 class UnusedKeyError(InputError):
-    """A key or a table that a scene gives and does not use.
+    """A key or a table of a scene that the scene does not use.
 
     Attributes:
         name: dotted, or a table's.
@@ -32,12 +32,12 @@ class UnusedKeyError(InputError):
 
 
 @contextmanager
-def prefixed(place: str) -> Iterator[None]:
-    """Begin the message of an InputError with the place that it is about."""
+def prefixed(prefix: str) -> Iterator[None]:
+    """Begin the message of an InputError with a prefix."""
     try:
         yield
     except InputError as error:
-        raise InputError(f"{place}{error}") from None
+        raise InputError(f"{prefix}{error}") from None
 
 
 def required_package(name: str, use: str, install: str) -> Any:

@@ -1,4 +1,4 @@
-"""Faces of packages whose names are loaded on first access."""
+"""Packages whose names are loaded on first access."""
 
 import importlib
 
@@ -12,18 +12,18 @@ __all__ = ["lazy_names"]
 
 
 def lazy_names(package: str, names: "Mapping[str, str]") -> "Callable[[str], Any]":
-    """Return the `__getattr__` of a package's face.
+    """Return the `__getattr__` of a package.
 
     Args:
         package: its dotted name.
-        names: module of the package -> names that it lends to the face, with blanks between.
+        names: module of the package -> its names in the package, separated by blanks.
     """
-    homes = {name: module for module, lent in names.items() for name in lent.split()}
+    modules = {name: module for module, of_module in names.items() for name in of_module.split()}
 
     def load(name: str) -> "Any":
-        if name not in homes:
+        if name not in modules:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
-        value = getattr(importlib.import_module(f"{package}.{homes[name]}"), name)
+        value = getattr(importlib.import_module(f"{package}.{modules[name]}"), name)
         setattr(importlib.import_module(package), name, value)
         return value
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from exu_press.cli.study import show_report
 from exu_press.errors import InputError
-from exu_press.files.lock import locked
+from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import output_directory
 from exu_press.studies.stability import stability
 from exu_press.studies.stability.run import Extremes
@@ -40,7 +40,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser().parse_args(arguments)
     try:
         study = Campaign.of(Extremes(axes=tuple(options.axis)), quick=options.quick)
-        with locked(output_directory(options.out)) as directory:
+        with lock_directory(output_directory(options.out)) as directory:
             report = stability(study, directory, workers=options.workers, quiet=options.quiet)
             return show_report(report, directory, options)
     except InputError as error:

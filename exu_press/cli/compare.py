@@ -16,7 +16,7 @@ from exu_press.cli.options import (
     show_warnings,
 )
 from exu_press.errors import InputError
-from exu_press.files.lock import locked
+from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import (
     folder_name,
     output_directory,
@@ -85,7 +85,7 @@ def execute(options: argparse.Namespace) -> int:
         figures = comparison_figures(stored) if stored else {}
     measured = _beside(curves, stored, {})
     target = directory_of(options, options.given[0] if len(options.given) == 1 else "compare")
-    with locked(output_directory(target)) as directory:
+    with lock_directory(output_directory(target)) as directory:
         results, summaries = _run_all(compared, directory, options)
         measured = _beside(curves, results, measured)
         told = {

@@ -13,7 +13,7 @@ from exu_press.cli.options import (
     show_warnings,
 )
 from exu_press.errors import InputError
-from exu_press.files.lock import locked
+from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import output_directory, remove_pictures, write_json
 from exu_press.model.state import State
 from exu_press.quantities.table import run_lines
@@ -125,7 +125,7 @@ def execute(options: argparse.Namespace) -> int:
     start = _start_of(options, scene)
     if options.figure is not None and options.within is None:
         raise InputError(f"--figure {options.figure}: only together with --within")
-    with locked(output_directory(directory_of(options, options.scene))) as directory:
+    with lock_directory(output_directory(directory_of(options, options.scene))) as directory:
         return _run(scene, start, directory, options)
 
 

@@ -17,7 +17,7 @@ from exu_press.cli.options import (
     show_warnings,
 )
 from exu_press.errors import InputError
-from exu_press.files.lock import locked, remove_unused
+from exu_press.files.lock import lock_directory, remove_unused
 from exu_press.files.output_directory import FORMATS, output_directory
 from exu_press.studies.base.command import SceneCommand, StudyCommand
 from exu_press.studies.base.report import Report
@@ -70,7 +70,7 @@ def _execute(command: type[StudyCommand], options: argparse.Namespace) -> int:
     target = directory_of(options, file)
     is_new = not target.exists()
     how = {name: getattr(options, name) for name in ("workers", "dask") if name in options}
-    with locked(output_directory(target)) as directory:
+    with lock_directory(output_directory(target)) as directory:
         try:
             report = command.run(study, directory, quiet=options.quiet, **how)
             return show_report(command.select(report, options), directory, options)

@@ -1,4 +1,4 @@
-"""One directory belongs to one command at a time."""
+"""Locks of directories, each of which belongs to one command at a time."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -7,13 +7,13 @@ from pathlib import Path
 from exu_press.errors import InputError
 from exu_press.files.output_directory import refuse_link, writing
 
-__all__ = ["LOCK", "locked", "remove_unused"]
+__all__ = ["LOCK", "lock_directory", "remove_unused"]
 
 LOCK = ".lock"
 
 
 @contextmanager
-def locked(directory: Path) -> Iterator[Path]:
+def lock_directory(directory: Path) -> Iterator[Path]:
     """Keep other processes out of a directory, and yield it; a killed process frees it.
 
     May be nested.

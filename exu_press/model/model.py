@@ -12,7 +12,7 @@ from exu_press.integrate import ARRIVED, Outcome, SolverTuning
 from exu_press.model.drive import CrankAngle
 from exu_press.model.rigid_body import RigidBody
 from exu_press.model.stall import Stall, holding_torque, stalled
-from exu_press.solving import DEFAULTS, Assembled, solve
+from exu_press.solving import DEFAULTS, SolvableModel, solve
 
 if TYPE_CHECKING:
     from exu_press.joints.guide_friction import GuideFriction
@@ -30,7 +30,7 @@ CLOSE = 1e-9
 
 
 @dataclass(frozen=True)
-class Model(Assembled):
+class Model(SolvableModel):
     """An assembled system with the names of its items.
 
     Attributes:

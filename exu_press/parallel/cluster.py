@@ -1,4 +1,4 @@
-"""Workers of a Dask cluster, on as many machines as it has; Dask's scheduler does the rest."""
+"""Workers of a Dask cluster."""
 
 import contextlib
 from concurrent.futures import CancelledError, Future
@@ -14,7 +14,7 @@ __all__ = ["Cluster", "perform_alone"]
 SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")
 SECONDS_TO_ANSWER = 10.0
 TASKS_AHEAD = 4
-"""Tasks under way for each of the cluster's threads, so that none waits for the network."""
+"""Tasks submitted for each thread of the cluster, so that none waits for the network."""
 
 
 class Cluster(AbstractContextManager["Cluster", None]):
@@ -51,7 +51,7 @@ class Cluster(AbstractContextManager["Cluster", None]):
             ) from None
         except OSError:
             self._client.close()
-            raise self._gone() from None
+            raise self._scheduler_lost() from None
         self._executor = self._client.get_executor(pure=False)
         self.window = TASKS_AHEAD * sum(self._client.nthreads().values())
 
@@ -73,7 +73,7 @@ class Cluster(AbstractContextManager["Cluster", None]):
         except KilledWorker as error:
             return worker_died(f"with every Dask worker it was given to: {_in_a_line(error)}")
         except CancelledError:
-            raise self._gone() from None
+            raise self._scheduler_lost() from None
         except DiskFullError:
             raise
         except Exception as error:
@@ -82,14 +82,14 @@ class Cluster(AbstractContextManager["Cluster", None]):
                 "need the packages that are installed here"
             ) from None
 
-    def _gone(self) -> InputError:
+    def _scheduler_lost(self) -> InputError:
         return InputError(
             f"dask = {self._address}: the scheduler is gone; finished runs are kept, and the same "
             "call goes on with them"
         )
 
     def __exit__(self, *_: object) -> None:
-        """Give back the tasks not begun, and leave the cluster running."""
+        """Cancel the tasks that have not begun, and leave the cluster running."""
         self._executor.shutdown(wait=False)
         self._client.close()
 
@@ -97,8 +97,7 @@ class Cluster(AbstractContextManager["Cluster", None]):
 def perform_alone(task: Task, time_limit: float | None) -> Row:
     """Return a task's row from a process of its own, on a Dask worker.
 
-    So the time limit holds, a crash takes no Dask worker along, and the threads of a worker do not
-    share one Exudyn.
+    So the time limit holds, a crash spares the Dask worker, and its threads share no Exudyn.
     """
     with contextlib.ExitStack() as processes:
         return perform(task, lambda task: processes.enter_context(worker(task)), time_limit)

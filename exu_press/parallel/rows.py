@@ -1,4 +1,4 @@
-"""Finished rows in a file: one JSON line each, on the disk before the next one is begun."""
+"""File of finished rows, a JSON line each, on the disk before the next run begins."""
 
 import json
 import os
@@ -37,8 +37,8 @@ class Record(TypedDict):
 class RowFile(AbstractContextManager["RowFile", None]):
     """runs.jsonl: every line is the record of a task.
 
-    A kill in the middle of a write leaves a line without its end; it is cut off. Used as a
-    context manager, under the directory's lock.
+    A line that a kill has left without its end is cut off. Used as a context manager, under the
+    directory's lock.
     """
 
     def __init__(self, path: Path) -> None:
@@ -48,9 +48,9 @@ class RowFile(AbstractContextManager["RowFile", None]):
             InputError: the file cannot be read, or holds something else.
         """
         self._path = path
-        self._found: dict[str, tuple[Row, float | None]] = {}
+        self._rows: dict[str, tuple[Row, float | None]] = {}
         try:
-            self._file = _opened(path)
+            self._file = _open_own_file(path)
             text = self._file.read()
             *lines, torn = text.split(b"\n")
             for number, line in enumerate(lines, start=1):
@@ -73,20 +73,20 @@ class RowFile(AbstractContextManager["RowFile", None]):
                 f"{self._path}, line {number}: not a row of a batch ({error}); delete the line, "
                 "and its run is done again, or take another directory"
             ) from None
-        self._found[record["key"]] = record["row"], record["time_limit"]
+        self._rows[record["key"]] = record["row"], record["time_limit"]
 
     @property
     def count(self) -> int:
         """Number of the tasks with a row."""
-        return len(self._found)
+        return len(self._rows)
 
-    def finished(self, key: str, time_limit: float | None) -> Row | None:
-        """Return a task's row, or None if the task is to be run (again).
+    def finished_row(self, key: str, time_limit: float | None) -> Row | None:
+        """Return a task's row, or None if the task is to be run.
 
-        A run that raised an error or took its worker along is tried again, since both may lie in
-        the machine; one over its time limit only if it may take longer now.
+        A run that raised an error or whose worker died is repeated, as both may lie in the machine;
+        one over its time limit only if the limit is longer now.
         """
-        row, limit = self._found.get(key, (None, None))
+        row, limit = self._rows.get(key, (None, None))
         if row is None or row["status"] in (FAILED, WORKER_DIED):
             return None
         longer = limit is not None and (time_limit is None or time_limit > limit)
@@ -101,17 +101,17 @@ class RowFile(AbstractContextManager["RowFile", None]):
         record: Record = {"key": key, "time_limit": time_limit, "row": row}
         line = json.dumps(record, separators=(",", ":"), allow_nan=False) + "\n"
         with writing(self._path):
-            left = memoryview(line.encode())
-            while left:
-                left = left[self._file.write(left) :]
+            unwritten = memoryview(line.encode())
+            while unwritten:
+                unwritten = unwritten[self._file.write(unwritten) :]
             os.fsync(self._file.fileno())
-        self._found[key] = row, time_limit
+        self._rows[key] = row, time_limit
 
     def __exit__(self, *_: object) -> None:
         self._file.close()
 
 
-def _opened(path: Path) -> FileIO:
+def _open_own_file(path: Path) -> FileIO:
     """Return a file to read and to append to, made where there is none; no link is followed.
 
     Raises:

@@ -1,4 +1,4 @@
-"""Run a batch: finished rows are read, the rest is run, each row kept as it comes."""
+"""Batches of runs: finished rows are read, the others run, each saved as it finishes."""
 
 import os
 import sys
@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Protocol, Self
 
 from exu_press.errors import DiskFullError, InputError
-from exu_press.files.lock import locked
+from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import output_directory
 from exu_press.parallel.rows import RowFile
 from exu_press.parallel.task import TIME_LIMIT, Function, Row, Task, name_of, task_of, versions
@@ -32,7 +32,7 @@ class Pool(Protocol):
     """A performer of tasks.
 
     Attributes:
-        window: how many tasks are handed over at a time.
+        window: number of tasks that are submitted at a time.
     """
 
     window: int
@@ -47,12 +47,11 @@ class Pool(Protocol):
 
 
 class Batch(ExitStack):
-    """Runs of one function in one directory, in calls that go on where others stopped.
+    """Runs of one function in one directory, which resume after a stop or a kill.
 
-    Finished rows are appended to directory/runs.jsonl, on the disk before the next one; called
-    again, the batch goes on where it was stopped or killed. What a row says of a run that did not
-    get there: `status` is "failed" (an exception), "time limit" or "worker died" (killed or
-    crashed, also when tried once more), and `reason` says more in one line. Every row has both.
+    Finished rows are appended to directory/runs.jsonl, each on the disk before the next one. Every
+    row has a `status` and a `reason` in one line. The status of a run without a result is "failed"
+    (an exception), "time limit" or "worker died" (killed or crashed twice).
     """
 
     def __init__(
@@ -63,7 +62,7 @@ class Batch(ExitStack):
         workers: int | None = None,
         dask: str | None = None,
         time_limit: float | None = None,
-        kept: Callable[[Mapping[str, Any]], bool] | None = None,
+        has_files: Callable[[Mapping[str, Any]], bool] | None = None,
         modules: Sequence[str] = (),
         label: str = "sweep",
         quiet: bool = False,
@@ -74,11 +73,11 @@ class Batch(ExitStack):
             function: takes and returns a JSON-able dictionary; it stands at the top level of a
                 module, from where workers import it. NaN and infinity become None.
             directory: belongs to one batch at a time.
-            workers: number of processes, each with one BLAS thread; all cores unless told.
+            workers: number of processes, each with one BLAS thread; all cores by default.
             dask: address of a Dask scheduler, tcp://host:port, whose workers are used instead.
             time_limit: of one run, s; a run over it is stopped.
-            kept: says of a run's arguments whether the files that it wrote are still there; a
-                finished run is done again where they are not.
+            has_files: arguments of a run -> whether the files that it wrote still exist; a run
+                without them is repeated.
             modules: that a worker imports first, for their declarations.
             label: of the progress bar.
             quiet: no progress bar.
@@ -98,11 +97,11 @@ class Batch(ExitStack):
         self._versions = versions(self._name, *self._modules)
         self.directory = Path(directory)
         self._workers, self._dask, self._limit = workers or os.cpu_count() or 1, dask, time_limit
-        self._kept, self._label, self._quiet = kept, label, quiet
+        self._has_files, self._label, self._quiet = has_files, label, quiet
         self._pool: Pool | None = None
 
     def __enter__(self) -> Self:
-        """Take the directory and read the finished rows.
+        """Lock the directory and read the finished rows.
 
         Raises:
             InputError: `directory` cannot be used, or another batch is at work in it.
@@ -110,7 +109,7 @@ class Batch(ExitStack):
         super().__enter__()
         try:
             output_directory(self.directory)
-            self.enter_context(locked(self.directory))
+            self.enter_context(lock_directory(self.directory))
             self._file = self.enter_context(RowFile(self.directory / FILE))
             if self._file.count and not self._quiet:
                 print(f"{self._label}: runs that are finished: {self._file.count}", file=sys.stderr)
@@ -130,16 +129,16 @@ class Batch(ExitStack):
             ValueError, TypeError: the arguments are no JSON.
             KeyboardInterrupt: after Ctrl-C; finished rows are kept.
         """
-        tasks = [self._task(each) for each in arguments]
-        given = {task.key: each for task, each in zip(tasks, arguments, strict=True)}
-        rows = {task.key: self._finished(task, given[task.key]) for task in tasks}
-        todo = [key for key, row in rows.items() if row is None]
+        tasks = [self._task(run) for run in arguments]
+        arguments_of = {task.key: run for task, run in zip(tasks, arguments, strict=True)}
+        rows = {task.key: self._finished_row(task, arguments_of[task.key]) for task in tasks}
+        missing = [key for key, row in rows.items() if row is None]
 
         def alone(key: str) -> Chain:
-            rows[key] = yield given[key]
+            rows[key] = yield arguments_of[key]
 
-        if todo:
-            self.follow([alone(key) for key in todo], len(todo))
+        if missing:
+            self.follow([alone(key) for key in missing], len(missing))
         return [dict(rows[task.key] or {}) for task in tasks]
 
     def follow(self, chains: Sequence[Chain], total: int) -> None:
@@ -163,20 +162,20 @@ class Batch(ExitStack):
         full: DiskFullError | None = None
 
         def begin(chain: Chain, row: Row | None) -> None:
-            """Hand over the next run of a chain that is not finished yet."""
+            """Submit the next run of a chain that is not finished yet."""
             nonlocal done
             try:
                 while True:
                     arguments = next(chain) if row is None else chain.send(dict(row))
                     task = self._task(arguments)
-                    row = self._finished(task, arguments)
+                    row = self._finished_row(task, arguments)
                     if row is None:
                         break
                     done += 1
             except StopIteration:
                 return
             if task.key not in under_way:
-                under_way[task.key] = self._workers_at_hand().submit(task), task, []
+                under_way[task.key] = self._started_pool().submit(task), task, []
             under_way[task.key][2].append(chain)
 
         with Progress(self._label, total, "runs", quiet=self._quiet) as progress:
@@ -187,7 +186,7 @@ class Batch(ExitStack):
                 ended = [key for key, (future, _, _) in under_way.items() if future.done()]
                 for future, task, waiting in [under_way.pop(key) for key in ended]:
                     try:
-                        row = self._workers_at_hand().row(future)
+                        row = self._started_pool().row(future)
                         self._file.append(task.key, self._limit, row)
                     except DiskFullError as error:
                         full, failed = error, failed + 1
@@ -206,15 +205,20 @@ class Batch(ExitStack):
     def _task(self, arguments: Mapping[str, Any]) -> Task:
         return task_of(self._name, arguments, self._modules, self._versions)
 
-    def _finished(self, task: Task, arguments: Mapping[str, Any]) -> Row | None:
-        """Return the row of a run that need not be done again, or None."""
-        row = self._file.finished(task.key, self._limit)
-        if row and row["status"] != TIME_LIMIT and self._kept and not self._kept(arguments):
+    def _finished_row(self, task: Task, arguments: Mapping[str, Any]) -> Row | None:
+        """Return the row of a run that need not be repeated, or None."""
+        row = self._file.finished_row(task.key, self._limit)
+        if (
+            row
+            and row["status"] != TIME_LIMIT
+            and self._has_files
+            and not self._has_files(arguments)
+        ):
             return None
         return row
 
-    def _workers_at_hand(self) -> Pool:
-        """Return where tasks are performed; nothing is started before the first of them."""
+    def _started_pool(self) -> Pool:
+        """Return the pool, started for the first task."""
         if self._pool is None:
             self._pool = self.enter_context(_pool(self._workers, self._dask, self._limit))
         return self._pool
@@ -234,7 +238,7 @@ def run_batch(
 def _pool(
     workers: int, dask: str | None, time_limit: float | None
 ) -> AbstractContextManager[Pool, None]:
-    """Return where tasks are performed."""
+    """Return workers of this machine, or of a Dask cluster."""
     if dask is None:
         return Workers(workers, time_limit)
     from exu_press.parallel.cluster import Cluster

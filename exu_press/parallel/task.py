@@ -48,7 +48,7 @@ PACKAGES = ("exu-press", "exudyn", "ngsolve")
 OURS = ("exu_press", "fe_models")
 SUFFIXES = (".py", ".npz", ".toml")
 FOR_READERS = ("cli", "page", "plots", "report", "view")
-"""Folders of a package that no row comes from: they show results."""
+"""Subpackages that show results and compute no row."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def task_of(
     function: str,
     arguments: Mapping[str, Any],
     modules: tuple[str, ...] = (),
-    known: Mapping[str, str | None] | None = None,
+    task_versions: Mapping[str, str | None] | None = None,
 ) -> Task:
     """Return the task of a function's name and its arguments.
 
@@ -82,22 +82,24 @@ def task_of(
         function: "module:name".
         arguments: of the function, as JSON has them.
         modules: that a worker imports first.
-        known: `versions` of function and modules, looked up unless given.
+        task_versions: `versions` of function and modules; None: they are looked up.
 
     Raises:
         ValueError, TypeError: the arguments are no JSON.
     """
     text = _canonical(arguments)
-    known = versions(function, *modules) if known is None else known
-    everything = _canonical({"function": function, "arguments": text, "versions": known})
-    return Task(hashlib.sha256(everything.encode()).hexdigest(), function, text, known, modules)
+    task_versions = versions(function, *modules) if task_versions is None else task_versions
+    everything = _canonical({"function": function, "arguments": text, "versions": task_versions})
+    return Task(
+        hashlib.sha256(everything.encode()).hexdigest(), function, text, task_versions, modules
+    )
 
 
 def versions(function: str, *modules: str) -> dict[str, str | None]:
     """Return the versions of PACKAGES, None for missing ones, and a digest of sources.
 
-    Of the function's package, and of the packages of other modules that a row depends on, as they
-    are on the disk now. Our own version alone would not do: sources change between two versions.
+    The digest is of the packages of function and modules as they are on the disk: sources change
+    between two versions of the package.
     """
     sources = source_digest(
         *(name.partition(":")[0].partition(".")[0] for name in (function, *modules))
@@ -132,7 +134,7 @@ def row_of_task(task: Task, only_imports: bool = False) -> Row:
 
     Args:
         task: to be done.
-        only_imports: let it be, and import what it needs.
+        only_imports: imports what the task needs, without running it.
 
     Raises:
         InputError: its function cannot be imported here, or the versions here are others.
@@ -158,14 +160,12 @@ def row_of_task(task: Task, only_imports: bool = False) -> Row:
 
 @cache
 def _versions_when_imported(function: str, *modules: str) -> dict[str, str | None]:
-    """Return the versions of what a worker works with: it imports once, whatever changes later."""
+    """Return the versions that this worker has imported, whatever changes on the disk later."""
     return versions(function, *modules)
 
 
 def row_of(function: Function, arguments: dict[str, Any]) -> Row:
-    """Return a function's row with status and reason, in strict JSON: null where it has no number.
-
-    An exception is a row too.
+    """Return a function's row, or that of its exception, in strict JSON.
 
     Raises:
         DiskFullError: there is no room for what the function writes.
@@ -209,42 +209,42 @@ def source_digest(*names: str) -> str:
     user's own files that they import or name.
     """
     digest = hashlib.sha256("".join(map(_digest_of_ours, OURS)).encode())
-    for known_as, file in sorted(_users_files(names).items()):
-        digest.update(_described(known_as, file))
+    for label, file in sorted(_users_files(names).items()):
+        digest.update(_named_content(label, file))
     return digest.hexdigest()[:16]
 
 
 @cache
 def _digest_of_ours(name: str) -> str:
     digest = hashlib.sha256()
-    for known_as, file in sorted(_files(name).items()):
-        digest.update(_described(known_as, file))
+    for label, file in sorted(_files(name).items()):
+        digest.update(_named_content(label, file))
     return digest.hexdigest()
 
 
-def _described(known_as: str, file: Path) -> bytes:
+def _named_content(label: str, file: Path) -> bytes:
     content = file.read_bytes()
-    return f"{known_as} {len(content)};".encode() + content
+    return f"{label} {len(content)};".encode() + content
 
 
 def _users_files(names: Iterable[str]) -> dict[str, Path]:
-    """Return the files of packages and modules, and of those that they import, by known names.
+    """Return the files of packages and modules, and of those that they import, by name.
 
-    What is installed counts where it is named, and not where it is imported. A text in a module
-    that is the name of a file beside it counts too: a law's table.
+    Installed packages count where they are named, not where they are imported. A text in a module
+    that is the name of a file beside it counts too, as a law's table does.
     """
     files: dict[str, Path] = {}
-    left, seen = [*names], set(OURS)
-    while left:
-        name = left.pop()
+    pending, seen = [*names], set(OURS)
+    while pending:
+        name = pending.pop()
         if name in seen:
             continue
         seen.add(name)
-        for known_as, file in _files(name).items():
-            files[known_as] = file
+        for label, file in _files(name).items():
+            files[label] = file
             if file.suffix == ".py":
                 imported, texts = _imports_and_texts(file)
-                left += [module for module in imported if _is_users(module)]
+                pending += [module for module in imported if _is_users(module)]
                 files |= {f"{name}/{t}": file.parent / t for t in texts if _is_beside(file, t)}
     return files
 

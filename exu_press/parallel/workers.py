@@ -17,9 +17,9 @@ ATTEMPTS = 2
 class Workers(AbstractContextManager["Workers", None]):
     """Performs tasks in processes that stay alive from task to task; a dead one is replaced.
 
-    Python's own pools of processes are of no use here: one killed worker breaks the whole of
-    `concurrent.futures.ProcessPoolExecutor`, and `multiprocessing.Pool` waits for ever for its
-    task. Here nothing is shared between workers that a killed one could keep locked.
+    Not a pool of Python's own: one killed worker breaks `concurrent.futures.ProcessPoolExecutor`,
+    and `multiprocessing.Pool` waits for ever for its task. Workers share nothing that a killed one
+    could keep locked.
     """
 
     def __init__(self, workers: int, time_limit: float | None) -> None:

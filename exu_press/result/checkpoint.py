@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TypedDict, TypeVar
 
 from exu_press.errors import InputError, prefixed
-from exu_press.files.lock import LOCK, locked
+from exu_press.files.lock import LOCK, lock_directory
 from exu_press.files.output_directory import refuse_link, writing
 from exu_press.result import netcdf
 from exu_press.result.channels import MemmapChannels
@@ -92,7 +92,7 @@ def open_checkpoint(directory: Path | None) -> Iterator[MemmapChannels]:
     _refuse_others(directory)
     with writing(directory):
         directory.mkdir(parents=True, exist_ok=True)
-    with locked(directory):
+    with lock_directory(directory):
         refuse_blocks(directory)
         _refuse_others(directory)
         with writing(directory):

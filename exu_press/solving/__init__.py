@@ -1,6 +1,6 @@
-"""Solve a scene's model: its keys in the integrator's terms, and advice in its words."""
+"""Integration of a scene's model, with advice in terms of the scene's keys."""
 
-from exu_press.solving.assembled import Assembled
+from exu_press.solving.solvable_model import SolvableModel
 from exu_press.solving.solve import DEFAULTS, scales, settings_for, solve
 
-__all__ = ["DEFAULTS", "Assembled", "scales", "settings_for", "solve"]
+__all__ = ["DEFAULTS", "SolvableModel", "scales", "settings_for", "solve"]

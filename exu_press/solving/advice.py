@@ -1,4 +1,4 @@
-"""Advice to a run that stops early: crank angles, and the keys to change."""
+"""Advice for a run that stops early: crank angles, and the keys to change."""
 
 import math
 from collections.abc import Iterator
@@ -10,7 +10,7 @@ from exu_press.integrate.task import Task
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.scene import LubricatedJoint, mechanism_of
 from exu_press.scene.applied import applied_loads
-from exu_press.solving.assembled import Assembled
+from exu_press.solving.solvable_model import SolvableModel
 
 __all__ = ["SceneAdvice", "leapt_over_load"]
 
@@ -28,7 +28,7 @@ then missed by a tenth at most."""
 class SceneAdvice(Advice):
     """The scene's words: crank angles, and the keys to change."""
 
-    def __init__(self, model: Assembled, system: System, by_tolerance: bool) -> None:
+    def __init__(self, model: SolvableModel, system: System, by_tolerance: bool) -> None:
         super().__init__(system, by_tolerance)
         self._model, self._scene = model, model.scene
 
@@ -152,7 +152,7 @@ class SceneAdvice(Advice):
         return ""
 
 
-def leapt_over_load(model: Assembled) -> str:
+def leapt_over_load(model: SolvableModel) -> str:
     """Return in words that fixed steps are too long for a load, or nothing.
 
     Steps by tolerance end on its corners.

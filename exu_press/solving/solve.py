@@ -1,4 +1,4 @@
-"""A scene's keys in the integrator's terms."""
+"""Settings of the integration from a scene's keys."""
 
 import dataclasses
 import math
@@ -9,23 +9,22 @@ from exu_press.integrate import ErrorScales, Outcome, SolverStatus, SolverTuning
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.solving.advice import SceneAdvice, leapt_over_load
-from exu_press.solving.assembled import Assembled
+from exu_press.solving.solvable_model import SolvableModel
 
 __all__ = ["DEFAULTS", "scales", "settings_for", "solve"]
 
 DEFAULTS = SolverTuning()
 
 FALL = 0.03
-"""Acceleration over that of free fall, usual at least where there is clearance: parts fall through
-it, however slowly the crank turns. Asked for less (below 30 rpm), Newton's method iterates on what
-rounding leaves: at 0.01 rpm a hundred times for each step of 1e-4 s."""
-
+"""Least acceleration scale with clearance, over that of free fall: bodies fall through clearances,
+however slowly the crank turns. With less (below 30 rpm), Newton's method iterates on rounding: at
+0.01 rpm a hundred times in each step of 1e-4 s."""
 
 USUAL_STEP = math.radians(1.5)
-"""Largest turn of the crank in a step, rad, unless a scene asks for another one."""
+"""Default of the crank's largest rotation in a step, rad."""
 
 
-def solve(model: Assembled, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
+def solve(model: SolvableModel, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
     """Run a model to its end time or to an early stop; its sensors keep the results.
 
     Args:
@@ -94,10 +93,10 @@ def _steps(duration: float, largest: float) -> int:
 
 
 def scales(scene: Scene) -> ErrorScales:
-    """Return the crank pin's speed, and what its acceleration takes of all bodies.
+    """Return the scales of errors: the crank pin's speed, and the force of its acceleration.
 
-    With a slow crank, the speed at which a journal has fallen through its clearance. What films may
-    keep does not depend on the largest step that the scene asks for.
+    With a slow crank, the speed of a journal that has fallen through its clearance. The step does
+    not depend on the scene's largest one.
     """
     mechanism = mechanism_of(scene)
     in_guides = 0.0 if scene.guide is None else scene.guide.clearance or 0.0

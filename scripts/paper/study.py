@@ -151,7 +151,7 @@ def paper(
             directory,
             workers=workers,
             time_limit=TIME_LIMIT,
-            kept=lambda task: "save" not in task or Path(task["save"]).exists(),
+            has_files=lambda task: "save" not in task or Path(task["save"]).exists(),
             label=label,
             quiet=quiet,
         )

@@ -10,7 +10,7 @@ import pytest
 from exu_press import InputError
 from exu_press.cli import main
 from exu_press.errors import DiskFullError
-from exu_press.files.lock import locked
+from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import output_directory, replacing, subdirectory
 
 SECRET = '{"token": "secret"}'
@@ -109,7 +109,7 @@ def test_the_output_directory_itself_may_be_a_link(out, tmp_path):
 
 def test_a_directory_is_known_by_any_of_its_names(out, monkeypatch):
     monkeypatch.chdir(out.parent)
-    with locked(output_directory("out")) as first, locked(out) as second:
+    with lock_directory(output_directory("out")) as first, lock_directory(out) as second:
         assert first.resolve() == second.resolve()
 
 

@@ -11,7 +11,7 @@ import batch_functions
 import pytest
 
 from exu_press import InputError
-from exu_press.files.lock import locked
+from exu_press.files.lock import lock_directory
 from exu_press.parallel import run_batch
 
 RUNS = 24
@@ -144,5 +144,5 @@ def test_a_directory_belongs_to_one_batch_at_a_time(arguments, undisturbed, tmp_
 
 
 def test_the_lock_may_be_nested(tmp_path):
-    with locked(tmp_path), locked(tmp_path):
+    with lock_directory(tmp_path), lock_directory(tmp_path):
         pass

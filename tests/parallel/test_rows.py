@@ -20,8 +20,8 @@ def test_rows_come_back_bit_by_bit(tmp_path):
     path = tmp_path / "runs.jsonl"
     write(path, "a", "b")
     with RowFile(path) as file:
-        assert file.finished("a", None) == file.finished("b", None) == ROW
-        assert file.finished("c", None) is None
+        assert file.finished_row("a", None) == file.finished_row("b", None) == ROW
+        assert file.finished_row("c", None) is None
 
 
 @pytest.mark.parametrize("kept", [1, 20, -1])
@@ -32,8 +32,8 @@ def test_a_torn_last_line_is_cut_off(tmp_path, kept):
     first, second = whole.splitlines(keepends=True)
     path.write_bytes(first + second[:kept])
     with RowFile(path) as file:
-        assert file.finished("a", None) == ROW
-        assert file.finished("b", None) is None
+        assert file.finished_row("a", None) == ROW
+        assert file.finished_row("b", None) is None
         file.append("b", None, ROW)
     assert path.read_bytes() == whole
 
@@ -73,9 +73,9 @@ def test_what_is_tried_again(tmp_path):
         for status in ("failed", "worker died", "time limit", "film broke down"):
             file.append(status, 10.0, {"status": status, "reason": "some"})
     with RowFile(tmp_path / "runs.jsonl") as file:
-        assert file.finished("failed", 10.0) is None
-        assert file.finished("worker died", 10.0) is None
-        assert file.finished("film broke down", 10.0) is not None
-        assert [file.finished("time limit", s) is None for s in (5.0, 10.0, 11.0, None)] == [
+        assert file.finished_row("failed", 10.0) is None
+        assert file.finished_row("worker died", 10.0) is None
+        assert file.finished_row("film broke down", 10.0) is not None
+        assert [file.finished_row("time limit", s) is None for s in (5.0, 10.0, 11.0, None)] == [
             False, False, True, True,
         ]  # fmt: skip

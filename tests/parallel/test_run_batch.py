@@ -66,8 +66,8 @@ def test_a_run_whose_file_is_gone_is_run_again(tmp_path):
     marks = str(tmp_path / "marks")
     arguments = [{"x": x, "marks": marks} for x in range(3)]
     for _ in range(2):
-        kept = {"kept": lambda each: each["x"] != 1, "workers": 1}
-        batch(batch_functions.slow_digits, arguments, tmp_path, **kept)
+        options = {"has_files": lambda run: run["x"] != 1, "workers": 1}
+        batch(batch_functions.slow_digits, arguments, tmp_path, **options)
     assert sorted(x for x, _ in batch_functions.marks(marks)) == [0, 1, 1, 2]
 
 

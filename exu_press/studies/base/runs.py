@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from exu_press.errors import InputError
-from exu_press.files.lock import locked
+from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import output_directory, subdirectory, write_json
 from exu_press.parallel import FILE, Batch, Row
 from exu_press.parallel.task import Function
@@ -61,7 +61,7 @@ class Runs(Batch):
             run_scene if function is None else function,
             directory,
             time_limit=study.time_limit,
-            kept=_file_is_whole,
+            has_files=_file_is_whole,
             modules=(*own_modules(), *custom_modules(study.to_dict())),
             label=label or ("study" if report is None else report.name),
             quiet=quiet,
@@ -77,7 +77,7 @@ class Runs(Batch):
             InputError: it cannot be used, belongs to another study, or another run writes in it.
         """
         output_directory(self.directory)
-        self.enter_context(locked(self.directory))
+        self.enter_context(lock_directory(self.directory))
         try:
             _claim(self.directory, self._study.to_dict(), self._files)
         except BaseException:

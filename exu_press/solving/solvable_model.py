@@ -1,4 +1,4 @@
-"""A scene's model as solving sees it."""
+"""Interface of a scene's model to its integration."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
@@ -12,12 +12,12 @@ from exu_press.mechanism import Mechanism
 from exu_press.mechanism.independent_constraints import IndependentConstraints
 from exu_press.scene import Scene
 
-__all__ = ["Assembled"]
+__all__ = ["SolvableModel"]
 
 
 @dataclass(frozen=True)
-class Assembled(ABC):
-    """A scene's model as solving sees it; `exu_press.model.Model` is one, and has more.
+class SolvableModel(ABC):
+    """What integration needs of a scene's model; `exu_press.model.Model` is one.
 
     Attributes:
         scene: of the model.

@@ -1,6 +1,7 @@
 """A sheet that a punch cuts: shear up to fracture, the crack, and stripping on the way up."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -145,7 +146,14 @@ class PunchStroke:
         unloaded = sheet.curve(self._deepest) - self._stiffness * (self._deepest - penetration)
         return max(0.0, unloaded)
 
-    def next(self, time: float, penetration: float, rate: float, close: float = 0.0) -> float:
+    def next(
+        self,
+        time: float,
+        penetration: float,
+        rate: float,
+        close: float = 0.0,
+        duration: Callable[[float], float] = float,
+    ) -> float:
         """Return the next instant at which the force has a corner, s, or infinity.
 
         Args:
@@ -153,6 +161,7 @@ class PunchStroke:
             penetration: m.
             rate: m/s.
             close: corners as near as that are passed, m.
+            duration: of a way, s, that takes a time at this rate, s.
         """
         sheet, phase = self._sheet, self.phase(time, penetration)
         if phase == "cracking":
@@ -168,7 +177,7 @@ class PunchStroke:
         remaining = sheet.fracture - penetration
         if phase == "whole" and 0.0 <= remaining <= close and rate > 0.0:
             return time + remaining / rate + sheet.crack_time  # as good as fractured
-        return min((time + distance / rate for distance in ahead), default=math.inf)
+        return time + duration(min((distance / rate for distance in ahead), default=math.inf))
 
     def accept(self, time: float, penetration: float, rate: float) -> None:
         """Keep the state at the end of a step."""

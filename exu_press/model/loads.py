@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import exudyn as exu
@@ -24,8 +25,8 @@ CLOSE = 1e-9
 """Part of a revolution: corners as close as that are passed."""
 
 FORESEEN = 3e-6
-"""The same of corners that are foreseen from a position and its rate, to the square of a step: the
-rest of the way would be a step so short that it rings."""
+"""The same of corners that are foreseen: the rest of the way would be a step so short that it makes
+the next one ring."""
 
 
 class ActingLoad:
@@ -38,6 +39,7 @@ class ActingLoad:
     def __init__(self, applied: AppliedLoad, scene: Scene, place: Place, height: Place) -> None:
         """Take where on its curve the load is, and the output's height and velocity."""
         self.applied, self._scene, self._place, self._height = applied, scene, place, height
+        self._last = -math.inf, 0.0  # time, s, and rate of the place when a corner was asked for
 
     def force(self, time: float) -> float:
         """Return the force in its direction, N."""
@@ -53,7 +55,7 @@ class ActingLoad:
         """Return the next instant at which the force has a corner, s, or infinity.
 
         What a load over the output's height, or a motor's crank angle, has before it is foreseen
-        from the speed now.
+        from the speed now and its change in the last step.
         """
         over, curve, (now, rate) = self.applied.over, self.applied.curve, self._place(time)
         exact = over == "time" or (self._scene.drive is None and over == "crank_angle_deg")
@@ -61,7 +63,19 @@ class ActingLoad:
         if rate == 0.0:
             return math.inf
         corner = curve.corner_after(now, close) if rate > 0.0 else curve.corner_before(now, close)
-        return time + (corner - now) / rate
+        return time + self._duration(time, rate, (corner - now) / rate)
+
+    def _duration(self, time: float, rate: float, at_constant_rate: float) -> float:
+        """Return how long the way takes, s, that takes so long at a constant rate.
+
+        With v s + a s^2 / 2 = v d, and the mean acceleration a of the last step.
+        """
+        (last, before), self._last = self._last, (time, rate)
+        if not last < time or not at_constant_rate < math.inf:
+            return at_constant_rate
+        relative = (rate - before) / (rate * (time - last))
+        square = 1.0 + 2.0 * relative * at_constant_rate
+        return 2.0 * at_constant_rate / (1.0 + math.sqrt(square)) if square > 0.0 else math.inf
 
 
 class CuttingLoad(ActingLoad):
@@ -87,7 +101,7 @@ class CuttingLoad(ActingLoad):
         """Return the next instant at which the force has a corner, s, or infinity."""
         now, rate = self.penetration(time)
         close = FORESEEN * abs(rate) * 60.0 / self._scene.speed_rpm
-        return self.cut.next(time, now, rate, close)
+        return self.cut.next(time, now, rate, close, partial(self._duration, time, rate))
 
 
 def add_loads(system: System) -> dict[str, ActingLoad]:

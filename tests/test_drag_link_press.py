@@ -10,7 +10,6 @@ import pytest
 import exu_press
 from exu_press import Scene, simulate
 from exu_press.scene import mechanism_of
-from exu_press.scene.assumptions import assumed
 
 SCENE = Path(exu_press.__file__).parent / "scenes" / "drag_link.toml"
 CRANK, LINK, LONG, SHORT, FRAME = 0.15, 0.12, 0.15, 0.06, 0.05  # m
@@ -87,17 +86,6 @@ def test_the_ideal_guide_rubs_with_its_force(of_ideal_pins):
     run = of_ideal_pins
     expected = np.trapezoid(0.08 * np.abs(run["guide_force"] * run["slider_velocity"]), run.time)
     assert run.quantity("guides.ram.dissipated").value == pytest.approx(expected, rel=1e-2)
-
-
-def test_its_defaults_are_physical_and_said():
-    """None of the paper's values stands where the scene gives none."""
-    scene = Scene.load(SCENE)
-    said = assumed(scene)
-    assert scene.contact.damping == "hu_guo"
-    assert any(line.startswith("contact.restitution = 0.9 (") for line in said)
-    assert any(line.startswith("friction.mu_kinetic = 0.1 (") for line in said)
-    assert any(line.startswith("guide.lateral_stiffness = 1e+09") for line in said)
-    assert not any("A-11" in line or "2.55" in line for line in said)
 
 
 def test_the_rod_of_its_step_file_fits(tmp_path):

@@ -151,13 +151,6 @@ def test_clearance_joints_are_one_item_over_their_own_nodes(scene, joints):
     assert len(item["nodeNumbers"]) == len(bodies)
 
 
-def test_a_clearance_joint_replaces_its_ideal_one():
-    ideal, with_clearance = build(joints={}), build(joints={"crank_pin": "dry"})
-    revolutes = [kinds(model).count("JointRevolute2D") for model in (ideal, with_clearance)]
-    assert revolutes[0] - revolutes[1] == 1
-    assert len(objects(with_clearance)) == len(objects(ideal))
-
-
 def loads(model):
     return model.mbs.systemData.NumberOfLoads()
 
@@ -186,8 +179,3 @@ def test_bodies_have_the_coordinates_that_their_ideal_joints_leave():
     elastic = build(guide={"lateral_stiffness": 1e9})
     assert elastic.mbs.systemData.ODE2Size() == 3 + 11 * 3
     assert elastic.rigid["slider"].coordinates == ("x", "y", "angle")
-
-
-def test_to_be_told_what_is_wrong_draws_nothing():
-    modules = imported_after("import exu_press.cli.view, exu_press.cli.report")
-    assert not {name.partition(".")[0] for name in modules} & {"matplotlib", "bokeh"}

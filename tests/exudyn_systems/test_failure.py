@@ -1,7 +1,6 @@
 """What is said where a refinement does not converge."""
 
 import math
-import os
 import random
 import re
 
@@ -98,16 +97,3 @@ def test_a_run_ends_in_time():
     outcome = refused_result(double_pendulum(0.1), settings(12.0, 50_000), max_time=1.0)
     assert outcome.wall_time < 20.0
     assert "the budget" in outcome.reason
-
-
-def test_a_run_that_differs_in_the_users_own_process_is_not_believed():
-    mbs, spring, _ = oscillator()
-    users, push = os.getpid(), [0.0]
-
-    def sample(mbs, time):
-        push[0] += 1e-3 * (os.getpid() == users)
-        return mbs.SetObjectParameter(spring, "offset", push[0]) or True
-
-    mbs.SetPreStepUserFunction(sample)
-    outcome = refused_result(mbs, settings(2.0, 50))
-    assert "chaos" not in outcome.reason

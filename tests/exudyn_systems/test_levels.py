@@ -97,14 +97,6 @@ def test_the_next_run_starts_where_this_one_ends():
     assert place == pytest.approx(np.cos(20.0), abs=2e-3)
 
 
-def test_a_run_that_a_function_ends():
-    mbs, _, _sensor = oscillator()
-    mbs.SetPreStepUserFunction(lambda mbs, time: time <= 1.0)
-    outcome = solve_dynamic(mbs, settings(2.0, 100))
-    assert outcome.status is SolverStatus.COMPLETED
-    assert outcome.end_time == pytest.approx(1.0, abs=2e-3 * 2.0)
-
-
 def test_an_error_in_a_function_is_raised():
     mbs, _, _ = oscillator()
     mbs.SetPreStepUserFunction(lambda mbs, time: 1 / 0)
@@ -131,10 +123,3 @@ def test_where_no_copy_is_safe_a_function_is_asked_for(reason, monkeypatch):
     with pytest.raises(InputError, match=rf"{reason}; pass a function that builds"):
         solve_dynamic(oscillator()[0], settings(2.0, 100))
     assert solve_dynamic(lambda: oscillator()[0], settings(2.0, 100)).status.ended
-
-
-def test_threads_of_exudyn_ask_for_a_function():
-    asked = settings(2.0, 100)
-    asked.parallel.numberOfThreads = 2
-    with pytest.raises(InputError, match="numberOfThreads = 2; pass a function"):
-        solve_dynamic(oscillator()[0], asked)

@@ -76,35 +76,6 @@ def test_a_rotor_whose_steps_span_periods_does_not_deceive():
         assert np.abs(both[0][:, column] - true).max() < 1e-3 * np.abs(true).max()
 
 
-def test_a_body_in_space_turns_as_free_bodies_do():
-    """A symmetric top without moments: its axis precesses at L / I about the angular momentum."""
-    mbs = exu.SystemContainer().AddSystem()
-    inertia = items.RigidBodyInertia(mass=1.0, inertiaTensor=np.diag([2.0, 2.0, 1.0]))
-    spin = np.array([0.0, 3.0, 4.0])
-    body = mbs.CreateRigidBody(inertia=inertia, initialAngularVelocity=spin, returnDict=True)
-    sensor = mbs.AddSensor(
-        items.SensorNode(
-            nodeNumber=body["nodeNumber"],
-            storeInternal=True,
-            outputVariableType=exu.OutputVariableType.RotationMatrix,
-        )
-    )
-    mbs.Assemble()
-    outcome = solve_dynamic(mbs, settings(2.0, 100))
-    momentum = np.array([0.0, 6.0, 4.0])
-    rate, along = np.linalg.norm(momentum) / 2.0, momentum / np.linalg.norm(momentum)
-    times, axis = rows_of(mbs, sensor)[:, 0], rows_of(mbs, sensor)[:, [3, 6, 9]]
-    start = np.array([0.0, 0.0, 1.0])
-    parallel = (start @ along) * along
-    turned = (
-        parallel
-        + np.outer(np.cos(rate * times), start - parallel)
-        + np.outer(np.sin(rate * times), np.cross(along, start))
-    )
-    assert outcome.status is SolverStatus.COMPLETED
-    assert np.abs(axis - turned).max() < 2e-3
-
-
 def test_what_rounding_alone_moves_counts_for_nothing():
     """Two masses fall side by side; the place between spring and damper keeps within 1e-11."""
     mbs = exu.SystemContainer().AddSystem()

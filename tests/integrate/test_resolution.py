@@ -63,19 +63,6 @@ def test_resolved_runs_are_completed(changes):
     assert run(**changes).info["status"] == "completed"
 
 
-def test_an_impact_on_the_frame_says_which_step_resolves_it():
-    coarse = run(**{"joints": {"shaft": "dry"}, "solver.step": 1e-3})
-    assert coarse.info["status"] == "under-resolved"
-    assert re.search(r"try solver\.step = \d", coarse.info["reason"])
-
-
-@pytest.mark.parametrize("changes", [{}, {"film.viscosity": 1.0}], ids=str)
-def test_a_film_that_starts_from_rest_is_no_impact(changes):
-    """Its accelerations ring for some steps."""
-    result = run(**{"joints": {"crank_pin": "lubricated"}, "solver.step": 1e-4, **changes})
-    assert result.info["status"] == "completed", result.info["reason"]
-
-
 @pytest.mark.parametrize("rise", [1e-4, 1e-5])
 def test_a_pulse_shorter_than_the_step_is_not_resolved_either(rise):
     load = {

@@ -123,23 +123,6 @@ def test_velocities_that_a_pre_step_function_sets_stay_where_its_step_is_repeate
     assert velocity(mbs) == pytest.approx(v, abs=2e-2)
 
 
-def test_a_trajectory_is_called_for_the_end_of_every_step():
-    """A force 1 - cos(5 t) of a pre-step function is followed as one of a load is."""
-
-    def trajectory(load):
-        def set_load(mbs, time):
-            mbs.SetLoadParameter(load, "load", 1.0 - np.cos(5.0 * time))
-            return True
-
-        return set_load
-
-    mbs = free_mass(trajectory)
-    with pytest.warns(UserWarning, match="pre-step"):
-        outcome = solve_dynamic(mbs, settings(1.0), tolerance=1e-4)
-    assert outcome.status is SolverStatus.COMPLETED, outcome.reason
-    assert velocity(mbs) == pytest.approx(1.0 - np.sin(5.0) / 5.0, rel=1e-3)
-
-
 def test_velocities_that_a_post_step_function_sets_are_a_new_start():
     """A mass that a load pushes is stopped at an event; it goes on from rest."""
     mbs, stopped = free_mass(force=1.0), []

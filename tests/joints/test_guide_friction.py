@@ -74,15 +74,6 @@ def test_a_block_slides_down_a_slope_as_coulomb_says(degrees, tolerance):
     assert gained == pytest.approx(expected * (time[begun:] - time[begun]), rel=1e-4, abs=1e-4)
 
 
-@pytest.mark.parametrize("law", ["coulomb", "lugre"])
-def test_at_a_constant_side_force_and_speed_it_loses_mu_n_v(law):
-    """Where mu = tan of the slope the speed stays, and all that gravity gives is lost."""
-    slope = math.atan(0.2)
-    _container, mbs, motion, along = block(slope, LAWS[law], speed=0.5)
-    _, speed = speeds(mbs, motion, along)
-    assert speed[-1] == pytest.approx(0.5, rel=1e-3 if law == "lugre" else 1e-5)  # bristles bend
-
-
 def test_a_block_at_rest_stays_on_a_slope_with_bristles():
     """They bend by dz = (1 - sigma_0 z / g) dx until sigma_0 z = tan, and then nothing moves."""
     slope = math.radians(10.0)

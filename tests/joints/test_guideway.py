@@ -22,7 +22,7 @@ from exu_press.joints.guideway import GuidewayContact, SpatialGuidewayContact
 from exu_press.joints.interface import DryInterface
 from exu_press.joints.planar import PlanarEnd
 from exu_press.laws.contact import hertz, step_damping
-from exu_press.laws.friction import LuGre, coulomb, no_friction, stribeck
+from exu_press.laws.friction import coulomb, no_friction, stribeck
 
 MASS, LENGTH, GRAVITY, CLEARANCE, STIFFNESS = 20.0, 0.3, 9.81, 5e-5, 5e7
 
@@ -81,18 +81,6 @@ def test_below_the_angle_of_friction_it_stays_but_for_a_creep():
     completed(mbs, 0.5)
     speed = np.asarray(mbs.GetSensorStoredData(motion))[-1, 1:3] @ np.array(along)
     assert speed == pytest.approx(1e-4 * math.atanh(math.tan(slope) / mu), rel=1e-3)
-
-
-def test_with_bristles_it_stays():
-    _container, mbs, _, motion, along = block(
-        math.radians(5.0), LuGre(0.3, 0.2, 1e5, 300.0, 0.0, 0.01, 2.0)
-    )
-    completed(mbs, end=1.0)
-    data = np.asarray(mbs.GetSensorStoredData(motion))
-    late = data[:, 0] > 0.5
-    speed = data[late, 1:3] @ np.array(along)
-    assert np.abs(speed).max() < 1e-7
-    assert abs(np.trapezoid(speed, data[late, 0])) < 1e-9
 
 
 def test_a_moment_is_borne_by_opposite_corners():

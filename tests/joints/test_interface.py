@@ -5,7 +5,7 @@ import math
 import pytest
 
 from exu_press.joints.interface import DryInterface, FilmInterface
-from exu_press.laws.contact import Approach, hertz, hunt_crossley, step_damping
+from exu_press.laws.contact import hertz, hunt_crossley, step_damping
 from exu_press.laws.film import film_scale, finite, pi_film, pinkus, short, with_asperities
 from exu_press.laws.friction import LuGre, lugre_steady, no_friction
 
@@ -39,23 +39,11 @@ def force_of(interface, e, e_dot, v_t, omega_j, omega_b):
     return load and (load[:2], *interface.partials(load[4], e, omega_j, omega_b))
 
 
-def test_free_flight_costs_nothing():
-    assert force_of(dry(STEADY), 0.9 * CLEARANCE, 1.0, 1.0, 1.0, 1.0) is None
-    assert force_of(dry(BRISTLE), 0.9 * CLEARANCE, 1.0, 1.0, 1.0, 1.0) is None
-
-
 def test_contact_begins_at_the_clearance():
     assert force_of(dry(no_friction()), CLEARANCE, 0.1, 0.0, 0.0, 0.0) is None
     (f_n, f_t), _, _ = force_of(dry(no_friction()), CLEARANCE + 1e-6, 0.0, 0.3, 0.0, 0.0)
     assert f_n == pytest.approx(-2.5545e10 * 1e-6**1.5)
     assert f_t == 0.0
-
-
-def test_contact_pushes_the_journal_inwards_and_friction_against_its_sliding():
-    (f_n, f_t), _, _ = force_of(dry(STEADY), CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
-    assert f_n < 0.0
-    assert f_t < 0.0
-    assert f_t / f_n == pytest.approx(0.1 + 0.05 * math.exp(-25) + 0.5e-3)
 
 
 def test_friction_acts_on_the_sliding_of_the_two_surfaces():
@@ -150,21 +138,3 @@ def test_approach_speed_is_that_of_the_touch():
     interface.begin_step(1e-6, accepted=True)
     assert interface.approach.speed(0.02 * CLEARANCE, 0.15) == pytest.approx(touch)
     assert interface.approach.speed(-0.02 * CLEARANCE, -0.1) == -0.1
-
-
-def test_a_rebound_within_one_step_keeps_the_speed_before_it():
-    approach = Approach()
-    approach.speed(-1e-6, 0.2)
-    approach.accept()
-    assert approach.speed(1e-6, -0.1) == 0.2
-
-
-def test_reset_forgets():
-    interface = dry(BRISTLE)
-    for _ in range(2):
-        interface.begin_step(1e-3, accepted=True)
-        force_of(interface, CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
-    assert interface.bristle != 0.0
-    interface.reset()
-    interface.begin_step(1e-3, accepted=True)
-    assert interface.bristle == 0.0

@@ -14,11 +14,8 @@ from state_in import state_in
 from exu_press import (
     add_dry_revolute,
     add_dry_spherical,
-    add_lubricated_revolute,
-    solve_dynamic,
 )
 from exu_press.laws.contact import hertz, step_damping
-from exu_press.laws.film import finite, pinkus
 from exu_press.laws.friction import no_friction
 
 STIFFNESS, CLEARANCE = 2.5545e10, 1e-4
@@ -55,20 +52,3 @@ def test_penetration_at_rest(add, mass):
     assert -state.eccentricity[1] - CLEARANCE == pytest.approx(depth, rel=1e-3)
     assert abs(q_t[1]) < 1e-6, "it has come to rest"
     assert state.force[1] == pytest.approx(mass * 9.81, rel=1e-3)
-
-
-@pytest.mark.parametrize("place", [0.0, 5e-5])
-@pytest.mark.parametrize("law", [pinkus(), finite(0.7)])
-def test_a_body_in_a_film_stays_where_nothing_moves_it(law, place):
-    mbs = exu.SystemContainer().AddSystem()
-    ground = mbs.AddObject(ObjectGround())
-    body, node = planar_body(mbs, 10.0, 1.0, (place, 0.0, 0.0))
-    ends = (body, (0.0, 0.0)), (ground, (0.0, 0.0))
-    size = {"radius": 0.07, "clearance": CLEARANCE, "length": 0.1, "viscosity": 0.1}
-    add_lubricated_revolute(mbs, *ends, **size, law=law)
-    mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = 0.05
-    settings.solution.file.write = False
-    assert solve_dynamic(mbs, settings).status.value == "completed"
-    assert list(mbs.GetNodeOutput(node, exu.OutputVariableType.Coordinates)) == [0.0, 0.0, 0.0]

@@ -31,15 +31,6 @@ def test_a_dent_that_is_too_narrow_is_spread_until_the_journal_can_follow():
     assert profile(np.arange(72) * np.pi / 36, dent).sharpest < -5e-5
 
 
-def test_the_shape_that_a_pin_bores_stays():
-    """A pin that sank in by 30 um: its centre has one place there, and the smooth shape a few."""
-    angle = 2.0 * np.pi * np.arange(72) / 72
-    crescent = np.maximum(0.0, 8e-5 * np.cos(angle) - 5e-5)
-    smooth = accessible_depths(crescent, 5e-5)
-    assert np.abs(smooth - crescent).max() < 0.25 * crescent.max()
-    assert smooth.mean() == pytest.approx(crescent.mean(), rel=0.02)
-
-
 @pytest.mark.parametrize(("overlap", "parts"), [(2e-5, 1), (2e-5, 20), (1e-8, 1)])
 def test_a_pin_that_turns_under_a_steady_load_bores_a_dent_of_its_own_curvature(overlap, parts):
     """Closed form: w = e cos - c, the pin's own wear even, and both volumes Archard's."""

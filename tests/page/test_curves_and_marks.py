@@ -9,8 +9,7 @@ import pytest
 
 from exu_press.page.blocks import Blocks
 from exu_press.page.curves import PEAKS, curves_of
-from exu_press.page.marks import dead_centres, impacts, peaks, values_on
-from exu_press.page.scenery import scenery
+from exu_press.page.marks import impacts, peaks, values_on
 from exu_press.quantities.catalogue import find_quantity
 
 
@@ -61,29 +60,6 @@ def test_impacts_are_those_that_are_counted(press):
         largest = max(one["force"] for one in mine)
         assert largest == pytest.approx(press.quantity(f"joints.{name}.peak_force").value)
     assert all(one["from"] <= one["peak"] <= one["to"] for one in found)
-
-
-def test_dead_centres_of_two_revolutions(press):
-    found = dead_centres(press)
-    assert [one["kind"] for one in found] == ["TDC", "BDC", "TDC", "BDC", "TDC"]
-    angles = np.degrees(np.interp([one["at"] for one in found], press.time, press["crank_angle"]))
-    assert angles[::2] == pytest.approx([0.0, 360.0, 720.0], abs=1e-6)
-    assert angles[1::2] == pytest.approx([180.0, 540.0], abs=10.0)
-
-
-def test_joints_are_drawn_where_they_are(press):
-    """A joint's place in its body, at the pose of the first step, is where its bearing is."""
-    drawn = scenery(press)
-    for joint in drawn["joints"]:
-        if joint["name"] == "shaft":
-            x, y, angle = press["body_position"][0, joint["body"]]
-            px, py = joint["at"]
-            c, s = np.cos(angle), np.sin(angle)
-            place = np.array([x + c * px - s * py, y + s * px + c * py])
-            assert min(np.linalg.norm(place - pivot) for pivot in drawn["pivots"]) < 1e-4
-            break
-    else:
-        pytest.fail("no shaft")
 
 
 def test_a_block_is_unpacked_as_the_script_does():

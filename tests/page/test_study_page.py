@@ -1,7 +1,5 @@
 """A study's page: one run opens in the picture, over the keys and in the table."""
 
-import re
-
 import numpy as np
 import pytest
 from browser import opened
@@ -91,17 +89,3 @@ def test_a_range_on_an_axis_keeps_the_runs_in_it(study, browser):
         assert sorted(y) == [4.0, 12.0]  # from 0.2 of 1 to 12 on: 3.2
         shown.click("#clear")
         assert len(shown.evaluate(SOURCE, "points-runs")[1]) == 5
-
-
-@pytest.mark.long
-def test_it_fits_a_phone(study, browser):
-    with opened(browser, study, 390, 844) as shown:
-        scroll, width = shown.evaluate(
-            "() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
-        )
-        assert scroll <= width
-
-
-def test_the_page_names_what_it_holds(study):
-    text = study.read_text(encoding="utf-8")
-    assert re.search(r"clearance, m", text) and "<img src=x" not in text

@@ -34,16 +34,6 @@ def test_a_way_there_and_back_keeps_the_extremes_of_both():
     assert {0, 12_345, 42_000, x.size - 1} <= set(kept) and kept.size <= 400
 
 
-@pytest.mark.parametrize("count", [1, 2, 400])
-def test_a_short_record_is_kept_whole(count):
-    x = np.linspace(0.0, 1.0, count)
-    assert np.array_equal(decimate(x, x**2, bins=100), np.arange(count))
-
-
-def test_points_at_one_place_do_not_divide_by_zero():
-    assert decimate(np.zeros(100), np.arange(100.0), bins=5).size >= 2
-
-
 def test_a_path_keeps_its_shape_and_its_last_turn():
     angle = np.linspace(0.0, 20 * np.pi, 100_001)
     points = np.column_stack([np.cos(angle), np.sin(angle)])
@@ -55,8 +45,3 @@ def test_a_path_keeps_its_shape_and_its_last_turn():
     assert np.all(np.diff(segments[:, 0]) > 0)
     assert segments[-1, 1] > 99_900
     assert np.ptp(drawn[..., 0]) > 1.98
-
-
-@pytest.mark.parametrize("points", [np.zeros((1, 2)), np.zeros((5, 2))])
-def test_a_path_that_stays_has_no_segments(points):
-    assert visible_segments(points, 1.0).shape == (0, 2)

@@ -47,11 +47,6 @@ def test_peaks_have_error_bars_and_say_how_large(told, results):
     assert any("±" in note for note in notes(press_figure(told)))
 
 
-def test_without_errors_nothing_is_said(results):
-    assert bars(slider_figure({"": results["dry"]})) == 0
-    assert not any("±" in note for note in notes(force_figure({"": results["dry"]})))
-
-
 def test_a_table_and_a_note_tell_the_summary_s_figures_not_those_of_the_start():
     scene = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "start": "centred"}
     run = simulate(Scene.from_dict({**scene, "revolutions": 0.3, "settle": 0.25}))

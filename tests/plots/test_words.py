@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from exu_press import Scene
 from exu_press.plots.typesetting import plain
-from exu_press.plots.words import ONE_LINE, SEPARATOR, describe, early_stops
+from exu_press.plots.words import describe, early_stops
 
 
 def test_a_scene_in_words():
@@ -24,12 +24,6 @@ def test_a_scene_in_words():
         "blanking force 10 kN",
     ):
         assert part in words
-
-
-def test_joints_alike_are_named_together_once():
-    words = describe([Scene(joints={"crank_pin": "dry", "balls": "dry"})])
-    assert "crank_pin, balls dry".replace("_", " ") in words
-    assert words.count("clearance") == 1
 
 
 def test_scenes_share_what_they_have_in_common():
@@ -63,8 +57,3 @@ def test_no_text_is_a_formula(text):
         return np.asarray(figure.canvas.buffer_rgba())
 
     assert np.array_equal(drawn(plain(text)), drawn(text, parse_math=False))
-
-
-def test_words_in_one_line_keep_every_separator():
-    scenes = [Scene(joints={"knuckles": "dry"}), Scene(joints={"pivots": "dry", "balls": "dry"})]
-    assert describe(scenes, ONE_LINE) == SEPARATOR.join(describe(scenes, 1).splitlines())

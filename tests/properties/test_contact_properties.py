@@ -177,15 +177,3 @@ def test_a_bristle_makes_no_energy(friction, history):
         assert work - stored >= -1e-9 * size
         assert mu * v - friction.stored_power(v, following) >= -1e-12 * abs(mu * v)
         z, v_start = following, v
-
-
-@settings(max_examples=300, deadline=None)
-@given(passive_bristles, signed_speeds, logarithmic(1e-8, 1e-2), st.floats(-1.0, 1.0), st.data())
-def test_after_a_reversal_within_a_step_friction_is_against_the_motion(friction, v, h, bent, data):
-    """Unless the way back is as short as a bristle bends."""
-    v_start = -v * data.draw(logarithmic(1e-3, 1e3))
-    z = bent * friction.mu_static / friction.sigma_0
-    back = 0.5 * h * v * v / abs(v - v_start)
-    mu, _, _ = friction.advance(v, z, h, v_start)
-    if back > friction.mu_static / friction.sigma_0:
-        assert mu * v > 0.0

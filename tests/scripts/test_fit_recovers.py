@@ -6,18 +6,6 @@ import pytest
 
 from fit_recovers import main
 from recovery.cases import CASES
-from recovery.study import recover
-
-
-@pytest.mark.long
-def test_a_measurement_of_the_lubricated_press(tmp_path):
-    found = recover("lubricated press", tmp_path, measurements=1, workers=2)
-    for report in found.reports:
-        assert report.chi_square < 20.0
-        for key, true in found.truth.items():
-            low, high = report.low[key], report.high[key]
-            assert low - (high - low) < true < high + (high - low)
-            assert report.values[key] == pytest.approx(true, rel=0.25)
 
 
 @pytest.mark.long

@@ -6,7 +6,6 @@ import re
 import pytest
 from running import process, run
 
-from paper.inverse import CAP, distance
 from paper.open_keys import OURS, as_read
 from paper.published import published
 from paper.runs import DAMPINGS, paper_runs
@@ -55,21 +54,6 @@ def test_it_goes_on_where_it_was_stopped(directory):
     pictures = {path.stem for path in directory.glob("*.png")}
     assert {"numbers", "sweeps", "clearance", "c_max_2.5545e8_no_load_orbit_dry"} <= pictures
     assert len(pictures) == 3 + 3
-
-
-@pytest.mark.long
-def test_section_5_inverted(tmp_path):
-    printed = run("paper.py", tmp_path, "--fit", "--trials", "8", "--out", ".")
-    report = json.loads((tmp_path / "inverse.json").read_text())
-    ours = [number for number in published().numbers if not number.reference]
-    assert len(report["table"]) == len(ours) + 1
-    assert len(report["trials"]) == 10
-    best, tried = report["best"][1], [ratios for _, ratios in report["trials"] if ratios]
-    assert distance(best, CAP) <= min(distance(ratios, CAP) for ratios in tried)
-    verdicts = {row[-1].partition(":")[0] for row in report["table"][1:]}
-    known = {"agrees", "agrees with the recommended reading", "agrees with another reading"}
-    assert verdicts <= known | {"no reading reaches it"}
-    assert "the numbers cannot tell" in printed
 
 
 def test_our_reading_is_what_the_scenes_have():

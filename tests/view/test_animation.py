@@ -45,15 +45,6 @@ def test_a_body_that_leaves_the_picture_is_named_at_its_edge(runs, animation):
     assert all(abs(text.get_position()[1]) < 1e3 for text in axes.texts)
 
 
-def test_frames_differ_where_something_moves_alone(runs, animation):
-    picture = animation(runs["press"], instants(runs["press"], frames=5))
-    painter = Painter(picture, 50.0)
-    first, later, again = (np.asarray(painter.paint(frame)) for frame in (0, 4, 0))
-    changed = (first != later).any(axis=2)
-    assert 0.005 < changed.mean() < 0.3
-    assert np.array_equal(again, first)
-
-
 def test_an_animation_says_how_slow_it_is_and_a_picture_does_not(runs, animation):
     def words(result, shown):
         return " ".join(text.get_text() for text in visible_texts(animation(result, shown).figure))

@@ -48,13 +48,6 @@ def test_colours_reach_the_largest_value_of_the_animation(runs, animation, colou
     assert bar.get_xlim() == pytest.approx((0.0, largest))
 
 
-def test_only_what_faces_the_eye_is_drawn(runs, animation):
-    picture = animation(runs["flexible"], instants(runs["flexible"], frames=3))
-    drawn = len(panel_of(picture)._drawn.get_paths())
-    triangles = sum(len(s.triangles) for s in runs["flexible"].surfaces.values())
-    assert 0.3 * triangles < drawn < 0.6 * triangles
-
-
 @pytest.mark.parametrize(
     ("look", "message"),
     [

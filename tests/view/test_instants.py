@@ -20,20 +20,6 @@ def test_every_step_is_seen_exactly_once(runs):
     assert steps == list(range(len(time)))
 
 
-def test_more_frames_than_steps(runs):
-    time = runs["ideal"].time
-    shown = instants(runs["ideal"], frames=4 * len(time))
-    for frame, at in enumerate(shown.time):
-        assert time[shown.step[frame]] <= at * (1 + 1e-9)
-        since = shown.steps_since_last(frame)
-        assert since.stop - since.start >= 1
-
-
-def test_part_of_a_run(runs):
-    shown = instants(runs["press"], 0.01, 0.02, slow=100.0, fps=10.0)
-    assert (shown.time[0], shown.time[-1], len(shown)) == (0.01, 0.02, 11)
-
-
 def test_a_picture_holds_its_instant_alone(runs):
     shown = moment(runs["press"], 0.03)
     since = shown.steps_since_last(1)

@@ -1,10 +1,6 @@
-from itertools import pairwise
-
 import numpy as np
 import pytest
-from matplotlib.text import Text
 
-from exu_press import Scene, simulate
 from exu_press.mechanism import GROUND
 from exu_press.mechanism.shapes import transform_points
 from exu_press.scene import mechanism_of
@@ -85,21 +81,6 @@ def test_no_impact_is_lost_between_frames(runs, animation):
         lengths.append(float(np.linalg.norm(np.subtract(tip, tail))))
     assert any(f"F = {peak / 1e3:.3g} kN" in text for text in texts)
     assert max(lengths) == pytest.approx(0.9, rel=1e-6)
-
-
-@pytest.mark.parametrize("mechanism", ["andrews_squeezer", "six_bar", "press"])
-def test_names_of_bodies_stand_clear_of_each_other(mechanism, animation):
-    result = simulate(Scene(mechanism=mechanism, joints={}, revolutions=0.01))
-    figure = animation(result, instants(result, frames=2)).figure
-    figure.draw_without_rendering()
-    names = {
-        body.name.removesuffix("_right").replace("_", " ")
-        for body in mechanism_of(result.scene).bodies
-    }
-    texts = [text for text in figure.findobj(Text) if text.get_text() in names]
-    assert len(texts) == len([name for name in names if not name.endswith("left")])
-    boxes = sorted((box.y0, box.y1) for box in (Text.get_window_extent(text) for text in texts))
-    assert all(top <= bottom for (_, top), (bottom, _) in pairwise(boxes))
 
 
 def test_the_arrow_points_along_the_force(runs, animation):

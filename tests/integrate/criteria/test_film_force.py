@@ -71,14 +71,6 @@ def test_a_force_that_rings_from_step_to_step_is_taken():
     assert film.error(1e-4) == 0.0
 
 
-def test_stiff_films_take_no_more_steps():
-    """Films that are nearly ideal joints ring with the method at the start."""
-    film = {"kind": "lubricated", "clearance": 1e-5}
-    joints = {"shaft": film, "pivots": film}
-    run = simulate(Scene(joints=joints, revolutions=0.02, solver={"tolerance": 1e-4}))
-    assert run.info["steps"] < 600  # without looking at turning forces: 266
-
-
 @pytest.mark.parametrize(("joint", "most"), [("crank_pin", 1.0), ("wrist_pin", 2.0)])
 def test_a_film_that_turns_with_its_load_takes_no_more_steps(joint, most, monkeypatch):
     """A wrist pin's load is reversed twice a revolution; these passages are resolved."""

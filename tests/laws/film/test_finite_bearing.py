@@ -175,11 +175,3 @@ def test_long_bearing_tendency(eps, speeds):
     share = [math.hypot(*finite(ratio)(eps, *speeds)[:2]) / long for ratio in (0.5, 1, 2, 4)]
     assert share == sorted(share)
     assert share[-1] == pytest.approx(1.0, abs=0.2)
-
-
-@pytest.mark.parametrize("eps_dot", [-1.0, -0.01, 0.01, 1.0])
-def test_goes_on_smoothly_beyond_the_last_knot(eps_dot):
-    law, last = finite(1.0), 0.9997
-    inside, outside = law(last - 1e-9, eps_dot, 1.0), law(last + 1e-9, eps_dot, 1.0)
-    assert inside == pytest.approx(outside, rel=1e-3)
-    assert all(map(math.isfinite, law(1.0 - 1e-12, eps_dot, 1.0)))

@@ -11,18 +11,6 @@ def around(value, error):
     return Value(value, value - error, value + error)
 
 
-def test_in_words():
-    assert around(54.02, 0.31).text() == "54.02 +- 0.31"
-    assert around(0.18, 1e-9).text(1e3) == "180.00 +- 0.18"  # no more digits than anyone needs
-    assert Value(500.0, 430.0, 900.0, False).text() == "430 to 900"
-    assert Value(0.0, 0.0, 0.0).text() == "0 exact"
-
-
-def test_figures_differ_where_their_bounds_do_not_meet():
-    assert around(1.0, 0.1).apart(around(1.3, 0.1))
-    assert not around(1.0, 0.1).apart(around(1.15, 0.1))
-
-
 def test_a_product_is_between_the_products_of_the_bounds():
     found = product(around(2.0, 0.1), Value(3.0, 2.0, 5.0, False), power=2.0)
     assert (found.value, found.low, found.high) == pytest.approx((18.0, 1.9 * 4.0, 2.1 * 25.0))

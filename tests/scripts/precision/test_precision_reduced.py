@@ -39,20 +39,6 @@ def test_rates_equal_those_of_the_independent_model(pin):
         assert rate(1e-5, *x.tolist()) == pytest.approx(other.rate(1e-5, x.tolist()), rel=1e-9)
 
 
-@pytest.mark.parametrize("angle", [0.0, 40.0, 200.0, -90.0])
-def test_the_start_is_the_ideal_mechanism(angle):
-    turned = scene("dry", start_angle_deg=angle)
-    model = turned.build()
-    position, velocity, _ = model.mechanism.ideal_slider(
-        np.array([turned.start_angle]), turned.angular_speed
-    )
-    _, y, _, y_t = start_of(numbers_of(turned))
-    assert (y, y_t) == pytest.approx((position[0], velocity[0]), abs=1e-12)
-    _, pin = rate_of(turned)
-    *_, e_x, e_y = pin(0.0, *start_of(numbers_of(turned)))
-    assert (e_x, e_y) == pytest.approx((0.0, 0.0), abs=1e-15)
-
-
 @pytest.mark.skipif(not has_numba(), reason="numba is not installed")
 def test_compiled_is_the_same():
     dry = scene("dry")

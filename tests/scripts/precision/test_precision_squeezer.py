@@ -42,10 +42,3 @@ def test_the_error_follows_the_tolerance():
     assert errors[-1] < 0.1 * errors[0]
     for attempt, error in zip(attempts[1:], errors[1:], strict=True):
         assert error < 30.0 * attempt.value, "rad, of 15.8"
-
-
-@pytest.mark.long
-def test_steps_that_change_do_not_ring():
-    """Each repeated step that is none of the motion's own would cost a try and bring the next."""
-    run = squeezer_attempts((), (1e-5,))[0].run()
-    assert run.rejected_steps < 0.02 * run.steps

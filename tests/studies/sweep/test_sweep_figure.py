@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.plots.sweep_words import in_unit
 from exu_press.studies.sweep import Sweep
 from exu_press.studies.sweep.figure import axes_of, sweep_figure, sweep_picture
 from exu_press.studies.sweep.report import report_of
@@ -83,16 +82,6 @@ def test_a_grid_of_many_is_a_map():
     np.testing.assert_allclose(mesh.get_array().reshape(8, 3)[:, 0], np.array(CLEARANCES) / 2 * 1e6)
 
 
-def test_a_sample_is_points():
-    some = table(
-        keys={"speed_rpm": {"low": 200.0, "high": 400.0}},
-        sweep={"way": "sample", "n": 9, "seed": 1},
-    )
-    (panel, *_) = panels(sweep_figure(some, ["speed_rpm"], SHOWN))
-    (line,) = panel.lines
-    assert line.get_linestyle() == "None" and len(line.get_xdata()) == 9
-
-
 def test_runs_without_numbers_are_crosses():
     some = table(missing=[1], keys={"speed_rpm": SPEEDS})
     (panel, *_) = panels(sweep_figure(some, ["speed_rpm"], SHOWN))
@@ -116,20 +105,3 @@ def test_what_is_drawn_over_what():
 def test_nothing_to_draw_is_no_picture(tmp_path):
     assert sweep_picture(table(keys={"mechanism": ["press"]})) is None
     assert sweep_picture(table(missing=[0, 1, 2], keys={"speed_rpm": SPEEDS})) is None
-
-
-@pytest.mark.parametrize(
-    ("values", "unit"),
-    [
-        ([0.5, 0.47], "mm"),
-        ([1.0], "m"),
-        ([3e-7], "nm"),
-        ([0.0], "m"),
-        ([999.0], "m"),
-        ([1e3], "km"),
-    ],
-)
-def test_units_that_read_well(values, unit):
-    numbers, found = in_unit("bottom_dead_centre", np.array(values))
-    assert found == unit
-    assert np.max(np.abs(numbers)) < 1000.0

@@ -1,0 +1,158 @@
+"""Pictures of runs: panels with units, and values that are those of the run."""
+
+import numpy as np
+import pytest
+
+from exu_press import Scene, simulate
+from exu_press.errors import InputError
+from exu_press.plots import energy_figure, force_figure, orbit_figure, press_figure, slider_figure
+from exu_press.plots.slider import sliding_mean
+
+PATHS = [
+    *("Crank pin", "Crank pin: eccentricity"),
+    *("Ball, each side", "Ball, each side: height in its socket"),
+]
+PINS = ["Crank pin", "Ball, each side", "Pivot, each side"]
+GUIDES = ["Shaking force", "Power of the drive", "Guides"]
+
+
+def titled(figure):
+    return {axes.get_title("left"): axes for axes in figure.axes if axes.get_title("left")}
+
+
+def legend(axes):
+    return [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+@pytest.mark.parametrize(
+    ("draw", "label", "titles", "unit"),
+    [
+        (energy_figure, "dry", ["Balance", "Dissipated in", "Residual"], "J"),
+        (energy_figure, "ideal", ["Balance", "Residual"], "J"),
+        (press_figure, "ideal", GUIDES, ("kN", "kW")),
+        (press_figure, "stopped at once", GUIDES, ("kN", "kW")),
+        (orbit_figure, "dry", PATHS, ", µm"),
+    ],
+)
+def test_panels_and_their_units(results, draw, label, titles, unit):
+    panels = titled(draw(results[label]))
+    assert list(panels) == titles
+    assert all(axes.get_ylabel().endswith(unit) for axes in panels.values())
+
+
+@pytest.mark.parametrize(
+    ("label", "titles"),
+    [("lubricated", PINS), ("slider_crank", ["Crank pin", "Wrist pin", "Guide"])],
+)
+def test_forces_of_joints_and_the_drive(results, label, titles):
+    figure = force_figure({label: results[label]})
+    assert list(titled(figure)) == [*titles, "Drive torque"]
+    assert [axes.get_ylabel() for axes in figure.axes] == ["force, kN"] * 3 + ["torque, N m"]
+    assert not figure.legends
+
+
+def test_runs_beside_each_other_have_a_legend(results):
+    figure = force_figure({name: results[name] for name in ("ideal", "dry", "lubricated")})
+    (names,) = figure.legends
+    assert [text.get_text() for text in names.get_texts()] == ["ideal", "dry", "lubricated"]
+
+
+def test_sides_that_differ_are_both_shown(results):
+    result = results["dry"]
+    uneven = result.with_values({"ball_left_force": 1.5 * result["ball_left_force"]})
+    assert {"Ball, left", "Ball, right"} <= set(titled(force_figure({"run": uneven})))
+
+
+@pytest.mark.parametrize("label", ["lubricated", "slider_crank", "stopped"])
+def test_motion_of_the_slider(results, label):
+    figure = slider_figure({label: results[label]})
+    units = [axes.get_ylabel().partition(", ")[2] for axes in figure.axes]
+    assert units == ["mm", "µm", "m/s", "mm/s", "m/s²", "m/s²"]
+    assert figure.axes[-1].get_xlabel().endswith("deg")
+    assert ("stopped early" in figure.get_suptitle()) == label.startswith("stopped")
+
+
+@pytest.mark.parametrize(("label", "low", "high"), [("dry", 50.0, 300.0), ("ideal", 0.0, 1e-3)])
+def test_the_deviation_is_what_the_clearance_allows(results, label, low, high):
+    """In um, of twice 100 um and penetration."""
+    axes = slider_figure({label: results[label]}).axes[1]
+    assert low <= np.abs(axes.lines[0].get_ydata()).max() < high
+    assert label == "dry" or axes.get_ylim() == (-1.0, 1.0)
+
+
+def test_averaging_keeps_the_change_of_velocity():
+    time = np.linspace(0.0, 0.01, 1001)
+    mean = sliding_mean(time, np.where(time > 0.005, 0.04, 0.0))
+    assert mean.max() == pytest.approx(40.0, rel=1e-9)  # 0.04 m/s in 1 ms
+    assert np.count_nonzero(mean > 1.0) == pytest.approx(101, abs=2)
+    assert np.all(np.isfinite(sliding_mean(np.zeros(1), np.zeros(1))))
+
+
+def test_a_crank_that_falls_back_is_in_the_picture(results):
+    run = results["stopped"]
+    figure = slider_figure({"": run.with_values({"crank_angle": 1.0 - run["crank_angle"]})})
+    for axes in figure.axes:
+        (low, high), drawn = axes.get_xlim(), axes.lines[0].get_xdata()
+        assert low <= drawn.min() < drawn.max() <= high
+
+
+def test_a_circle_is_round_and_a_large_path_is_whole(results):
+    path = titled(orbit_figure(results["dry"]))["Crank pin"]
+    reach = 1e6 * np.linalg.norm(results["dry"]["crank_pin_eccentricity"], axis=1).max()
+    assert path.get_aspect() == 1.0
+    assert path.get_xlim()[1] > reach > 100.0
+    assert not path.child_axes
+
+
+def test_a_small_path_is_magnified_beside_the_whole_circle(results):
+    path = titled(orbit_figure(results["lubricated"]))["Crank pin"]
+    assert path.get_xlim()[1] < 50.0  # um, of 100
+    (inset,) = path.child_axes
+    assert inset.get_xlim()[1] > 100.0
+
+
+def test_ideal_joints_have_no_paths(results):
+    with pytest.raises(InputError, match="no joint with clearance"):
+        orbit_figure(results["ideal"])
+
+
+def test_what_dissipates_is_named(results):
+    assert legend(titled(energy_figure(results["dry"]))["Dissipated in"]) == [
+        "crank pin",
+        "ball, each side",
+    ]
+
+
+def test_shaking_force_is_drawn_as_its_mean_over_a_millisecond(results):
+    """Without impacts that is the force itself, in kN."""
+    result = results["ideal"]
+    line = titled(press_figure(result))["Shaking force"].lines[0]
+    angle = np.degrees(result["crank_angle"])
+    force = np.interp(line.get_xdata(), angle, result["shaking_force"][:, 1])
+    middle = slice(20, -20)
+    assert line.get_ydata()[middle] == pytest.approx(1e-3 * force[middle], abs=0.1)
+
+
+def test_elastic_guides_show_tilt_and_the_stroke(results):
+    result = results["elastic"]
+    panels = titled(press_figure(result))
+    others = ["Bottom dead centre", "Slider tilt", "Slider sideways", "Loads"]
+    assert list(panels) == [*GUIDES, *others]
+    assert "µrad" in panels["Slider tilt"].get_ylabel()
+    tilts = [stroke["tilt"] for stroke in result.summary()["strokes"]]
+    (dot,) = (line for line in panels["Slider tilt"].lines if line.get_marker() == "o")
+    assert dot.get_ydata() == pytest.approx(1e6 * np.array(tilts))
+    mean = f"mm: {1e3 * result.quantity('strokes.mean').value:.6g}"
+    assert mean in panels["Bottom dead centre"].get_title("right")
+
+
+def test_a_motors_speed_and_loads_have_panels_and_a_rocker_no_dead_centre():
+    drive = {"rated_torque": 400.0, "inertia": 50.0}
+    load = {"die": {"kind": "table", "time": [0.0, 0.1], "force": [0.0, 2e3]}}
+    keys = {"joints": {}, "drive": drive, "load": load, "revolutions": 1.1}
+    panels = titled(press_figure(simulate(Scene(mechanism="four_bar", **keys))))
+    assert list(panels) == [*GUIDES, "Crank speed", "Loads"]
+    assert panels["Crank speed"].get_ylabel() == "rpm"
+    assert np.ptp(panels["Crank speed"].lines[0].get_ydata()) > 0.0
+    labels = [text.get_text() for text in panels["Loads"].get_xticklabels()]
+    assert labels and not any("DC" in label for label in labels)

@@ -28,7 +28,7 @@ def unit_of(name: str) -> str:
 
 
 def shown_unit(
-    name: str, values: Iterable[float] = (), other: str | None = None
+    name: str, values: Iterable[float] = (), default: str | None = None
 ) -> tuple[str, float]:
     """Return the unit in which tables show a scene's key or a quantity, and the factor from SI.
 
@@ -38,10 +38,10 @@ def shown_unit(
     Args:
         name: of the key or the quantity.
         values: SI, which are small in a small machine.
-        other: unit of a name that is no quantity, where it is no key either.
+        default: unit of a name that is no quantity, where it is no key either.
     """
     if (placed := find_quantity(name)) is None:
-        return unit_of(name) if other is None else other, 1.0
+        return unit_of(name) if default is None else default, 1.0
     quantity = placed.quantity.in_scaled_unit(values)
     return quantity.display_unit, quantity.scale
 
@@ -86,5 +86,5 @@ def _metadata(name: str) -> Mapping[str, Any] | None:
     elif table and table not in TABLES:
         return None
     fields = {field.name: field for field in dataclasses.fields(kind)}
-    found = fields.get(inner)
-    return found.metadata if found is not None and "meaning" in found.metadata else None
+    field = fields.get(inner)
+    return field.metadata if field is not None and "meaning" in field.metadata else None

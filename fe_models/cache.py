@@ -80,7 +80,10 @@ def reduced_part(
         with TemporaryFolder() as spare:
             arguments = part, reduction, file, spare / file.name
             here = f"{__name__}:{reduce_here.__name__}"
-            stored = load(part.geometry.in_child(here, *arguments, report=report))
+            written, reason = part.geometry.in_child(here, *arguments, report=report)
+            stored = load(written)
+        if reason:
+            _warn_of_cache(file, reason, part)
         if stored is None:
             raise InputError(f"{file}: was changed by another program while it was written")
         return stored
@@ -88,18 +91,14 @@ def reduced_part(
     try:
         save(reduced, file)
     except OSError as error:  # a cache is a help, not a need
-        warnings.warn(
-            f"{file}: cannot be written ({error.strerror}); {part.name} is reduced again whenever "
-            "it is needed",
-            stacklevel=2,
-        )
+        _warn_of_cache(file, str(error.strerror), part)
     return reduced
 
 
 def reduce_here(
     part: Part, reduction: Reduction, file: Path, spare: Path, report: Report | None = None
-) -> Path:
-    """Read, mesh and reduce a STEP file's part in this process, a child; return the file it is in.
+) -> tuple[Path, str]:
+    """Read, mesh and reduce a STEP file's part in this process, a child.
 
     Args:
         part: to be reduced.
@@ -107,15 +106,26 @@ def reduce_here(
         file: in the cache, where the reduced part goes.
         spare: the same in a temporary folder, for a cache that cannot be written.
         report: called with (what is being done, share done).
+
+    Returns:
+        the file it is in; why that is not the cache's, or nothing.
     """
     assert isinstance(part.geometry, StepFile)
     reduced = reduce_part(part.replace(geometry=OpenedStepFile(part.geometry)), reduction, report)
     try:
         save(reduced, file)
-    except OSError:  # a cache is a help, not a need
+    except OSError as error:  # a cache is a help, not a need
         save(reduced, spare)
-        return spare
-    return file
+        return spare, str(error.strerror)
+    return file, ""
+
+
+def _warn_of_cache(file: Path, reason: str, part: Part) -> None:
+    """Warn of a cache's file that cannot be written, as on a full disk."""
+    warnings.warn(
+        f"{file}: cannot be written ({reason}); {part.name} is reduced again whenever it is needed",
+        stacklevel=3,
+    )
 
 
 def default_folder() -> Path:

@@ -12,8 +12,7 @@ from exu_press.errors import InputError
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import output_directory
 from exu_press.studies.stability import stability
-from exu_press.studies.stability.run import Extremes
-from stability.cases import Campaign
+from stability.cases import Campaign, QuickCampaign
 
 
 def parser() -> argparse.ArgumentParser:
@@ -39,7 +38,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the cases, going on where DIR was left; 0, 1 if one is wrong, 2 for wrong input."""
     options = parser().parse_args(arguments)
     try:
-        study = Campaign.of(Extremes(axes=tuple(options.axis)), quick=options.quick)
+        campaign = QuickCampaign if options.quick else Campaign
+        study = campaign.along(tuple(options.axis))
         with lock_directory(output_directory(options.out)) as directory:
             report = stability(study, directory, workers=options.workers, quiet=options.quiet)
             return show_report(report, directory, options)

@@ -21,6 +21,7 @@ from exu_press.files.lock import lock_directory, remove_unused
 from exu_press.files.output_directory import FORMATS, output_directory
 from exu_press.studies.base.command import SceneCommand, StudyCommand
 from exu_press.studies.base.report import Report
+from exu_press.studies.base.study import Study
 
 __all__ = ["Command", "command_of", "show_report"]
 
@@ -47,7 +48,7 @@ def command_of(study: type[StudyCommand]) -> Command:
 
     def add_arguments(parser: argparse.ArgumentParser) -> None:
         """Add the command's arguments."""
-        if study.of_scene:
+        if issubclass(study, SceneCommand):
             add_scene_arguments(parser)
         else:
             add_study_arguments(parser)
@@ -64,7 +65,8 @@ def _execute(command: type[StudyCommand], options: argparse.Namespace) -> int:
     check_format(options)
     if issubclass(command, SceneCommand):
         _refuse_replaced(command, options)
-        study, file = command.study_of(scene_of(options), options), options.scene
+        study: Study = command.study_of(scene_of(options), options)
+        file = options.scene
     else:
         study, file = command.load(options), options.study
     target = directory_of(options, file)

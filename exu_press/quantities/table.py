@@ -152,6 +152,8 @@ def difference_lines(results: Mapping[str, Result]) -> list[str]:
             continue
         if unknown:
             statement = f"{unknown[0]} has no errors, so that no difference is sure"
+        elif all(error == stated[1].get(label, error) for label, error in stated[0].items()):
+            statement = "no figure differs"
         else:
             unsure = list(_unsure(*stated))
             statement = "all differences exceed their errors"

@@ -13,9 +13,9 @@ from typing import Any, Self
 from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.scene import Film, Scene, flexible_press
 from exu_press.studies.stability.cases import PAIRS, Case
-from exu_press.studies.stability.run import Extremes, StabilityStudy
+from exu_press.studies.stability.run import StabilityStudy
 
-__all__ = ["Campaign", "cases", "quick_cases"]
+__all__ = ["Campaign", "QuickCampaign", "cases", "quick_cases"]
 
 Changes = Mapping[str, Any]
 
@@ -60,14 +60,20 @@ class Campaign(StabilityStudy):
     """The cases of this table, in the place of a scene's extremes."""
 
     @classmethod
-    def of(cls, axes: Extremes, *, quick: bool = False) -> Self:
-        """Return the campaign along some axes, or its quick sample."""
-        return cls(_base("press"), stability=axes, quick=quick)
+    def along(cls, axes: tuple[str, ...]) -> Self:
+        """Return the campaign along some axes."""
+        return cls(_base("press"), key=axes)
 
     @property
     def cases(self) -> tuple[Case, ...]:
         """The cases along the axes."""
         return self.along_axes(quick_cases() if self.quick else cases(), "--axis")
+
+
+class QuickCampaign(Campaign):
+    """The fixed sample of it."""
+
+    quick = True
 
 
 @cache

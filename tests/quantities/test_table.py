@@ -82,6 +82,11 @@ def test_only_what_errors_leave_open_is_named(bare):
     assert "peak_velocity" in line and "stroke" not in line
 
 
+def test_a_run_beside_itself_does_not_differ(bare):
+    same = {"stroke": stated(1.0, 1.1)}
+    assert difference_lines(runs(bare, dry=same, again=same)) == ["dry, again: no figure differs"]
+
+
 def test_nothing_is_said_without_errors(bare):
     assert difference_lines({"dry": bare, "oil": bare}) == []
 

@@ -1,53 +1,29 @@
 """Analyse the motion in the long run: period, Lyapunov exponent, figures by revolution."""
 
-import argparse
 import dataclasses
-from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from exu_press.scene import Scene
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import key
 from exu_press.studies.attractor.period import MOST
 from exu_press.studies.attractor.report import AttractorReport
 from exu_press.studies.attractor.study import attractor
-from exu_press.studies.base import Study
-from exu_press.studies.base.command import SceneCommand
-from exu_press.studies.base.keys import Key
+from exu_press.studies.base.command import SceneCommand, SceneStudy, list_of_texts
 
-__all__ = ["AttractorCommand", "AttractorStudy", "Revolutions"]
+__all__ = ["AttractorCommand", "AttractorStudy"]
 
 
 @dataclasses.dataclass(frozen=True)
-class Revolutions(Table):
-    """How long the run is, and what of it is read.
+class AttractorStudy(SceneStudy):
+    """The long run of one scene."""
 
-    Attributes:
-        quantities: full names, and channels; the headline ones where there are none.
-    """
-
-    table = "attractor"
-
-    revolutions: int = key(100, "after the transient")
+    revolutions: int = key(100, "after the transient; the scene's own do not count")
     skip: int = key(30, "revolutions of the transient")
-    longest: int = key(MOST, "longest period looked for, revolutions")
-    quantities: tuple[str, ...] = ()
-
-
-@dataclasses.dataclass(frozen=True)
-class AttractorStudy(Study):
-    """The long run of one scene.
-
-    Attributes:
-        attractor: how long it is.
-    """
-
-    with_keys = plain_runs = False
-    tables = MappingProxyType({"attractor": Revolutions})
-
-    keys: Mapping[str, Key] = dataclasses.field(default_factory=dict)
-    attractor: Revolutions = Revolutions()
+    longest: int = key(MOST, "longest period looked for")
+    quantity: tuple[str, ...] = list_of_texts(
+        "keep this quantity, or channel, of each revolution (the headline ones)"
+    )
 
 
 class AttractorCommand(SceneCommand):
@@ -59,47 +35,14 @@ class AttractorCommand(SceneCommand):
     replaced_keys = MappingProxyType({"revolutions": "--revolutions", "settle": "--skip"})
 
     @staticmethod
-    def add_arguments(parser: argparse.ArgumentParser) -> None:
-        """Add the length of the run, and what of it is read."""
-        parser.add_argument(
-            "--revolutions",
-            type=int,
-            default=100,
-            metavar="N",
-            help="after the transient (100); the scene's own do not count",
-        )
-        parser.add_argument(
-            "--skip", type=int, default=30, metavar="N", help="revolutions of the transient (30)"
-        )
-        parser.add_argument(
-            "--longest", type=int, default=MOST, metavar="N", help="longest period looked for (16)"
-        )
-        parser.add_argument(
-            "--quantity",
-            action="append",
-            default=[],
-            metavar="NAME",
-            help="keep this quantity of each revolution; may be repeated (the headline ones)",
-        )
-
-    @classmethod
-    def study_of(cls, scene: Scene, options: argparse.Namespace) -> Study:
-        """Return the study of a scene."""
-        length = Revolutions(
-            options.revolutions, options.skip, options.longest, tuple(options.quantity)
-        )
-        return AttractorStudy(scene, attractor=length)
-
-    @staticmethod
     def run(study: AttractorStudy, directory: Path, **how: Any) -> AttractorReport:
         """Run for long, and return the report."""
-        own = study.attractor
         motion = attractor(
             study.scene,
-            revolutions=own.revolutions,
-            skip=own.skip,
-            names=own.quantities,
-            most=own.longest,
+            revolutions=study.revolutions,
+            skip=study.skip,
+            names=study.quantity,
+            most=study.longest,
             **how,
         )
         return AttractorReport(motion)

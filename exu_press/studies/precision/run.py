@@ -1,18 +1,13 @@
 """Measure error against run time of a scene, with tolerances and with fixed steps; draw both."""
 
-import argparse
 import dataclasses
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
-from exu_press.scene import Scene
-from exu_press.schema.checks import Table, key
-from exu_press.studies.base import Study
-from exu_press.studies.base.command import SceneCommand
-from exu_press.studies.base.keys import Key
+from exu_press.schema.checks import key
+from exu_press.studies.base.command import SceneCommand, SceneStudy
 from exu_press.studies.precision.cases import FULL, QUICK, Amount, Case, case_of
 from exu_press.studies.precision.measured import LONG_RUN, timed
 from exu_press.studies.precision.references import Reference
@@ -21,7 +16,7 @@ from exu_press.studies.precision.rows import ERRORS, Row, orders_of, row_of
 from exu_press.studies.precision.stated import Stated
 from exu_press.terminal.progress import Progress
 
-__all__ = ["PrecisionCommand", "PrecisionStudy", "Reduction", "precision"]
+__all__ = ["PrecisionCommand", "PrecisionStudy", "precision"]
 
 
 def precision(
@@ -111,28 +106,10 @@ def _describe(
 
 
 @dataclasses.dataclass(frozen=True)
-class Reduction(Table):
-    """How much is measured."""
+class PrecisionStudy(SceneStudy):
+    """Error against run time of one scene."""
 
-    table = "precision"
-
-    label: str = key("scene", "name of the scene in tables and files")
-    quick: bool = key(False, "a reduced form, whose times mean nothing")
-
-
-@dataclasses.dataclass(frozen=True)
-class PrecisionStudy(Study):
-    """Error against run time of one scene.
-
-    Attributes:
-        precision: how much is measured.
-    """
-
-    with_keys = plain_runs = False
-    tables = MappingProxyType({"precision": Reduction})
-
-    keys: Mapping[str, Key] = dataclasses.field(default_factory=dict)
-    precision: Reduction = Reduction()
+    quick: bool = key(False, "a reduced form, less than two minutes; times mean nothing")
 
 
 class PrecisionCommand(SceneCommand):
@@ -143,22 +120,7 @@ class PrecisionCommand(SceneCommand):
     uses_workers = False
 
     @staticmethod
-    def add_arguments(parser: argparse.ArgumentParser) -> None:
-        """Add the reduced form."""
-        parser.add_argument(
-            "--quick",
-            action="store_true",
-            help="a reduced form, less than two minutes; times mean nothing",
-        )
-
-    @classmethod
-    def study_of(cls, scene: Scene, options: argparse.Namespace) -> Study:
-        """Return the study of a scene."""
-        reduction = Reduction(Path(options.scene).stem, options.quick)
-        return PrecisionStudy(scene, precision=reduction)
-
-    @staticmethod
     def run(study: PrecisionStudy, directory: Path, **how: Any) -> PrecisionReport:
         """Measure, and return the report."""
-        case = case_of(study.precision.label, study.scene)
-        return precision((case,), quick=study.precision.quick, **how)
+        case = case_of(study.label, study.scene)
+        return precision((case,), quick=study.quick, **how)

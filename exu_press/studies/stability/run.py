@@ -1,61 +1,38 @@
 """Push a scene to its extremes: each run is right, stopped with a reason, or wrong."""
 
-import argparse
 import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any
+from typing import Any, ClassVar
 
 from exu_press.errors import InputError
-from exu_press.scene import Scene
-from exu_press.schema.checks import Table, key
-from exu_press.studies.base import Runs, Study, arguments_of
-from exu_press.studies.base.command import SceneCommand
-from exu_press.studies.base.keys import Key
+from exu_press.studies.base import Runs, arguments_of
+from exu_press.studies.base.command import SceneCommand, SceneStudy, list_of_texts
 from exu_press.studies.stability.cases import Case, extremes
 from exu_press.studies.stability.judge import WRONG, judge
 from exu_press.studies.stability.report import Row, StabilityReport
 
-__all__ = ["TIME_LIMIT", "Extremes", "StabilityCommand", "StabilityStudy", "stability"]
+__all__ = ["TIME_LIMIT", "StabilityCommand", "StabilityStudy", "stability"]
 
 TIME_LIMIT = 300.0
 """s for one case; its budget of steps ends it long before, so that a case that gets here hangs."""
 
 
 @dataclasses.dataclass(frozen=True)
-class Extremes(Table):
-    """The cases of a scene.
-
-    Attributes:
-        axes: keys that are pushed; every number that the scene uses where there are none.
-    """
-
-    table = "stability"
-
-    label: str = key("scene", "name of the scene in names of cases")
-    axes: tuple[str, ...] = ()
-
-
-@dataclasses.dataclass(frozen=True)
-class StabilityStudy(Study):
+class StabilityStudy(SceneStudy):
     """A scene and its extremes.
-
-    Attributes:
-        stability: which of them.
-        quick: whether the cases are a sample of a larger table.
 
     Raises:
         InputError: there is no such axis.
     """
 
-    with_keys = plain_runs = False
-    tables = MappingProxyType({"stability": Extremes})
+    quick: ClassVar[bool] = False
+    """Whether the cases are a sample of a larger table."""
 
-    keys: Mapping[str, Key] = dataclasses.field(default_factory=dict)
     time_limit: float | None = TIME_LIMIT
-    stability: Extremes = Extremes()
-    quick: bool = False
+    key: tuple[str, ...] = list_of_texts(
+        "change this key alone (default: every number of the scene)"
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -64,15 +41,15 @@ class StabilityStudy(Study):
     @property
     def cases(self) -> tuple[Case, ...]:
         """The cases along the axes."""
-        return self.along_axes(extremes(self.scene, self.stability.label), "--key")
+        return self.along_axes(extremes(self.scene, self.label), "--key")
 
     def along_axes(self, table: tuple[Case, ...], option: str) -> tuple[Case, ...]:
         """Return the cases of a table that are asked for; `option` asks for an axis."""
         axes = dict.fromkeys(case.axis for case in table)
-        for axis in self.stability.axes:
+        for axis in self.key:
             if axis not in axes:
                 raise InputError(f"{option} {axis}: allowed are {', '.join(axes)}")
-        allowed = self.stability.axes or axes
+        allowed = self.key or axes
         return tuple(case for case in table if case.axis in allowed)
 
     def to_dict(self) -> dict[str, Any]:
@@ -119,21 +96,3 @@ class StabilityCommand(SceneCommand):
     example = "exu-press stability slider_crank --key contact.modulus --out out/stability"
     study = StabilityStudy
     run = staticmethod(stability)
-
-    @staticmethod
-    def add_arguments(parser: argparse.ArgumentParser) -> None:
-        """Add which keys are pushed."""
-        parser.add_argument(
-            "--key",
-            action="append",
-            default=[],
-            metavar="KEY",
-            help="change this key alone; may be repeated (default: every number that the scene "
-            "uses)",
-        )
-
-    @classmethod
-    def study_of(cls, scene: Scene, options: argparse.Namespace) -> Study:
-        """Return the study of a scene."""
-        axes = Extremes(Path(options.scene).stem, tuple(options.key))
-        return StabilityStudy(scene, stability=axes)

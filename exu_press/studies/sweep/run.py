@@ -49,8 +49,8 @@ class SweepCommand(StudyCommand):
     study = Sweep
     run = staticmethod(sweep)
 
-    @staticmethod
-    def add_arguments(parser: argparse.ArgumentParser) -> None:
+    @classmethod
+    def add_arguments(cls, parser: argparse.ArgumentParser) -> None:
         """Add what is shown."""
         parser.add_argument(
             "--over",

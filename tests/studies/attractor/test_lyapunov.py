@@ -123,6 +123,20 @@ def test_a_lubricated_press_is_regular_and_comes_back(lubricated):
     assert lubricated.transient[-1] < 1e-2
 
 
+@pytest.mark.long
+def test_a_press_from_the_centre_has_the_exponent_that_it_tends_to():
+    """-0.238 a revolution after some 30; in those before, neighbours come together faster."""
+    found = attractor(
+        Scene(start="centred", speed_rpm=500.0, film={"law": "pinkus"}),
+        revolutions=20,
+        skip=8,
+        most=2,
+        names=["peak_velocity"],
+    ).exponent
+    assert found.low < -0.238 < found.high
+    assert found.high - found.low < 1.0
+
+
 @pytest.fixture(scope="module")
 def short():
     """A fifth of the revolutions that an exponent needs."""

@@ -1,4 +1,4 @@
-"""Put a scene's model together, one room after the other, with its sensors."""
+"""Assembly of a scene's model, with its sensors."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -32,13 +32,13 @@ __all__ = ["build"]
 
 
 def build(scene: Scene, *, quiet: bool = True) -> Model:
-    """Return the assembled Exudyn model of a scene, on the ideal mechanism's start.
+    """Return the assembled Exudyn model of a scene, in the ideal mechanism's start.
 
-    Flexible bodies start in the deformation, and its rate, that this motion asks for.
+    Flexible bodies start in the deformation, and its rate, of the quasi-static motion.
 
     Args:
         scene: of the model.
-        quiet: False shows the progress of the flexible bodies' modes, which take long.
+        quiet: False shows the progress of the flexible bodies' reduction, which takes long.
     """
     scene.require_code()
     parts: Mapping[str, PlacedPart] = {}
@@ -48,45 +48,43 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
         parts = placed_parts(scene, quiet=quiet)
     start: dict[str, Motion] = {}
     frames: dict[str, FrameStart] = {}
-    if any(part.reduced.mode_count for part in parts.values()):
-        constant: dict[str, Any] = {f"joints.{n}": "ideal" for n in scene.joints.with_clearance}
-        ideal = scene.replace(constant | {"drive": None, "load": {}} | _settled(scene))
-        settled = System(ideal, parts)
-        drive = _assembled(settled, {}, {}).drive
+    if any(placed.reduced.mode_count for placed in parts.values()):
         from exu_press.model.start import deformed_start
 
-        start, frames = deformed_start(settled, drive, scene.start_speed)
+        ideal = System(_ideal_scene(scene), parts)
+        drive = _assemble(ideal, {}, {}).drive
+        start, frames = deformed_start(ideal, drive, scene.start_speed)
     system = System(scene, parts)
     if scene.start == "loaded" and scene.joints.with_clearance:
         from exu_press.model.loaded_start import moved_start
 
         start, frames = moved_start(system, start, frames)
-    return _assembled(system, start, frames)
+    return _assemble(system, start, frames)
 
 
-def _settled(scene: Scene) -> dict[str, Any]:
-    """Return the change to guides without friction, or to ideal ones.
+def _ideal_scene(scene: Scene) -> Scene:
+    """Return a scene with ideal joints at constant speed, without loads and without guide friction.
 
-    A body with clearance in its guide rests nowhere, and friction may hold it anywhere.
+    Clearance and friction leave a body in its guide no determined position.
     """
+    changes: dict[str, Any] = {f"joints.{name}": "ideal" for name in scene.joints.with_clearance}
     guide = scene.guide
-    if guide is None or guide.clearance is not None or not guide.soft:
-        return {"guide": None}
-    return {"guide.friction": "none"}
+    is_elastic = guide is not None and guide.clearance is None and guide.soft
+    changes |= {"guide.friction": "none"} if is_elastic else {"guide": None}
+    return scene.replace(changes | {"drive": None, "load": {}})
 
 
-def _assembled(
+def _assemble(
     system: System, start: Mapping[str, Motion], frames: Mapping[str, "FrameStart"]
 ) -> Model:
-    """Return a system with everything in it that its scene asks for."""
+    """Add the items of a system's scene, and return its assembled model."""
     mechanism, constraints, joints = system.mechanism, system.constraints, system.scene.joints
     add_bodies(system, {**system.ideal, **start}, frames)
     clearance = _clearance_joints(system) if joints.with_clearance else {}
-    held = {*constraints.joints, *constraints.single_axis}
     ideal = {
         joint.name: add_ideal_joint(system, joint)
         for joint in mechanism.joints
-        if joint.name in held
+        if joint.name in {*constraints.joints, *constraints.single_axis}
     }
     if system.flexible:
         ideal |= hold_flexible_bodies(system, start)
@@ -140,7 +138,7 @@ def _assembled(
         sensors=system.sensors,
         parts=system.parts,
         warm=_warm_films(system, clearance),
-        made=count_items(system.mbs),
+        scene_items=count_items(system.mbs),
     )
 
 
@@ -157,12 +155,12 @@ def _clearance_joints(system: System) -> dict[str, ClearanceJoint]:
 
 def _guideways(system: System) -> dict[str, tuple[ClearanceJoint, ...]]:
     """Add the guideways with clearance; return the contacts of each body's ends and its film."""
-    guideways = [(guide, way) for guide in system.mechanism.guides if (way := guide.guideway)]
-    if not guideways:
+    guides = [(guide, guide.guideway) for guide in system.mechanism.guides]
+    if not any(guideway for _, guideway in guides):
         return {}
     from exu_press.model.guideways import add_guideways
 
-    return {guide.body: add_guideways(system, guide, way) for guide, way in guideways}
+    return {g.body: add_guideways(system, g, guideway) for g, guideway in guides if guideway}
 
 
 def _guide_friction(
@@ -198,19 +196,19 @@ def _states(
     clearance: Mapping[str, ClearanceJoint],
     guideways: Mapping[str, tuple[ClearanceJoint, ...]],
 ) -> States:
-    """Return what takes the joints' states, and the rubbing of those that wear."""
+    """Return the recorder of the joints' states, and of the friction work of those that wear."""
     wearing: list[ClearanceJoint] = []
     if scene.wear is not None:
         from exu_press.scene.wearing import wearing_guides, wearing_joints
 
         wearing += [clearance[name] for name in wearing_joints(scene)]
         wearing += [end for body in wearing_guides(scene) for end in guideways[body]]
-    ends = [end for all_of in guideways.values() for end in all_of]
+    ends = [end for contacts in guideways.values() for end in contacts]
     return States([*clearance.values(), *ends], wearing)
 
 
 def _stall(scene: Scene) -> Stall:
-    """Return the function that tells whether the press stalls."""
+    """Return the detection of a press that stalls."""
     motor, speed = scene.drive, scene.angular_speed
     slower = speed if motor is None else min(speed, motor.fastest(scene.speed_rpm))
     return Stall(slower, 60.0 / scene.speed_rpm)

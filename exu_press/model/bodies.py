@@ -1,4 +1,4 @@
-"""The bodies of a system, rigid or flexible, in the position and velocity that they start with."""
+"""The bodies of a system, rigid or flexible, in their initial position and velocity."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -52,13 +52,13 @@ def _add_rigid_body(system: System, body: Body, start: Motion) -> None:
         if system.constraints.guides.get(body.name, (False, False))[1]:
             start = _upright(start, float(relaxed[2]))
         added = RigidBody(system.mbs, body, start, relaxed)
-    system.take_in(body.name, added)
+    system.add_rigid(body.name, added)
 
 
 def _upright(start: Motion, angle: float) -> Motion:
     """Return the start of a body whose angle a guide holds.
 
-    Where all joints are ideal balls may hold it instead, which give way with flexible bodies.
+    In the ideal start balls may hold it instead, which move with flexible bodies.
     """
     position, velocity = start.position.copy(), start.velocity.copy()
     position[:, 2], velocity[:, 2] = angle, 0.0
@@ -68,20 +68,19 @@ def _upright(start: Motion, angle: float) -> Motion:
 def _add_flexible_body(
     system: System, name: str, start: Motion, deformed: "FrameStart | None"
 ) -> None:
-    """Add a flexible body; its frame lies where the solid's does, not in the centre of mass."""
-    from exu_press.model.flexible_body import add_part, fitted_to_guide, undeformed
+    """Add a flexible body; its frame is the solid's, not in the centre of mass."""
+    from exu_press.model.flexible_body import add_part, fit_to_guide, undeformed_start
 
-    part = system.parts[name]
-    begin = deformed or undeformed(part.frame(start))
+    placed, ideal = system.parts[name], system.ideal[name].position[0]
+    frame = deformed or undeformed_start(placed.frame_motion(start))
     for guide in system.mechanism.guides:
         if guide.body == name:
-            held = system.constraints.guides[name]
-            begin = fitted_to_guide(begin, part, guide, held, system.ideal[name].position[0])
+            frame = fit_to_guide(frame, placed, guide, system.constraints.guides[name], ideal)
     body = add_part(
         system.mbs,
         name,
-        part,
-        begin,
+        placed,
+        frame,
         mechanism=system.mechanism,
         loads=system.loads,
         gravity=system.scene.gravity,

@@ -17,26 +17,25 @@ CrankAngle = Callable[[], tuple[float, float]]
 """Angle, rad, and angular velocity, rad/s, of the driven body in the current state."""
 
 DISC_MASS = 1e-3
-"""kg: the disc on a flexible crank weighs nothing; but masses are positive."""
+"""Mass of the disc on a flexible crank, kg: negligible, but not zero."""
 
 
 def add_drive(system: System) -> int:
-    """Turn the crank: by a constraint on its angular velocity, or by a motor's torque.
+    """Drive the crank: by a constraint on its angular velocity, or by a motor's torque.
 
-    Exudyn asks the motor's connector for its torque at speeds nearby, so that Newton's method knows
-    its slope.
+    Exudyn differentiates the torque of the motor's connector numerically for Newton's method.
     """
     scene, turned = system.scene, turned_body(system)
     if scene.drive is None:
         return system.hold(turned, "angle", velocityLevel=True, offset=scene.angular_speed)
     law = scene.drive.law(scene.speed_rpm)
 
-    def against(
+    def negative_torque(
         mbs: Any, t: float, item: int, angle: float, speed: float, k: float, d: float, zero: float
     ) -> float:
         return -law(speed)[0]
 
-    function: Any = against
+    function: Any = negative_torque
     motor = ObjectConnectorCoordinateSpringDamper(
         markerNumbers=[
             system.still,
@@ -48,7 +47,7 @@ def add_drive(system: System) -> int:
 
 
 def turned_body(system: System) -> str:
-    """Return the rigid body that the drive turns: the crank, or the disc of a flexible one."""
+    """Return the rigid body that the drive turns: the crank, or a flexible crank's disc."""
     crank = system.mechanism.crank
     return DRIVE if crank in system.flexible else crank
 
@@ -64,46 +63,45 @@ def crank_angle_of(system: System) -> CrankAngle:
     def angle() -> tuple[float, float]:
         if not index:
             index.append(system.mbs.GetNodeODE2Index(turned.node) + column)
-        (at,) = index
-        found = data.GetODE2Coordinates(current, False)[at]
-        return zero + float(found), float(data.GetODE2Coordinates_t(current, False)[at])
+        q = data.GetODE2Coordinates(current, False)[index[0]]
+        return zero + float(q), float(data.GetODE2Coordinates_t(current, False)[index[0]])
 
     return angle
 
 
 def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[str, int]:
-    """Hold flexible bodies in space; a flexible crank is driven by a disc.
+    """Hold flexible bodies in the plane and on pivots of the frame; a disc drives a flexible crank.
 
     Args:
         system: with all bodies in it.
         start: name -> motion at the start, where it is not the ideal mechanism's.
 
     Returns:
-        name of a joint with the frame, numbered where it holds several faces -> object number.
+        name of a joint with the frame, with a number for each of several faces -> object number.
     """
     from exu_press.model.flexible_body import hold_driven, hold_pivot, hold_upright
 
     mbs = system.mbs
-    held: dict[str, int] = {}
+    numbers: dict[str, int] = {}
     for name, body in system.flexible.items():
-        part = system.parts[name]
+        placed = system.parts[name]
         if name == system.mechanism.crank:
             _add_disc(system, start.get(DRIVE))
-            hold_driven(mbs, system.bodies[DRIVE], body, part)
+            hold_driven(mbs, system.bodies[DRIVE], body, placed)
         pivot = system.constraints.pivots.get(name)
-        hold_upright(mbs, system.still, body, part, pivot)
+        hold_upright(mbs, system.still, body, placed, pivot)
         if pivot is not None:
-            held |= hold_pivot(mbs, system.ground, body, part, pivot)
-    return held
+            numbers |= hold_pivot(mbs, system.ground, body, placed, pivot)
+    return numbers
 
 
 def _add_disc(system: System, start: Motion | None) -> None:
-    """Add the disc that turns a flexible crank, on the shaft's axis unless that has moved."""
+    """Add the disc that turns a flexible crank, on the shaft's axis unless the start is moved."""
     crank = system.mechanism.body(system.mechanism.crank)
     relaxed = system.ideal[crank.name].point_motion(crank.local(system.mechanism.shaft.at))
     motor = system.scene.drive
     inertia = 1.0 if motor is None else motor.on_crank
     disc = Body(DRIVE, DISC_MASS, inertia)
-    system.take_in(
+    system.add_rigid(
         DRIVE, RigidBody(system.mbs, disc, start or relaxed, reference=relaxed.position[0])
     )

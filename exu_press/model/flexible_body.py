@@ -1,8 +1,7 @@
-"""Flexible bodies in an Exudyn system, and their constraints in space.
+"""Flexible bodies in an Exudyn system, and their constraints out of the plane.
 
-NGSolve's modes come from fe_models: from its cache, or made there on first use. In the plane the
-joints are those of rigid bodies; what the plane holds of itself is held here: a body that rests in
-the frame by two faces along its axis by these, any other one by the mean of its motion.
+Modes come from fe_models. In the plane the joints are those of rigid bodies. Out of the plane a
+body on a pivot of the frame with two faces is held by these, any other one by its mean motion.
 """
 
 from collections.abc import Mapping
@@ -28,7 +27,7 @@ from exudyn.rigidBodyUtilities import (
 from exu_press.errors import InputError
 from exu_press.joints.ends import FlexiblePoint
 from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Motion, Point
-from exu_press.model.placed_part import PlacedPart
+from exu_press.model.placed_part import PlacedPart, point_name
 from exu_press.numerics.arrays import Array
 from exu_press.scene.applied_load import AppliedLoad
 from fe_models import FlexibleBody, add_flexible_body
@@ -36,8 +35,7 @@ from fe_models import FlexibleBody, add_flexible_body
 __all__ = [
     "FrameStart",
     "add_part",
-    "deformed",
-    "fitted_to_guide",
+    "fit_to_guide",
     "guide_end",
     "guided_motion",
     "hold_driven",
@@ -45,12 +43,13 @@ __all__ = [
     "hold_upright",
     "joint_end",
     "load_point",
-    "point_name",
-    "undeformed",
+    "shift_start",
+    "start_from_state",
+    "undeformed_start",
 ]
 
 DRIVEN = ("driven", "driven rim")
-"""Points of the crank that move with the face that is driven: on the shaft's axis, and beside."""
+"""Points that move with the driven face of the crank: on the shaft's axis, and beside it."""
 
 OUT_OF_PLANE = (2, 4, 5)
 """Among a frame's coordinates: the height, and the Euler parameters of both tilts."""
@@ -77,7 +76,7 @@ class FrameStart:
     modes_t: Array | None = None
 
 
-def undeformed(start: Motion) -> FrameStart:
+def undeformed_start(start: Motion) -> FrameStart:
     """Return the start of a frame from its motion (x, y, angle) in the plane, one instant."""
     (x, y, angle), (u, v, omega) = start.position[0], start.velocity[0]
     return FrameStart(
@@ -88,17 +87,17 @@ def undeformed(start: Motion) -> FrameStart:
     )
 
 
-def shifted(start: FrameStart, body: Motion, away: Motion) -> FrameStart:
+def shift_start(start: FrameStart, body: Motion, change: Motion) -> FrameStart:
     """Return a start with the whole body moved.
 
     Args:
-        start: before.
-        body: motion of a point of the body in the plane before, one instant.
-        away: changes of its position (x, y, angle) and velocity.
+        start: of the unmoved body.
+        body: motion of a point of the unmoved body in the plane, one instant.
+        change: of the point's position (x, y, angle) and velocity.
     """
     (x, y, _), (u, v, _) = body.position[0], body.velocity[0]
-    dx, dy, turn = away.position[0]
-    du, dv, omega = away.velocity[0]
+    dx, dy, turn = change.position[0]
+    du, dv, omega = change.velocity[0]
     arm = start.position - np.array([x, y, 0.0])
     rate = start.velocity - np.array([u, v, 0.0])
     axis, rotation = np.array([0.0, 0.0, 1.0]), np.asarray(RotationMatrixZ(float(turn)))
@@ -112,10 +111,10 @@ def shifted(start: FrameStart, body: Motion, away: Motion) -> FrameStart:
     )
 
 
-def deformed(
+def start_from_state(
     mbs: exu.MainSystem, body: FlexibleBody, q: Array, q_t: Array, modes: Array, modes_t: Array
 ) -> FrameStart:
-    """Return the start of a frame from a state of the body in another system.
+    """Return the start of a frame from the body's state in another system.
 
     Args:
         mbs: that system.
@@ -139,18 +138,18 @@ def deformed(
 def add_part(
     mbs: exu.MainSystem,
     name: str,
-    part: PlacedPart,
+    placed: PlacedPart,
     start: FrameStart,
     mechanism: Mechanism,
     loads: Mapping[str, AppliedLoad],
     gravity: float,
 ) -> FlexibleBody:
-    """Add a part, its points where the drawing has the joints and loads act.
+    """Add a part, with the points where joints and loads act.
 
     Args:
         mbs: the system.
         name: of the body.
-        part: in its place.
+        placed: the part.
         start: of the solid's frame and the modes.
         mechanism: for the joints.
         loads: of all bodies.
@@ -159,21 +158,21 @@ def add_part(
     points = {}
     for joint in mechanism.joints:
         for body, point in mechanism.ends(joint):
-            for number, face in enumerate(part.faces[joint.name] if body == name else ()):
-                place = *part.place(point), _height(part, joint, face)
-                points[point_name(joint, number)] = face, place
+            for number, face in enumerate(placed.faces[joint.name] if body == name else ()):
+                position = *placed.to_solid(point), _height(placed, joint, face)
+                points[point_name(joint.name, number)] = face, position
     for load_name, load in loads.items():
-        for number, face in enumerate(part.loads[load_name] if load.body == name else ()):
-            along = float(part.reduced.interface(face).centre[2])
-            points[load_point(load_name, number)] = face, (*part.place(load.point), along)
-    if part.drive:
-        driven = part.reduced.interface(part.drive)
-        x, y = part.place(mechanism.body(name).local(mechanism.shaft.at))
+        for number, face in enumerate(placed.loads[load_name] if load.body == name else ()):
+            height = float(placed.reduced.interface(face).centre[2])
+            points[load_point(load_name, number)] = face, (*placed.to_solid(load.point), height)
+    if placed.drive:
+        driven = placed.reduced.interface(placed.drive)
+        x, y = placed.to_solid(mechanism.body(name).local(mechanism.shaft.at))
         for driven_point, arm in zip(DRIVEN, (0.0, driven.arm), strict=True):
-            points[driven_point] = part.drive, (x + arm, y, float(driven.centre[2]))
+            points[driven_point] = placed.drive, (x + arm, y, float(driven.centre[2]))
     return add_flexible_body(
         mbs,
-        part.reduced,
+        placed.reduced,
         position=start.position.tolist(),
         rotation=start.rotation,
         velocity=start.velocity.tolist(),
@@ -181,67 +180,62 @@ def add_part(
         initial_modes=start.modes,
         initial_modes_t=start.modes_t,
         gravity=(0.0, -gravity, 0.0),
-        damping_ratio=part.damping_ratio,
+        damping_ratio=placed.damping_ratio,
         points=points,
         name=name,
     )
 
 
-def _height(part: PlacedPart, joint: Joint, face: str) -> float:
-    """Return how high over the plane a joint holds a face, m; balls lie in the plane."""
-    return 0.0 if joint.spherical else float(part.reduced.interface(face).centre[2])
-
-
-def point_name(joint: Joint, number: int = 0) -> str:
-    """Return the name of the point where a body's joint holds one of its faces."""
-    return joint.name if number == 0 else f"{joint.name} {number + 1}"
+def _height(placed: PlacedPart, joint: Joint, face: str) -> float:
+    """Return the height of a joint's face over the plane, m; balls lie in the plane."""
+    return 0.0 if joint.spherical else float(placed.reduced.interface(face).centre[2])
 
 
 def load_point(load: str, number: int = 0) -> str:
-    """Return the name of the point where a load presses one of the faces that carry it."""
+    """Return the name of the point where a load acts on one of its faces."""
     return f"load {load} {number + 1}"
 
 
-def joint_end(body: FlexibleBody, part: PlacedPart, joint: Joint, point: Point) -> Any:
-    """Return an end of a clearance joint: the interface's motion, at the point (x, y).
+def joint_end(body: FlexibleBody, placed: PlacedPart, joint: Joint, point: Point) -> Any:
+    """Return the end of a clearance joint that moves with an interface, at a point (x, y).
 
     Raises:
         InputError: the joint holds several faces.
     """
-    face, *others = part.faces[joint.name]
-    if others:
+    face, *further = placed.faces[joint.name]
+    if further:
         raise InputError(
-            f"joints.{joint.name}: holds {1 + len(others)} faces of the flexible {body.part.name}; "
-            "allowed is 'ideal'"
+            f"joints.{joint.name}: holds {1 + len(further)} faces of the flexible "
+            f"{body.part.name}; allowed is 'ideal'"
         )
     interface = body.part.interface(face)
-    centre = np.array([*part.place(point), _height(part, joint, face)])
+    centre = np.array([*placed.to_solid(point), _height(placed, joint, face)])
     if body.node_modes is None:
         return body.object_number, centre
     return FlexiblePoint(body.object_number, centre, interface.translation, interface.rotation)
 
 
 def hold_pivot(
-    mbs: exu.MainSystem, ground: int, body: FlexibleBody, part: PlacedPart, joint: Joint
+    mbs: exu.MainSystem, ground: int, body: FlexibleBody, placed: PlacedPart, joint: Joint
 ) -> dict[str, int]:
-    """Rest a body in the frame by the faces of an ideal joint; return the object numbers.
+    """Hold a body in the frame by the faces of an ideal joint; return name -> object number.
 
     Args:
         mbs: the system.
         ground: object number of the frame.
         body: flexible.
-        part: of the body.
+        placed: part of the body.
         joint: with the frame.
     """
-    faces = part.faces[joint.name]
-    held = {}
+    faces = placed.faces[joint.name]
+    numbers = {}
     for number, face in enumerate(faces):
-        along = float(body.part.interface(face).centre[2])
-        seat = mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=[*joint.at, along]))
-        ends = [body.add_point_marker(mbs, point_name(joint, number)), seat]
+        height = float(body.part.interface(face).centre[2])
+        seat = mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=[*joint.at, height]))
+        ends = [body.add_point_marker(mbs, point_name(joint.name, number)), seat]
         name = joint.name if len(faces) == 1 else f"{joint.name}_{number + 1}"
         lengthwise = int(len(faces) > 1 and number == 0)
-        held[name] = int(
+        numbers[name] = int(
             mbs.AddObject(
                 ObjectJointSpherical(
                     name=name,
@@ -250,69 +244,69 @@ def hold_pivot(
                 )
             )
         )
-    return held
+    return numbers
 
 
-def hold_driven(mbs: exu.MainSystem, disc: int, body: FlexibleBody, part: PlacedPart) -> None:
-    """Turn a body by its driven face about its axis alone, as a disc turns that it carries there.
+def hold_driven(mbs: exu.MainSystem, disc: int, body: FlexibleBody, placed: PlacedPart) -> None:
+    """Couple the rotation of a body's driven face about its axis to that of a disc.
 
-    A link along the tangent passes a force on, whose opposite goes through the disc's pin: the face
-    feels a couple. A joint between frames would do the same with twice as many equations, and with
-    a marker that has three nodes.
+    A massless link along the tangent transmits a force, and the disc's pin its opposite: a couple
+    on the face. A joint between frames would need twice as many equations, and a marker with three
+    nodes.
 
     Args:
         mbs: the system.
         disc: object number of the disc, which has next to no mass.
         body: flexible.
-        part: of the body.
+        placed: part of the body.
     """
     middle, rim = (np.array(body.places[point]) for point in DRIVEN)
     height = [0.0, 0.0, float(middle[2])]
-    arm = RotationMatrixZ(-part.angle) @ (rim - middle)
+    arm = RotationMatrixZ(-placed.angle) @ (rim - middle)
     end = height + arm + np.cross((0.0, 0.0, 1.0), arm)
     pin, link = (
         [
-            mbs.AddMarker(MarkerBodyRigid(bodyNumber=disc, localPosition=place)),
+            mbs.AddMarker(MarkerBodyRigid(bodyNumber=disc, localPosition=position)),
             body.add_point_marker(mbs, point),
         ]
-        for point, place in zip(DRIVEN, (height, end.tolist()), strict=True)
+        for point, position in zip(DRIVEN, (height, end.tolist()), strict=True)
     )
     mbs.AddObject(ObjectJointRevolute2D(markerNumbers=pin))
     length = float(np.linalg.norm(arm))
     mbs.AddObject(ObjectConnectorDistance(markerNumbers=link, distance=length))
 
 
-def fitted_to_guide(
-    start: FrameStart, part: PlacedPart, guide: Guide, held: tuple[bool, bool], pose: Array
+def fit_to_guide(
+    start: FrameStart, placed: PlacedPart, guide: Guide, holds: tuple[bool, bool], pose: Array
 ) -> FrameStart:
-    """Return the start that fits an ideal guide's constraints on a body.
+    """Return a start that satisfies an ideal guide's constraints on a body.
 
-    Where all joints are ideal others may hold it: ball joints, which give way with their bodies.
+    In the ideal start ball joints may hold the body instead, which move with flexible bodies.
 
     Args:
         start: deformed.
-        part: of the body.
+        placed: part of the body.
         guide: of the body.
-        held: whether the guide holds the displacement across it, and the angle.
-        pose: x, y (m) and angle (rad) of the ideal mechanism's start.
+        holds: whether the guide holds the displacement along its normal, and the angle.
+        pose: x, y (m) and angle (rad) in the ideal mechanism's start.
     """
     if start.modes is None or start.modes_t is None:
         return start
-    place, modes = part.carried((part.guide,), (0.0, 0.0))
-    bent = part.reduced.interface(part.guide).rotation[2]
+    centre, modes = placed.carried_point((placed.guide,), (0.0, 0.0))
+    bending = placed.reduced.interface(placed.guide).rotation[2]
     omega = start.angular_velocity.copy()
     rotation = start.rotation
-    if held[1]:
-        angle = np.arctan2(rotation[1, 0], rotation[0, 0]) + part.angle + bent @ start.modes
+    if holds[1]:
+        angle = np.arctan2(rotation[1, 0], rotation[0, 0]) + placed.angle + bending @ start.modes
         rotation = RotationMatrixZ(float(pose[2] - angle)) @ rotation
-        omega[2] = -float(bent @ start.modes_t)
+        omega[2] = -float(bending @ start.modes_t)
     position, velocity = start.position, start.velocity
-    if held[0]:
-        across = np.array([*guide.normal, 0.0])
-        arm = rotation @ (place + modes @ start.modes)
+    if holds[0]:
+        normal = np.array([*guide.normal, 0.0])
+        arm = rotation @ (centre + modes @ start.modes)
         rate = velocity + np.cross(omega, arm) + rotation @ (modes @ start.modes_t)
-        position = position - across * (across @ (position + arm - [pose[0], pose[1], 0.0]))
-        velocity = velocity - across * (across @ rate)
+        position = position - normal * (normal @ (position + arm - [pose[0], pose[1], 0.0]))
+        velocity = velocity - normal * (normal @ rate)
     return replace(
         start,
         position=position,
@@ -322,57 +316,59 @@ def fitted_to_guide(
     )
 
 
-def guide_end(body: FlexibleBody, part: PlacedPart, point: Point) -> Any:
-    """Return an end for guideways with clearance: a point carried by the faces in its guide."""
-    place, modes = part.carried((part.guide,), point)
+def guide_end(body: FlexibleBody, placed: PlacedPart, point: Point) -> Any:
+    """Return an end for guideways with clearance: a point that moves with the guide's faces."""
+    position, modes = placed.carried_point((placed.guide,), point)
     if body.node_modes is None:
-        return body.object_number, place
-    rotation = part.reduced.interface(part.guide).rotation
-    return FlexiblePoint(body.object_number, place, modes, rotation)
+        return body.object_number, position
+    rotation = placed.reduced.interface(placed.guide).rotation
+    return FlexiblePoint(body.object_number, position, modes, rotation)
 
 
-def guided_motion(mbs: exu.MainSystem, body: FlexibleBody, part: PlacedPart) -> tuple[Array, Array]:
+def guided_motion(
+    mbs: exu.MainSystem, body: FlexibleBody, placed: PlacedPart
+) -> tuple[Array, Array]:
     """Return the guided motion of a body, linear in its coordinates: x, y (m), angle (rad).
 
-    It is the mean motion of the faces that lie in the guide, where the body has its centre of mass.
-    In a guide a body hardly turns: the error goes with the square of its tilt.
+    It is the mean motion of the faces in the guide, at the body's centre of mass. In a guide a body
+    hardly turns: the error goes with the square of its tilt.
 
     Returns:
-        Its values where the coordinates have their reference values, (3,), and what displacements
-        of the frame's coordinates and of the modes change them by, (3, coordinates).
+        Its values at the reference values of the coordinates, (3,), and its derivatives by the
+        coordinates of the frame and of the modes, (3, coordinates).
     """
     pose = np.asarray(mbs.GetNodeParameter(body.node_rigid, "referenceCoordinates"))
     rotation = np.asarray(EulerParameters2RotationMatrix(pose[3:]))
-    place, modes = part.carried((part.guide,), (0.0, 0.0))
-    arm = rotation @ place
+    centre, modes = placed.carried_point((placed.guide,), (0.0, 0.0))
+    arm = rotation @ centre
     turning = 2.0 * np.array([-pose[6], 0.0, 0.0, pose[3]])
-    rows = np.zeros((3, len(pose) + part.reduced.mode_count))
+    rows = np.zeros((3, len(pose) + placed.reduced.mode_count))
     rows[:2, :2] = np.eye(2)
     rows[:, 3:7] = np.outer((-arm[1], arm[0], 1.0), turning)
     rows[:2, 7:] = (rotation @ modes)[:2]
-    rows[2, 7:] = part.reduced.interface(part.guide).rotation[2]
-    angle = 2.0 * np.arctan2(pose[6], pose[3]) + part.angle
+    rows[2, 7:] = placed.reduced.interface(placed.guide).rotation[2]
+    angle = 2.0 * np.arctan2(pose[6], pose[3]) + placed.angle
     return np.array([pose[0] + arm[0], pose[1] + arm[1], angle]), rows
 
 
 def hold_upright(
-    mbs: exu.MainSystem, still: int, body: FlexibleBody, part: PlacedPart, pivot: Joint | None
+    mbs: exu.MainSystem, still: int, body: FlexibleBody, placed: PlacedPart, pivot: Joint | None
 ) -> None:
-    """Keep a body in the plane, unless the two faces of a pivot do.
+    """Hold a body in the plane, unless the two faces of a pivot do.
 
-    It is the frame that is kept there, the mean of the body's motion: its coordinates are held,
-    which costs least. Out of the plane a body that is not symmetric to it bends about that mean.
+    The coordinates of its frame, the mean of its motion, are held, which costs least. A body that
+    is not symmetric to the plane bends about that mean.
 
     Args:
         mbs: the system.
         still: marker on a coordinate of the frame of the press.
         body: flexible.
-        part: of the body.
+        placed: part of the body.
         pivot: its ideal joint with the frame, if it has one.
     """
-    if pivot is not None and len(part.faces[pivot.name]) > 1:
+    if pivot is not None and len(placed.faces[pivot.name]) > 1:
         return
     for coordinate in OUT_OF_PLANE:
-        held = MarkerNodeCoordinate(nodeNumber=body.node_rigid, coordinate=coordinate)
-        markers = [still, mbs.AddMarker(held)]
+        marker = MarkerNodeCoordinate(nodeNumber=body.node_rigid, coordinate=coordinate)
+        markers = [still, mbs.AddMarker(marker)]
         mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers))

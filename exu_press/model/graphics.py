@@ -1,7 +1,6 @@
-"""A model in Exudyn's own viewer: solids for the rigid bodies, guides and pivots.
+"""Graphics of a model for Exudyn's viewer: solids of the rigid bodies, guides and pivots.
 
-Made when a user asks for the model, not for a run, which has no use for it. Flexible bodies bring
-their surfaces with them.
+They are made for a user's model, not for a run. Flexible bodies have their surfaces already.
 """
 
 from typing import Any
@@ -25,21 +24,21 @@ DISC = [0.90, 0.72, 0.25, 1.0]
 
 
 def build_with_graphics(scene: Scene) -> Model:
-    """Return the model of a scene with something to be seen by: what `scene.build()` does."""
+    """Return the model of a scene with graphics, for `scene.build()`."""
     model = build(scene)
     add_graphics(model)
     return model
 
 
 def add_graphics(model: Model) -> None:
-    """Give every rigid body and the ground something to be seen by, and the viewer its sizes."""
+    """Add graphics to every rigid body and the ground, and set up the viewer."""
     mechanism = model.mechanism
     height = float(np.ptp(swept_points(mechanism)[:, 1]))
     thickness = THICKNESS * height
     view, layers = FrontView(mechanism), _layers(mechanism)
     for name, shape in view.shapes.items():
         if name not in model.parts:
-            outline = [model.rigid[name].drawn((x, y)) for x, y in shape.outline.tolist()]
+            outline = [model.rigid[name].graphics_point((x, y)) for x, y in shape.outline.tolist()]
             _show(model, name, [_solid(outline, shape.colour, layers[name] * thickness, thickness)])
     if DRIVE in model.bodies:
         crank = model.parts[mechanism.crank]
@@ -51,12 +50,12 @@ def add_graphics(model: Model) -> None:
     _show(model, GROUND, _frame(mechanism, view, layers, thickness))
     settings = model.SC.visualizationSettings
     hidden = (settings.nodes, settings.markers, settings.sensors, settings.loads)
-    for items in (*hidden, settings.connectors):  # symbols larger than the parts they hold
+    for items in (*hidden, settings.connectors):  # their symbols are larger than the bodies
         items.show = False
     settings.view0.scene.showMeshEdges = False
     settings.openGL.multiSampling = 4
     for light in (settings.openGL.light0, settings.openGL.light1):
-        light.specular = 0.0  # plates shine as a whole: their colours would be nearly white
+        light.specular = 0.0  # plates would shine as a whole, nearly white
 
 
 def _show(model: Model, body: str, solids: list[Any]) -> None:
@@ -81,8 +80,8 @@ def _layers(mechanism: Mechanism) -> dict[str, int]:
     layers: dict[str, int] = {}
     for body in mechanism.bodies:
         joints = mechanism.joints_of(body.name)
-        taken = {layers.get(end) for joint in joints for end in (joint.journal, joint.bearing)}
-        layers[body.name] = next(n for n in range(len(mechanism.bodies)) if n not in taken)
+        used = {layers.get(end) for joint in joints for end in (joint.journal, joint.bearing)}
+        layers[body.name] = next(n for n in range(len(mechanism.bodies)) if n not in used)
     return layers
 
 

@@ -12,32 +12,32 @@ from exu_press.scene.laws import guide_friction_law
 __all__ = ["add_guide_friction"]
 
 
-def add_guide_friction(system: System, guide: Guide, held: Mapping[str, int]) -> GuideFriction:
+def add_guide_friction(system: System, guide: Guide, numbers: Mapping[str, int]) -> GuideFriction:
     """Add the friction of a guide without clearance.
 
     Args:
         system: with the guide in it.
         guide: ideal or elastic.
-        held: as `add_guide` returns it.
+        numbers: object numbers, as `add_guide` returns them.
     """
     table, mbs = system.scene.guide, system.mbs
     assert table is not None
-    missed = np.zeros(3)
+    offset = np.zeros(3)
     if guide.body in system.flexible:
         from exu_press.model.flexible_body import guided_motion
 
         body = system.flexible[guide.body]
         values, rows = guided_motion(mbs, body, system.parts[guide.body])
-        missed = values - system.ideal[guide.body].position[0]
+        offset = values - system.ideal[guide.body].position[0]
         nodes = [body.node_rigid, *([] if body.node_modes is None else [body.node_modes])]
     else:
         nodes, rows = [system.rigid[guide.body].node], np.eye(3)
     side: SideForce
     if guide.lateral is None:
-        side = HeldSide(mbs, held["force"])
+        side = HeldSide(mbs, numbers["force"])
     else:
-        across, spring = np.array(guide.normal), guide.lateral
-        moved = float(across @ missed[:2])
-        side = SpringSide(spring.stiffness, spring.damping, across @ rows[:2], moved)
+        normal, spring = np.array(guide.normal), guide.lateral
+        relaxed = float(normal @ offset[:2])
+        side = SpringSide(spring.stiffness, spring.damping, normal @ rows[:2], relaxed)
     law = guide_friction_law(table, system.scene.friction)
     return GuideFriction(mbs, nodes, np.array(guide.direction) @ rows[:2], side, law)

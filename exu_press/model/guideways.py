@@ -1,4 +1,4 @@
-"""Guideways with clearance: contacts of both ends of a body, and a film between."""
+"""Guideways with clearance: contacts of both ends of a body, and a film between them."""
 
 from typing import Any
 
@@ -14,16 +14,16 @@ __all__ = ["add_guideways"]
 
 
 def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[ClearanceJoint, ...]:
-    """Let both ends of a body touch its guideways with clearance, and oil be between them."""
-    table, damped = system.scene.guide, system.scene.contact
+    """Add the contacts of both ends of a body with its guideways, and the film if there is one."""
+    table, contact = system.scene.guide, system.scene.contact
     assert table is not None
-    assert damped is not None
+    assert contact is not None
     body = system.mechanism.body(guide.body)
     along = np.array(guide.direction)
-    drawn = [
+    points = (
         np.array(body.centre_of_mass) + 0.5 * side * guideway.length * along for side in (-1.0, 1.0)
-    ]
-    ends = [_end(system, guide.body, body.local((float(at[0]), float(at[1])))) for at in drawn]
+    )
+    ends = [_end(system, guide.body, body.local((float(x), float(y)))) for x, y in points]
     onset = 0.0 if table.contact_gap is None else table.contact_gap
     contacts = [
         add_guideway_contact(
@@ -33,7 +33,7 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
             direction=guide.direction,
             clearance=guideway.clearance - onset,
             contact=guide_contact_law(
-                damped, guideway.stiffness, guideway.clearance, system.scene.angular_speed
+                contact, guideway.stiffness, guideway.clearance, system.scene.angular_speed
             ),
             friction=guide_friction_law(table, system.scene.friction),
             half_width=guideway.half_width,

@@ -1,11 +1,11 @@
-"""The start of a mechanism with clearance: journals lie where the loads of the motion press them.
+"""The loaded start of a mechanism with clearance: journals in equilibrium with the ideal motion.
 
-Journals that start in the middle of their bearings at full speed fall on them, and the first peaks
-are those of this fall. Here each joint has the force of the ideal motion, from inertia, weight and
-loads, and lies where its contact or its film bears this force. The bodies follow from the joints.
-A journal in a film begins at rest in its bearing: how it moves on follows from the time before.
-One in contact moves along the surface, as the force turns. Its penetration begins at rest: a strong
-damper would turn its rate into a force many times the one that it bears.
+Journals that start in the centre of their bearings at full speed fall on them, and the first peaks
+come from this fall. Here each joint has the force of the ideal motion, from inertia, weight and
+loads, and the eccentricity at which its contact or film bears this force. The bodies' positions
+follow from the joints. A journal in a film starts at rest in its bearing, as its velocity depends
+on its history. One in contact moves along the surface, as the force turns, with a constant
+penetration: a strong damper would turn its rate into a force many times the one that it bears.
 """
 
 import math
@@ -31,55 +31,55 @@ if TYPE_CHECKING:
 __all__ = ["loaded_start", "moved_start"]
 
 ANGLES = 1e-4 * np.array([-1.0, 0.0, 1.0])
-"""rad of the crank about the start: the journals' velocities are the slope there. Over 1e-3 rad the
-slope is off by some 0.1 um/s, which a thin film of 1e10 N s/m turns into kilonewtons."""
+"""Crank angles from the start, rad; the journals' velocities are differences over them. Over 1e-3
+rad these are off by some 0.1 um/s, which a thin film of 1e10 N s/m turns into kilonewtons."""
 
-THICKEST = 0.98
-"""Eccentricity ratio up to which a film is taken to bear its load without squeezing."""
+LARGEST_RATIO = 0.98
+"""Largest eccentricity ratio at which a film may bear its load without squeezing."""
 
-SHARPEST = 5.0
-"""Part of itself that a joint's force may change by in a radian of the crank: where a journal is
-changing sides it rests nowhere."""
+LARGEST_CHANGE = 5.0
+"""Largest relative change of a joint's force per radian of the crank: a journal that is changing
+sides has no equilibrium."""
 
 
 def moved_start(
     system: System, start: Mapping[str, Motion], frames: Mapping[str, "FrameStart"]
 ) -> tuple[dict[str, Motion], dict[str, "FrameStart"]]:
-    """Return a start from that of ideal joints, every body moved as its joints ask for.
+    """Return the start of ideal joints with every body moved into the loaded start.
 
     Args:
         system: with nothing but the frame in it.
         start: name -> motion of bodies at the start, where it is not the ideal mechanism's.
         frames: name -> start of the frame of a flexible body that starts deformed.
     """
-    moved, bent = {**start, **loaded_start(system)}, {}
-    for name in system.ideal.keys() & {*start, *frames}:  # deformed, or beside such a body
+    moved, moved_frames = {**start, **loaded_start(system)}, {}
+    for name in system.ideal.keys() & {*start, *frames}:  # deformed, or connected to such a body
         ideal, loaded = system.ideal[name], moved[name]
-        away = Motion(
+        change = Motion(
             loaded.position - ideal.position,
             loaded.velocity - ideal.velocity,
             np.zeros_like(ideal.position),
         )
         if name in frames:
-            from exu_press.model.flexible_body import shifted
+            from exu_press.model.flexible_body import shift_start
 
-            bent[name] = shifted(frames[name], ideal, away)
+            moved_frames[name] = shift_start(frames[name], ideal, change)
         else:
-            before = start[name]
+            unmoved = start[name]
             moved[name] = replace(
-                before,
-                position=before.position + away.position,
-                velocity=before.velocity + away.velocity,
+                unmoved,
+                position=unmoved.position + change.position,
+                velocity=unmoved.velocity + change.velocity,
             )
-    return moved, {**frames, **bent}
+    return moved, {**frames, **moved_frames}
 
 
 def loaded_start(system: System) -> dict[str, Motion]:
     """Return the motion of every body at the start, one instant.
 
-    Joints and guides without clearance are held, and so is the crank's angle. A joint without a
-    place where it could bear its force starts as if nothing pressed it: one that changes sides, or
-    a film whose journal hardly turns.
+    Ideal joints and guides are satisfied, and the crank's angle is kept. A joint without an
+    equilibrium position starts centred: one that changes sides, or a film whose journal hardly
+    turns.
 
     Args:
         system: with nothing but the frame in it.
@@ -89,25 +89,22 @@ def loaded_start(system: System) -> dict[str, Motion]:
     middle = len(ANGLES) // 2
     forces = np.array([instant.forces for instant in instants])
     sizes, changes = np.abs(forces[middle]), np.abs(forces[-1] - forces[0])
-    pressed = changes < SHARPEST * (ANGLES[-1] - ANGLES[0]) * sizes
-    wanted = np.array([instant.eccentricities(pressed) for instant in instants])
-    pressed &= np.isfinite(wanted).all(axis=(0, 2))
-    wanted[:, ~pressed] = 0.0
-    wanted[:, problem.films] = wanted[middle, problem.films]  # a film resists any change
-    depths = np.linalg.norm(wanted, axis=2, keepdims=True)  # a contact may, of its penetration
-    wanted *= np.divide(depths[middle], depths, out=np.ones_like(depths), where=depths > 0.0)
-    wanted = np.array(
-        [instant.on_worn(e, pressed) for instant, e in zip(instants, wanted, strict=True)]
-    )
-    wanted[:, problem.films] = wanted[middle, problem.films]
-    poses = np.array(
-        [instant.moved(e.ravel()) for instant, e in zip(instants, wanted, strict=True)]
-    )
+    in_equilibrium = changes < LARGEST_CHANGE * (ANGLES[-1] - ANGLES[0]) * sizes
+    e = np.array([instant.eccentricities(in_equilibrium) for instant in instants])
+    in_equilibrium &= np.isfinite(e).all(axis=(0, 2))
+    e[:, ~in_equilibrium] = 0.0
+    e[:, problem.films] = e[middle, problem.films]  # a film resists any change
+    ratios = np.linalg.norm(e, axis=2, keepdims=True)  # a contact any of its penetration
+    e *= np.divide(ratios[middle], ratios, out=np.ones_like(ratios), where=ratios > 0.0)
+    for i, instant in enumerate(instants):
+        e[i] = instant.add_wear(e[i], in_equilibrium)
+    e[:, problem.films] = e[middle, problem.films]
+    poses = np.array([instant.positions(e[i].ravel()) for i, instant in enumerate(instants)])
     speed = system.scene.start_speed
     rates = np.zeros_like(poses[middle])
     if speed > 0.0:
         rates = (poses[-1] - poses[0]) / ((ANGLES[-1] - ANGLES[0]) / speed)
-    velocity = problem.on_constraints(poses[middle], rates)
+    velocity = problem.project_velocities(poses[middle], rates)
     position, velocity = poses[middle] * problem.scale, velocity * problem.scale
     return {
         name: Motion(
@@ -123,186 +120,185 @@ class _Problem:
     """A mechanism's constraints and loads over the angles about its start.
 
     Attributes:
-        system: whose start is wanted.
+        system: with nothing but the frame in it.
         constraints: of all joints and guides, in coordinates relative to the mechanism's size.
         scale: units of all coordinates, m and rad.
-        loose: joints with clearance.
-        films: (m,), which of these have one.
+        clearance_joints: joints with clearance.
+        films: (m,), which of these have a film.
         ideal: name -> ideal motion at the angles.
         ideal_q: its coordinates, (k, n).
     """
 
     def __init__(self, system: System) -> None:
-        """Take the ideal motion."""
+        """Compute the ideal motion."""
         scene, self.mechanism = system.scene, system.mechanism
         self.system, self.constraints = system, self.mechanism.constraints
         size = self.constraints.size
         self.scale = np.tile([size, size, 1.0], len(self.constraints.bodies))
-        self.loose = [j for j in self.mechanism.joints if j.name not in scene.joints.ideal]
-        self.films = np.array(
-            [scene.joints[joint.name].kind == "lubricated" for joint in self.loose]
-        )
+        joints = [j for j in self.mechanism.joints if j.name not in scene.joints.ideal]
+        self.clearance_joints = joints
+        self.films = np.array([scene.joints[joint.name].kind == "lubricated" for joint in joints])
         rows = self.constraints.rows
-        self._loose_rows = np.concatenate([rows[f"joints.{joint.name}"] for joint in self.loose])
+        self._clearance_rows = np.concatenate([rows[f"joints.{joint.name}"] for joint in joints])
         self._crank = self.constraints.angle_row(self.mechanism.crank)
         self.angles = scene.start_angle + ANGLES
         self.ideal = self.mechanism.motion(self.angles, scene.start_speed)
         self.ideal_q = self.constraints.coordinates(self.ideal)
 
     def gaps(self, q: Array) -> tuple[Array, Array]:
-        """Return journal - bearing of the loose joints, (2 m,), and the Jacobian, (2 m, n)."""
+        """Return journal minus bearing of clearance joints, (2 m,), and the Jacobian, (2 m, n)."""
         residuals, rows = self.constraints.residuals(q), self.constraints.jacobian(q)
-        return residuals[self._loose_rows], rows[self._loose_rows]
+        return residuals[self._clearance_rows], rows[self._clearance_rows]
 
-    def held(self, q: Array, ideal: Array) -> tuple[Array, Array]:
+    def constrain(self, q: Array, ideal: Array) -> tuple[Array, Array]:
         """Return the residuals of ideal joints, guides and drive at q, and their Jacobian."""
         residuals, rows = (
-            np.delete(values, self._loose_rows, axis=0)
+            np.delete(values, self._clearance_rows, axis=0)
             for values in (self.constraints.residuals(q), self.constraints.jacobian(q))
         )
         return np.append(residuals, self._crank @ (q - ideal)), np.vstack([rows, self._crank])
 
-    def on_constraints(self, q: Array, q_t: Array) -> Array:
-        """Return velocities that the constraints allow, next to the given ones."""
-        rows = self.held(q, q)[1]
-        wanted = np.zeros(len(rows))
-        wanted[-1] = self.system.scene.start_speed
-        return np.asarray(q_t + correction(rows, rows @ q_t - wanted))
+    def project_velocities(self, q: Array, q_t: Array) -> Array:
+        """Return the velocities closest to q_t that satisfy the constraints."""
+        rows = self.constrain(q, q)[1]
+        rates = np.zeros(len(rows))
+        rates[-1] = self.system.scene.start_speed
+        return np.asarray(q_t + correction(rows, rows @ q_t - rates))
 
-    def pressing(self, i: int) -> Array:
-        """Return the forces (n,), N m, that joints have to exert on coordinates at one angle."""
+    def joint_forces(self, i: int) -> Array:
+        """Return the generalized forces (n,), N m, of all joints at one of the angles."""
         scene, speed = self.system.scene, self.system.scene.start_speed
         crank = self.angles, np.full(len(ANGLES), speed)
         slider = self.ideal[self.mechanism.slider]
         height = self.mechanism.output_position(slider.position) - self.mechanism.bottom
         velocity = self.mechanism.output_component(slider.velocity)
-        found = np.zeros(len(self.scale))
+        forces = np.zeros(len(self.scale))
         for k, body in enumerate(self.mechanism.bodies):
             moving, mass, inertia = self.ideal[body.name], body.mass, body.inertia
             arm = np.zeros(2)
             if body.name in self.system.parts:  # of the solid, not of its drawing
-                part = self.system.parts[body.name]
-                mass, inertia, centre = part.reduced.mass, part.inertia, part.centre_of_mass
-                moving = moving.point_motion(centre)
+                placed = self.system.parts[body.name]
+                mass, inertia = placed.reduced.mass, placed.inertia
+                moving = moving.point_motion(placed.centre_of_mass)
                 arm = moving.position[i, :2] - self.ideal[body.name].position[i, :2]
             a = moving.acceleration[i]
             fx, fy = mass * a[0], mass * (a[1] + scene.gravity)
-            found[3 * k : 3 * k + 3] = fx, fy, inertia * a[2] + arm[0] * fy - arm[1] * fx
+            forces[3 * k : 3 * k + 3] = fx, fy, inertia * a[2] + arm[0] * fy - arm[1] * fx
         for load in self.system.loads.values():
             k = 3 * self.constraints.bodies.index(load.body)
             size = load.force(ANGLES / (speed or math.inf), crank, (height, velocity))
             angle = self.ideal[load.body].position[:, 2]
-            found[k : k + 2] -= size[i] * np.array(load.direction)
-            found[k + 2] -= load.moment(size, angle)[i]
-        return np.asarray(found * self.scale)
+            forces[k : k + 2] -= size[i] * np.array(load.direction)
+            forces[k + 2] -= load.moment(size, angle)[i]
+        return np.asarray(forces * self.scale)
 
 
 def correction(rows: Array, residuals: Array) -> Array:
-    """Return the smallest change of the coordinates that satisfies constraints."""
+    """Return the smallest change of the coordinates that satisfies linearized constraints."""
     return np.asarray(np.linalg.lstsq(rows, -residuals, rcond=INDEPENDENT)[0])
 
 
 class _Instant:
-    """One of the angles.
+    """The mechanism at one of the angles.
 
     Attributes:
         ideal: coordinates (n,) of the ideal motion.
-        forces: on the journals of the loose joints, x + iy, N.
+        forces: on the journals of the clearance joints, x + iy, N.
     """
 
     def __init__(self, problem: _Problem, i: int) -> None:
-        """Find the loads on the joints; several that bear one load share it evenly."""
+        """Compute the joints' forces; redundant joints share a load evenly."""
         self._problem, self.ideal = problem, problem.ideal_q[i]
         self._omega = {n: m.velocity[i, 2] for n, m in problem.ideal.items()} | {GROUND: 0.0}
         self._angle = {n: m.position[i, 2] for n, m in problem.ideal.items()} | {GROUND: 0.0}
-        self._free = null_space(problem.held(self.ideal, self.ideal)[1]).T
+        self._free = null_space(problem.constrain(self.ideal, self.ideal)[1]).T
         self._reach = problem.gaps(self.ideal)[1] @ self._free
-        pressing = self._free.T @ problem.pressing(i)
-        forces = np.linalg.lstsq(self._reach.T, pressing, rcond=INDEPENDENT)[0]
+        generalized = self._free.T @ problem.joint_forces(i)
+        forces = np.linalg.lstsq(self._reach.T, generalized, rcond=INDEPENDENT)[0]
         forces = forces / problem.constraints.size
         self.forces = forces[0::2] + 1j * forces[1::2]
 
-    def eccentricities(self, pressed: Array) -> Array:
-        """Return where the pressed loose joints bear their forces, (m, 2), m; NaN: nowhere."""
-        found = np.zeros((len(pressed), 2))
-        joints, scene = self._problem.loose, self._problem.system.scene.joints
-        for k in np.flatnonzero(pressed):
+    def eccentricities(self, is_loaded: Array) -> Array:
+        """Return the equilibrium positions of loaded joints, (m, 2), m; NaN where there is none."""
+        eccentricities = np.zeros((len(is_loaded), 2))
+        joints, scene = self._problem.clearance_joints, self._problem.system.scene.joints
+        for k in np.flatnonzero(is_loaded):
             kind = scene[joints[k].name]
             assert not isinstance(kind, IdealJoint)
             turning = self._omega[joints[k].journal], self._omega[joints[k].bearing]
             interfaces = interfaces_of(joints[k], kind, self._problem.system.scene)
-            e = _borne(interfaces, complex(self.forces[k]), *turning)
-            found[k] = (math.nan, math.nan) if e is None else (e.real, e.imag)
-        return found
+            e = _equilibrium(interfaces, complex(self.forces[k]), *turning)
+            eccentricities[k] = (math.nan, math.nan) if e is None else (e.real, e.imag)
+        return eccentricities
 
-    def on_worn(self, wanted: Array, pressed: Array) -> Array:
-        """Return eccentricities (m, 2) in round bearings where worn surfaces bear them instead.
+    def add_wear(self, eccentricities: Array, is_loaded: Array) -> Array:
+        """Return eccentricities (m, 2) in round bearings as they are in worn ones.
 
-        A contact lies on the surface worn there, with the same normal; a film has as thin a gap,
-        over its clearance.
+        A contact lies on the worn surface, with the same normal; a film has the same relative gap.
         """
-        found, problem = np.array(wanted), self._problem
-        for k in np.flatnonzero(pressed):
-            joint, kind = problem.loose[k], problem.system.scene.joints[problem.loose[k].name]
+        in_worn, problem = eccentricities.copy(), self._problem
+        for k in np.flatnonzero(is_loaded):
+            e, joint = eccentricities[k], problem.clearance_joints[k]
+            kind = problem.system.scene.joints[joint.name]
             if not isinstance(kind, DryJoint | LubricatedJoint) or kind.worn is None:
                 continue
-            profiles, size = kind.worn.profiles(), float(np.linalg.norm(wanted[k]))
+            profiles, size = kind.worn.profiles(), float(np.linalg.norm(e))
             if profiles is None or size == 0.0:
                 continue
-            n = wanted[k] / size
+            n = e / size
             angle, depth, slope = math.atan2(n[1], n[0]), 0.0, 0.0
             for body, shape in zip((joint.journal, joint.bearing), profiles, strict=True):
-                worn, change, _ = shape.derivatives(angle - self._angle[body])
-                depth, slope = depth + worn, slope + change
+                depth_there, slope_there, _ = shape.derivatives(angle - self._angle[body])
+                depth, slope = depth + depth_there, slope + slope_there
             clearance = unworn(kind).clearance
             if kind.onset is not None and size > clearance - kind.onset:
-                found[k] = (size + depth) * n + slope * np.array([-n[1], n[0]])
+                in_worn[k] = (size + depth) * n + slope * np.array([-n[1], n[0]])
             else:
-                found[k] = (1.0 + depth / clearance) * wanted[k]
-        return found
+                in_worn[k] = (1.0 + depth / clearance) * e
+        return in_worn
 
-    def moved(self, wanted: Array) -> Array:
-        """Return the coordinates (n,) with eccentricities (2 m,), m, as far as possible."""
+    def positions(self, eccentricities: Array) -> Array:
+        """Return the coordinates (n,) with eccentricities closest to some, (2 m,), m."""
         problem, q = self._problem, self.ideal
         inverse = np.linalg.pinv(self._reach, rcond=INDEPENDENT)
-        wanted = self._reach @ (inverse @ wanted) / problem.constraints.size
+        gaps = self._reach @ (inverse @ eccentricities) / problem.constraints.size
         for _ in range(3):
-            q = q + self._free @ (inverse @ (wanted - problem.gaps(q)[0]))
-            residuals, rows = problem.held(q, self.ideal)
+            q = q + self._free @ (inverse @ (gaps - problem.gaps(q)[0]))
+            residuals, rows = problem.constrain(q, self.ideal)
             q = q + correction(rows, residuals)
         return np.asarray(q)
 
 
-def _borne(
+def _equilibrium(
     interfaces: list[InterfaceLaw], force: complex, omega_j: float, omega_b: float
 ) -> complex | None:
-    """Return the eccentricity at which surfaces exert a force on a journal at rest, or None."""
+    """Return the eccentricity at which interfaces exert a force on a journal at rest, or None."""
 
-    def exerted(e: float) -> complex:
-        """Return the force along the eccentricity and a quarter turn from it, at rest there."""
+    def surface_force(e: float) -> complex:
+        """Return the force along the eccentricity and a quarter turn from it, at rest."""
         loads = [interface.load(e, 0.0, 0.0, omega_j, omega_b) for interface in interfaces]
         return sum((complex(f[0], f[1]) for f in loads if f is not None), 0j)
 
-    size = _bearing_eccentricity(exerted, interfaces, abs(force))
+    size = _equilibrium_size(surface_force, interfaces, abs(force))
     if size is None:
         return None
-    along = force / exerted(size)
-    return size * along / abs(along)
+    direction = force / surface_force(size)
+    return size * direction / abs(direction)
 
 
-def _bearing_eccentricity(
-    exerted: Callable[[float], complex], interfaces: list[InterfaceLaw], wanted: float
+def _equilibrium_size(
+    surface_force: Callable[[float], complex], interfaces: list[InterfaceLaw], load: float
 ) -> float | None:
-    """Return the size of the eccentricity at which a force of a wanted size is exerted, or None."""
+    """Return the size of the eccentricity at which the force equals a load, or None."""
     dry = [interface for interface in interfaces if isinstance(interface, DryInterface)]
-    low, high = 0.0, THICKEST * interfaces[0].clearance
+    low, high = 0.0, LARGEST_RATIO * interfaces[0].clearance
     if dry:
         high = dry[0].clearance + SHALLOW * dry[0].radius
         low = dry[0].clearance if len(dry) == len(interfaces) else 0.0
-    if not abs(exerted(low)) < wanted <= abs(exerted(high)):
+    if not abs(surface_force(low)) < load <= abs(surface_force(high)):
         return None
-    while low < (middle := 0.5 * (low + high)) < high:  # a penetration may be its last digits
-        if abs(exerted(middle)) < wanted:
+    while low < (middle := 0.5 * (low + high)) < high:  # to the last digit, for stiff contacts
+        if abs(surface_force(middle)) < load:
             low = middle
         else:
             high = middle

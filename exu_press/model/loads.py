@@ -16,73 +16,78 @@ from exu_press.model.system import System
 from exu_press.scene import Scene
 from exu_press.scene.applied_load import AppliedLoad
 
-__all__ = ["ActingLoad", "Place", "add_loads"]
+__all__ = ["ActingLoad", "CurvePosition", "add_loads"]
 
-Place = Callable[[float], tuple[float, float]]
-"""Function of time: the place of a load on its curve, and its rate."""
+CurvePosition = Callable[[float], tuple[float, float]]
+"""Function of time: the argument of a load's curve, and its rate."""
 
 CLOSE = 1e-9
-"""Part of a revolution: corners as close as that are passed."""
+"""Fraction of a revolution within which a corner counts as passed."""
 
-FORESEEN = 3e-6
-"""The same of corners that are foreseen: the rest of the way would be a step so short that it makes
-the next one ring."""
+EXTRAPOLATED = 3e-6
+"""The same for corners that are extrapolated: the remaining step would be so short that it excites
+vibrations."""
 
 
 class ActingLoad:
     """A load in a system: its force in the current state, and where its curve has corners.
 
     Attributes:
-        applied: on the mechanism.
+        applied: the scene's load.
     """
 
-    def __init__(self, applied: AppliedLoad, scene: Scene, place: Place, height: Place) -> None:
-        """Take where on its curve the load is, and the output's height and velocity."""
-        self.applied, self._scene, self._place, self._height = applied, scene, place, height
-        self._last = -math.inf, 0.0  # time, s, and rate of the place when a corner was asked for
+    def __init__(
+        self, applied: AppliedLoad, scene: Scene, position: CurvePosition, height: CurvePosition
+    ) -> None:
+        """Take the load's position on its curve, and the output's height and velocity."""
+        self.applied, self._scene = applied, scene
+        self._position, self._height = position, height
+        self._last = -math.inf, 0.0  # time, s, and rate at the last search of a corner
 
     def force(self, time: float) -> float:
         """Return the force in its direction, N."""
         moves = self.applied.fade is not None or self.applied.damping
         velocity = self._height(time)[1] if moves else 0.0
-        return self.applied.at(self._place(time)[0], velocity)
+        return self.applied.at(self._position(time)[0], velocity)
 
     def force_at_rest(self, time: float) -> float:
-        """Return the force, N, that of forming as it was before the output came to rest."""
-        return self.applied.curve(self._place(time)[0])
+        """Return the force, N; of forming, just before the output came to rest."""
+        return self.applied.curve(self._position(time)[0])
 
     def next_corner(self, time: float) -> float:
         """Return the next instant at which the force has a corner, s, or infinity.
 
-        What a load over the output's height, or a motor's crank angle, has before it is foreseen
-        from the speed now and its change in the last step.
+        Corners over the output's height, or a motor's crank angle, are extrapolated from its speed
+        and its acceleration in the last step.
         """
-        over, curve, (now, rate) = self.applied.over, self.applied.curve, self._place(time)
-        exact = over == "time" or (self._scene.drive is None and over == "crank_angle_deg")
-        close = (CLOSE if exact else FORESEEN) * abs(rate) * 60.0 / self._scene.speed_rpm
+        over, curve, (now, rate) = self.applied.over, self.applied.curve, self._position(time)
+        is_exact = over == "time" or (self._scene.drive is None and over == "crank_angle_deg")
+        close = (CLOSE if is_exact else EXTRAPOLATED) * abs(rate) * 60.0 / self._scene.speed_rpm
         if rate == 0.0:
             return math.inf
         corner = curve.corner_after(now, close) if rate > 0.0 else curve.corner_before(now, close)
         return time + self._duration(time, rate, (corner - now) / rate)
 
     def _duration(self, time: float, rate: float, at_constant_rate: float) -> float:
-        """Return how long the way takes, s, that takes so long at a constant rate.
+        """Return the time to a corner, s, from that at a constant rate.
 
         With v s + a s^2 / 2 = v d, and the mean acceleration a of the last step.
         """
-        (last, before), self._last = self._last, (time, rate)
+        (last, last_rate), self._last = self._last, (time, rate)
         if not last < time or not at_constant_rate < math.inf:
             return at_constant_rate
-        relative = (rate - before) / (rate * (time - last))
+        relative = (rate - last_rate) / (rate * (time - last))
         square = 1.0 + 2.0 * relative * at_constant_rate
         return 2.0 * at_constant_rate / (1.0 + math.sqrt(square)) if square > 0.0 else math.inf
 
 
 class CuttingLoad(ActingLoad):
-    """A sheet that resists the punch, by its state."""
+    """A sheet that resists the punch; its force depends on its history."""
 
-    def __init__(self, applied: AppliedLoad, sheet: Sheet, scene: Scene, height: Place) -> None:
-        """Let the output, whose height and velocity are read, cut a sheet."""
+    def __init__(
+        self, applied: AppliedLoad, sheet: Sheet, scene: Scene, height: CurvePosition
+    ) -> None:
+        """Take the sheet, and the output's height and velocity."""
         super().__init__(applied, scene, self.penetration, height)
         self.cut = PunchStroke(sheet)
 
@@ -100,21 +105,21 @@ class CuttingLoad(ActingLoad):
     def next_corner(self, time: float) -> float:
         """Return the next instant at which the force has a corner, s, or infinity."""
         now, rate = self.penetration(time)
-        close = FORESEEN * abs(rate) * 60.0 / self._scene.speed_rpm
+        close = EXTRAPOLATED * abs(rate) * 60.0 / self._scene.speed_rpm
         return self.cut.next(time, now, rate, close, partial(self._duration, time, rate))
 
 
 def add_loads(system: System) -> dict[str, ActingLoad]:
-    """Let every load press its body."""
-    height = _height(system)
+    """Add every load to its body; return them by name."""
+    height = _output_height(system)
     return {name: _add_load(system, name, load, height) for name, load in system.loads.items()}
 
 
-def _add_load(system: System, name: str, applied: AppliedLoad, height: Place) -> ActingLoad:
-    """Press a point of a body, in a direction that stays; on a flexible one the faces carry it."""
+def _add_load(system: System, name: str, applied: AppliedLoad, height: CurvePosition) -> ActingLoad:
+    """Add a force of constant direction on a point of a body, or on faces of a flexible one."""
     load: ActingLoad
     if applied.sheet is None:
-        load = ActingLoad(applied, system.scene, _place(system, applied, height), height)
+        load = ActingLoad(applied, system.scene, _curve_position(system, applied, height), height)
     else:
         load = cutting = CuttingLoad(applied, applied.sheet, system.scene, height)
         system.clocks.append((cutting.cut, cutting.penetration))
@@ -124,30 +129,26 @@ def _add_load(system: System, name: str, applied: AppliedLoad, height: Place) ->
         size = load.force(t)
         return [size * x, size * y, 0.0]
 
-    _press(system, name, applied, force)
+    if applied.body in system.flexible:
+        from exu_press.model.flexible_body import load_point
+
+        count = len(system.parts[applied.body].loads[name])
+        points = (load_point(name, number) for number in range(count))
+        marker = system.flexible[applied.body].add_point_marker(system.mbs, *points)
+    else:
+        marker = system.marker(applied.body, applied.point)
+    function: Any = force
+    system.mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVectorUserFunction=function))
     return load
 
 
-def _press(system: System, name: str, load: AppliedLoad, function: Any) -> None:
-    """Put a force on a rigid body's point, or on a flexible body's faces."""
-    if load.body in system.flexible:
-        from exu_press.model.flexible_body import load_point
-
-        count = len(system.parts[load.body].loads[name])
-        points = (load_point(name, number) for number in range(count))
-        marker = system.flexible[load.body].add_point_marker(system.mbs, *points)
-    else:
-        marker = system.marker(load.body, load.point)
-    system.mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVectorUserFunction=function))
-
-
-def _place(system: System, load: AppliedLoad, height: Place) -> Place:
-    """Return where on its curve a load is."""
+def _curve_position(system: System, load: AppliedLoad, height: CurvePosition) -> CurvePosition:
+    """Return the position of a load on its curve."""
     scene = system.scene
     if load.over == "time":
         return lambda time: (time, 1.0)
     if load.clock is not None:
-        return _since_the_beginning(system, load.clock)
+        return _pulse_time(system, load.clock)
     if load.over == "crank_angle_deg":
         if scene.drive is not None:
             angle = crank_angle_of(system)
@@ -157,21 +158,21 @@ def _place(system: System, load: AppliedLoad, height: Place) -> Place:
     return height
 
 
-def _since_the_beginning(system: System, clock: Callable[[float, float], PulseClock]) -> Place:
-    """Return the function of the time since a pulse's beginning, which the clocks keep."""
+def _pulse_time(system: System, clock: Callable[[float, float], PulseClock]) -> CurvePosition:
+    """Return the time since a pulse's beginning, by a clock of the system."""
     scene, crank = system.scene, crank_angle_of(system)
     running = clock(scene.start_angle, scene.angular_speed)
     system.clocks.append((running, lambda time: crank()))
 
-    def place(time: float) -> tuple[float, float]:
+    def pulse_time(time: float) -> tuple[float, float]:
         since = running.since_begin(time, *crank())
         return since, 1.0 if since > -math.inf else 0.0
 
-    return place
+    return pulse_time
 
 
-def _height(system: System) -> Place:
-    """Return the function of the output's height, m, and velocity, m/s."""
+def _output_height(system: System) -> CurvePosition:
+    """Return the output's height, m, and velocity, m/s."""
     mbs, output = system.mbs, system.mechanism.output
     x, y = output.direction
     zero = output.origin[0] * x + output.origin[1] * y + system.mechanism.bottom
@@ -192,11 +193,11 @@ def _height(system: System) -> Place:
         def read(level: exu.OutputVariableType) -> Any:
             return mbs.GetObjectOutputBody(body, level, centre)
 
-    def place(time: float) -> tuple[float, float]:
+    def height(time: float) -> tuple[float, float]:
         position, velocity = map(read, levels)
         return (
             float(x * position[0] + y * position[1]) - zero,
             float(x * velocity[0] + y * velocity[1]),
         )
 
-    return place
+    return height

@@ -11,14 +11,14 @@ import exudyn as exu
 from exu_press.integrate import ARRIVED, Outcome, SolverTuning
 from exu_press.model.drive import CrankAngle
 from exu_press.model.rigid_body import RigidBody
-from exu_press.model.stall import Stall, holding_torque, stalled
+from exu_press.model.stall import Stall, holding_torque, stall_message
 from exu_press.solving import DEFAULTS, SolvableModel, solve
 
 if TYPE_CHECKING:
     from exu_press.joints.guide_friction import GuideFriction
     from exu_press.laws.sheet import Clock
     from exu_press.mechanism.section import Section
-    from exu_press.model.loads import ActingLoad, Place
+    from exu_press.model.loads import ActingLoad, CurvePosition
     from exu_press.model.placed_part import PlacedPart
     from exu_press.model.start_stop import StartStop
     from exu_press.model.warm_film import WarmFilm
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["Model", "count_items"]
 
 CLOSE = 1e-9
-"""rad: a sample that is no further away is reached."""
+"""rad: a sample that is as close counts as reached."""
 
 
 @dataclass(frozen=True)
@@ -38,19 +38,18 @@ class Model(SolvableModel):
         bodies: name -> object number.
         rigid: name -> rigid body.
         drive: object number of the item that turns the crank.
-        crank_angle: tells the crank's angle and angular velocity.
+        crank_angle: returns the crank's angle and angular velocity in the current state.
         start_stop: clutch, brake and their schedule, if there is a clutch.
-        stall: tells whether the press has stalled.
-        loads: name -> load that acts.
-        clocks: of pulses and sheets of loads, and the readers of their state.
-        ahead: angle, rad, by which a crank at constant speed had turned further at time 0, alone.
-        remembered: by those, where the run goes on from another one.
+        stall: detects that the press has stalled.
+        loads: name -> acting load.
+        clocks: of pulses and sheets of loads, each with a function that reads its coordinate.
+        ahead: [angle, rad, of a crank at constant speed at time 0 from its start].
+        remembered: memory of the clocks, where the run continues another one.
         guide_friction: name of a body in a guide without clearance -> its friction there.
         parts: name -> flexible body's part; empty for rigid bodies.
-        made: number of objects and loads that the scene was made of.
+        scene_items: number of objects and loads of the scene.
         warm: name of a joint -> its film, whose oil warms.
-        until: crank angle at which a run with a motor has arrived, rad; None: it goes on to its
-            end time.
+        until: crank angle at which a run with a motor ends, rad; None: it runs to its end time.
     """
 
     SC: exu.SystemContainer
@@ -61,30 +60,29 @@ class Model(SolvableModel):
     start_stop: "StartStop | None"
     stall: Stall
     loads: Mapping[str, "ActingLoad"]
-    clocks: "list[tuple[Clock, Place]]"
+    clocks: "list[tuple[Clock, CurvePosition]]"
     ahead: list[float]
     guide_friction: Mapping[str, "GuideFriction"]
     parts: Mapping[str, "PlacedPart"]
-    made: int
+    scene_items: int
     warm: Mapping[str, "WarmFilm"] = field(default_factory=dict, kw_only=True)
     remembered: tuple[tuple[float, float | None], ...] = field(default=(), kw_only=True)
     until: float | None = field(default=None, kw_only=True)
 
     @property
     def own_items(self) -> int:
-        """Number of objects and loads that the user has added since."""
-        return count_items(self.mbs) - self.made
+        """Number of objects and loads that the user has added."""
+        return count_items(self.mbs) - self.scene_items
 
     def solve(self, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
         """Run to the end time or to an early stop; sensors and `states` keep the results.
 
-        Films whose oil warms keep their temperature meanwhile; `simulate` renews it.
-
-        Items that were added to `mbs` since, and assembled, take part.
-        `exu_press.result.record(model, outcome)` makes a result of it.
+        Films whose oil warms keep their temperature; `simulate` updates it between revolutions.
+        Items that were added to `mbs`, and assembled, take part.
+        `exu_press.result.record(model, outcome)` makes a result of the run.
 
         Args:
-            tuning: the numbers of step control, to vary them.
+            tuning: numbers of the step control.
             quiet: False shows the progress on standard error.
         """
         self.states.clear()
@@ -112,12 +110,14 @@ class Model(SolvableModel):
 
     @property
     def event(self) -> Callable[[exu.MainSystem, float], float] | None:
-        """A function that changes its sign where a motor's crank is sampled or arrives, or None."""
+        """Function that changes its sign where a motor's crank is sampled or arrives, or None."""
         if self.scene.drive is None:
             return None
         output = self.scene.output
-        angles = [] if output is None else [math.radians(each) for each in output.samples or ()]
-        if self.until is not None and not any(_same(self.until, angle) for angle in angles):
+        angles = (
+            [] if output is None else [math.radians(degrees) for degrees in output.samples or ()]
+        )
+        if self.until is not None and not any(_is_same(self.until, angle) for angle in angles):
             angles.append(self.until)
         if not angles:
             return None
@@ -134,11 +134,11 @@ class Model(SolvableModel):
         return self.crank_angle()[0]
 
     def has_stood(self, time: float) -> bool:
-        """Return whether the press has stood at a time, s, for as long as its scene asks for."""
-        return self.start_stop is not None and self.start_stop.over(time)
+        """Return whether the press has stood at a time, s, for as long as its scene demands."""
+        return self.start_stop is not None and self.start_stop.is_over(time)
 
     def watch(self, time: float) -> str:
-        """Return why the press goes no further, after a step that ends at a time, s, or nothing."""
+        """Return why the run ends after a step to a time, s, or nothing; update all memories."""
         self.states.take(time)
         for clock, state in self.clocks:
             clock.accept(time, *state(time))
@@ -156,16 +156,16 @@ class Model(SolvableModel):
         if not self.stall(time, speed, driven=driven):
             return ""
         forces = {name: load.force_at_rest(time) for name, load in self.loads.items()}
-        wanted = holding_torque(self.mechanism, self.scene, forces, angle)
+        needed = holding_torque(self.mechanism, self.scene, forces, angle)
         slips = start_stop is not None and start_stop.slips
-        there = motor.law(self.scene.speed_rpm)(speed)[0]
+        available = motor.law(self.scene.speed_rpm)(speed)[0]
         if slips and motor.clutch_torque is not None:
-            there = motor.clutch_torque
-        return stalled(time, angle, wanted, there, slips=slips)
+            available = motor.clutch_torque
+        return stall_message(time, angle, needed, available, slips=slips)
 
 
-def _same(angle: float, other: float) -> bool:
-    return abs(math.remainder(angle - other, 2.0 * math.pi)) < CLOSE
+def _is_same(a: float, b: float) -> bool:
+    return abs(math.remainder(a - b, 2.0 * math.pi)) < CLOSE
 
 
 def count_items(mbs: exu.MainSystem) -> int:

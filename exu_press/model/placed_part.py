@@ -1,11 +1,11 @@
-"""The solid of a flexible body in its place: which of its faces the mechanism's joints hold.
+"""The solid of a flexible body in its mechanism, with the faces that joints, guide and loads hold.
 
-A solid has coordinates of its own, the z axis along the joints' axes. Faces that have names are
-fitted to where the drawing has their joints; other faces are found where the joints are. What a
-guide or a load holds is found by names or places, and a guide's usual faces are the solid's sides.
+A solid has coordinates of its own, the z axis along the joints' axes. Named faces are fitted to the
+joints' positions in the drawing; other faces are searched at the joints' positions. Faces of guides
+and loads are named or lie in boxes; by default a guide holds the solid's sides.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from math import atan2, cos, degrees, hypot, inf, radians, sin
@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError, prefixed
-from exu_press.mechanism import Body, Joint, Mechanism, Motion, Point
+from exu_press.mechanism import Body, Mechanism, Motion, Point
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.threads import one_thread
 from exu_press.scene import Face, Flexible, Scene, mechanism_of
@@ -25,6 +25,7 @@ from fe_models import (
     CRANK_STEEL,
     Axis,
     Interface,
+    Material,
     Part,
     Patch,
     ReducedPart,
@@ -36,13 +37,13 @@ from fe_models import (
     shipped_part,
 )
 
-__all__ = ["PlacedPart", "placed_parts"]
+__all__ = ["PlacedPart", "placed_parts", "point_name"]
 
 NEAR = 1e-4
-"""m: how far a face's axis may lie from its joint; drawings are rounded to tenths of a mm."""
+"""m: largest distance of a face's axis from its joint; drawings are rounded to tenths of a mm."""
 
 IN_THE_PLANE = ("x", "y", "rz")
-"""Directions in which a planar mechanism loads faces."""
+"""Motions of faces that a planar mechanism loads."""
 
 MILLIMETRES = 1e-3
 """Netgen reads every STEP file in millimetres, whatever its own unit."""
@@ -60,7 +61,7 @@ class PlacedPart:
         drive: the interface that the drive turns; empty for other bodies than the crank.
         guide: the interface that the guide holds; empty for bodies that have none.
         loads: name of a load on the body -> the interfaces that carry it.
-        middles: name of a load that acts in the middle of its face -> that in the body's frame, m.
+        middles: name of a load in the middle of its face -> the middle in the body's frame, m.
         damping_ratio: of every mode.
     """
 
@@ -74,55 +75,51 @@ class PlacedPart:
     middles: Mapping[str, Point]
     damping_ratio: float
 
-    def carried(self, faces: tuple[str, ...], point: Point) -> tuple[Array, Array]:
-        """Return a point (3,) that faces carry, and its displacement by each mode, (3, modes).
+    def carried_point(self, faces: tuple[str, ...], point: Point) -> tuple[Array, Array]:
+        """Return a point in the solid's frame, (3,), and its displacement by each mode, (3, modes).
 
         Args:
-            faces: interfaces, whose mean motion carries it.
+            faces: interfaces with whose mean motion the point moves.
             point: in the body's frame, m.
         """
-        places, modes = [], []
+        positions, modes = [], []
         for interface in map(self.reduced.interface, faces):
-            places.append([*self.place(point), float(interface.centre[2])])
-            modes.append(interface.moved_point(places[-1])[1])
-        return np.mean(places, axis=0), np.mean(modes, axis=0)
+            positions.append([*self.to_solid(point), float(interface.centre[2])])
+            modes.append(interface.moved_point(positions[-1])[1])
+        return np.mean(positions, axis=0), np.mean(modes, axis=0)
 
-    def place(self, point: Point) -> Point:
+    def to_solid(self, point: Point) -> Point:
         """Return a point of the body's frame in the solid's, m."""
-        x, y = _turned(point, self.angle)
+        x, y = _rotate(point, self.angle)
         return self.centre[0] + x, self.centre[1] + y
 
-    def point(self, place: Array) -> Point:
-        """Return a place of the solid's frame in the body's, m."""
-        x, y, _ = place
-        return _turned((x - self.centre[0], y - self.centre[1]), -self.angle)
+    def to_body(self, point: Sequence[float] | Array) -> Point:
+        """Return a point of the solid's frame in the body's, m."""
+        return _rotate((point[0] - self.centre[0], point[1] - self.centre[1]), -self.angle)
 
-    def frame(self, body: Motion) -> Motion:
+    def frame_motion(self, body: Motion) -> Motion:
         """Return the motion of the solid's frame from that of the body's."""
-        x, y = _turned(self.centre, -self.angle)
-        return _turned_by(body.point_motion((-x, -y)), -self.angle)
+        x, y = _rotate(self.centre, -self.angle)
+        return _rotate_frame(body.point_motion((-x, -y)), -self.angle)
 
-    def body(self, frame: Motion) -> Motion:
+    def body_motion(self, frame: Motion) -> Motion:
         """Return the motion of the body's frame from that of the solid's."""
-        return _turned_by(frame.point_motion(self.centre), self.angle)
+        return _rotate_frame(frame.point_motion(self.centre), self.angle)
 
     @property
     def centre_of_mass(self) -> Point:
-        """Return the solid's centre of mass in the body's frame, m.
-
-        It is zero where the mechanism has it.
-        """
-        return self.point(self.reduced.centre_of_mass)
+        """The solid's centre of mass in the body's frame, m; the mechanism's is its origin."""
+        return self.to_body(self.reduced.centre_of_mass)
 
     @property
     def inertia(self) -> float:
-        """Return the solid's inertia about its centre of mass, in the plane, kg m^2."""
+        """The solid's inertia about its centre of mass, in the plane, kg m^2."""
         x, y = self.reduced.centre_of_mass[:2]
         return float(self.reduced.inertia[2, 2] - self.reduced.mass * (x * x + y * y))
 
 
 def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
-    """Return the flexible bodies of a scene, reduced, showing progress while they are made.
+    """Return the flexible bodies of a scene, reduced, and show the progress of their reduction.
 
     Raises:
         InputError: NGSolve is not installed, a part cannot be meshed, or its faces are not where
@@ -134,168 +131,183 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
             "pip has no wheels of it (Linux on ARM), build it from its sources"
         )
     mechanism = mechanism_of(scene)
-    placed = {}
+    parts = {}
     for name, table in scene.bodies.items():
         with prefixed(f"bodies.{name}: "):
             if table.sn_stress is not None:
                 require_rainflow()
             loads = {
-                which: load
-                for which, load in scene.load.items()
+                load_name: load
+                for load_name, load in scene.load.items()
                 if (load.body or mechanism.slider) == name
             }
-            placed[name] = _placed(mechanism, mechanism.body(name), table, loads, quiet)
-    return placed
+            parts[name] = _place_part(mechanism, mechanism.body(name), table, loads, quiet)
+    return parts
 
 
-def _placed(
+def _place_part(
     mechanism: Mechanism, body: Body, table: Flexible, loads: Mapping[str, Load], quiet: bool
 ) -> PlacedPart:
     """Return one body's part."""
     joints = mechanism.joints_of(body.name)
-    driven = body.name == mechanism.crank
-    asked = dict(table.faces)
+    is_driven = body.name == mechanism.crank
+    named_faces = dict(table.faces)
     if not table.from_file:
-        shipped_part(table.flexible)  # refuses a name that there is not
-        asked = {**faces_given(shipped_faces(table.flexible)), **asked}
-    faces = {joint.name: asked.get(joint.name, (Face(),)) for joint in joints}
-    drive = asked.get(DRIVE_FACE, ()) if driven else ()
+        shipped_part(table.flexible)  # refuses an unknown name
+        named_faces = {**faces_given(shipped_faces(table.flexible)), **named_faces}
+    faces = {joint.name: named_faces.get(joint.name, (Face(),)) for joint in joints}
+    _refuse_shared(faces)
+    drive = named_faces.get(DRIVE_FACE, ()) if is_driven else ()
     patches = {f"load {name}": load.face for name, load in loads.items() if load.face is not None}
     guide = next((guide for guide in mechanism.guides if guide.body == body.name), None)
     if guide is not None:
-        patches = {GUIDE_FACE: asked.get(GUIDE_FACE, ()), **patches}
-    _refuse_shared(faces)
-    named = all(face.name for each in faces.values() for face in each) and all(
-        each and all(face.name for face in each) for each in patches.values()
+        patches = {GUIDE_FACE: named_faces.get(GUIDE_FACE, ()), **patches}
+    is_fitted = (
+        table.origin is None
+        and table.angle_deg is None
+        and all(patches.values())
+        and all(face.name for group in (*faces.values(), *patches.values()) for face in group)
     )
-    fitted = named and table.origin is None and table.angle_deg is None
     origin, turn = table.origin or (0.0, 0.0), radians(table.angle_deg or 0.0)
-    across = (1.0, 0.0) if guide is None else _turned(guide.normal, -turn)
-    part, carriers = _part(table, body, faces, drive, patches, joints, origin, turn, across)
+    normal = (1.0, 0.0) if guide is None else _rotate(guide.normal, -turn)
+    interfaces = {
+        joint: tuple(face.name or point_name(joint, i) for i, face in enumerate(group))
+        for joint, group in faces.items()
+    }
+    holding = [
+        (joint, face, interface)
+        for joint in joints
+        for face, interface in zip(faces[joint.name], interfaces[joint.name], strict=True)
+    ]
+    if table.from_file:
+        axes = {
+            interface: Axis(
+                place=_rotate((joint.at[0] - origin[0], joint.at[1] - origin[1]), -turn),
+                sphere=joint.spherical,
+                hole=joint.bearing == body.name,
+                radius=face.radius,
+                z=face.z,
+            )
+            for joint, face, interface in holding
+            if not face.name
+        }
+        names = [interface for *_, interface in holding]
+        solid, carriers = _part_from_file(table, axes, names, drive, patches, normal)
+    else:
+        solid, carriers = _shipped_part(table, {**faces, DRIVE_FACE: drive}, patches)
     reduction = Reduction(
         table.modes, table.method, flexibility_error=table.flexibility_error, loads=IN_THE_PLANE
     )
-    reduced = _reduced(part, reduction, body.name, quiet)
-    held = {
-        joint: tuple(face.name or _face_name(joint, i) for i, face in enumerate(each))
-        for joint, each in faces.items()
-    }
-    ends = [
-        (joint, face, np.array(joint.at), reduced.interface(held[joint.name][i]).axis[:2])
-        for joint in joints
-        for i, face in enumerate(faces[joint.name])
-    ]
-    if fitted:
-        origin, turn = _fitted([(at, axis) for _, face, at, axis in ends if not face.eccentric])
-    for joint, face, at, axis in ends:
-        x, y = _turned((at[0] - origin[0], at[1] - origin[1]), -turn)
-        away = hypot(x - axis[0], y - axis[1])
-        if away > NEAR and not face.eccentric:
-            best = ", where it fits best" if fitted else ""
+    with one_thread(), Progress(f"modes of {body.name}", 1.0, "", quiet=quiet) as progress:
+        reduced = reduced_part(solid, reduction, report=lambda _, share: progress.update(share))
+    axis_of = {interface: reduced.interface(interface).axis for *_, interface in holding}
+    if is_fitted:
+        pairs = [
+            (joint.at, axis_of[name][:2]) for joint, face, name in holding if not face.eccentric
+        ]
+        origin, turn = _fit_origin(*map(np.array, zip(*pairs, strict=True)))
+    for joint, face, interface in holding:
+        x, y = _rotate((joint.at[0] - origin[0], joint.at[1] - origin[1]), -turn)
+        distance = hypot(x - axis_of[interface][0], y - axis_of[interface][1])
+        if distance > NEAR and not face.eccentric:
+            best = ", where it fits best" if is_fitted else ""
             raise InputError(
-                f"face {face.name or joint.name!r} of {table.flexible!r} lies {1e3 * away:.4g} mm "
-                f"from joints.{joint.name}, with origin = [{origin[0]:.6g}, {origin[1]:.6g}], "
-                f"angle_deg = {degrees(turn):.6g}{best}; allowed is {1e3 * NEAR:g} mm"
+                f"face {face.name or joint.name!r} of {table.flexible!r} lies "
+                f"{1e3 * distance:.4g} mm from joints.{joint.name}, with origin = "
+                f"[{origin[0]:.6g}, {origin[1]:.6g}], angle_deg = {degrees(turn):.6g}{best}; "
+                f"allowed is {1e3 * NEAR:g} mm"
             )
     for joint in joints:
-        height = float(reduced.interface(held[joint.name][0]).axis[2])
+        height = float(axis_of[interfaces[joint.name][0]][2])
         if joint.spherical and abs(height) > NEAR:
             raise InputError(
                 f"the sphere of joints.{joint.name} has its centre at z = {height:.6g} m of "
                 f"{table.flexible!r}; allowed is z = 0, the plane of the mechanism"
             )
     x, y = body.centre_of_mass
-    centre, angle = _turned((x - origin[0], y - origin[1]), -turn), body.angle - turn
-
-    def middle(load: str) -> Point:
-        x, y, _ = reduced.interface(carriers[f"load {load}"]).centre
-        return _turned((x - centre[0], y - centre[1]), -angle)
-
-    return PlacedPart(
+    placed = PlacedPart(
         reduced=reduced,
-        centre=centre,
-        angle=angle,
-        faces=held,
-        drive=(drive[0].name if drive else held[mechanism.shaft.name][0]) if driven else "",
+        centre=_rotate((x - origin[0], y - origin[1]), -turn),
+        angle=body.angle - turn,
+        faces=interfaces,
+        drive=(drive[0].name if drive else interfaces[mechanism.shaft.name][0])
+        if is_driven
+        else "",
         guide="" if guide is None else carriers[GUIDE_FACE],
         loads={
-            name: (carriers[f"load {name}"],) if load.joint is None else held[load.joint]
+            name: (carriers[f"load {name}"],) if load.joint is None else interfaces[load.joint]
             for name, load in loads.items()
         },
-        middles={
-            name: middle(name)
-            for name, load in loads.items()
-            if load.joint is None and load.offset is None
-        },
+        middles={},
         damping_ratio=table.damping_ratio,
     )
+    middles = {
+        name: placed.to_body(reduced.interface(carriers[f"load {name}"]).centre)
+        for name, load in loads.items()
+        if load.joint is None and load.offset is None
+    }
+    return replace(placed, middles=middles)
 
 
-def _part(
+def point_name(joint: str, number: int = 0) -> str:
+    """Return the name of the point or interface where a joint holds one of its faces."""
+    return joint if number == 0 else f"{joint} {number + 1}"
+
+
+def _shipped_part(
     table: Flexible,
-    body: Body,
     faces: Mapping[str, tuple[Face, ...]],
+    patches: Mapping[str, tuple[Face, ...]],
+) -> tuple[Part, dict[str, str]]:
+    """Return a shipped part in the scene's material, and patch -> the interface that carries it."""
+    shipped = shipped_part(table.flexible, table.mesh_size)
+    known = [interface.face for interface in shipped.interfaces]
+    for name, group in {**faces, **patches}.items():
+        wrong = [face.name for face in group if face.name not in known]
+        if name in patches and len(group) != 1:
+            wrong.append("")
+        if wrong:
+            unknown = f" {wrong[0]!r}" if wrong[0] else ""
+            is_load = name in patches and name != GUIDE_FACE
+            key = f"{name.replace(' ', '.')}.face" if is_load else f"faces.{name}"
+            raise InputError(
+                f"{table.flexible!r} has no face{unknown} for {name}; allowed as "
+                f"{key} is one of {', '.join(map(repr, known))}"
+            )
+    material = _material(table, shipped.material)
+    return shipped.replace(material=material), {
+        name: group[0].name for name, group in patches.items()
+    }
+
+
+def _part_from_file(
+    table: Flexible,
+    axes: Mapping[str, Axis],
+    names: list[str],
     drive: tuple[Face, ...],
     patches: Mapping[str, tuple[Face, ...]],
-    joints: list[Joint],
-    origin: Point,
-    turn: float,
-    across: Point,
+    normal: Point,
 ) -> tuple[Part, dict[str, str]]:
-    """Return the part to be reduced, in the material that is asked for.
+    """Return a STEP file's part, and name of a patch -> the interface that carries it.
 
-    The second are the interfaces of the patches, which guide and loads hold, by the patches' names.
+    Args:
+        table: of the flexible body.
+        axes: name of an interface that a joint holds, without a name in the file -> its axis.
+        names: of the interfaces that joints hold.
+        drive: faces that the drive turns.
+        patches: "guide" or "load NAME" -> faces.
+        normal: of the guide, in the solid's frame.
     """
-    if not table.from_file:
-        part = shipped_part(table.flexible, table.mesh_size)
-        known = [interface.face for interface in part.interfaces]
-        for what, each in {**faces, DRIVE_FACE: drive, **patches}.items():
-            loaded = what in patches
-            wrong = [face.name for face in each if face.name not in known]
-            if loaded and len(each) != 1:
-                wrong.append("")
-            if wrong:
-                given = f" {wrong[0]!r}" if wrong[0] else ""
-                of_load = loaded and what != GUIDE_FACE
-                key = f"{what.replace(' ', '.')}.face" if of_load else f"faces.{what}"
-                raise InputError(
-                    f"{table.flexible!r} has no face{given} for {what}; allowed as "
-                    f"{key} is one of {', '.join(map(repr, known))}"
-                )
-        part = part.replace(material=_material(table, part.material))
-        return part, {what: each[0].name for what, each in patches.items()}
-    axes = {
-        _face_name(joint.name, i): Axis(
-            place=_turned((joint.at[0] - origin[0], joint.at[1] - origin[1]), -turn),
-            sphere=joint.spherical,
-            hole=joint.bearing == body.name,
-            radius=face.radius,
-            z=face.z,
-        )
-        for joint in joints
-        for i, face in enumerate(faces[joint.name])
-        if not face.name
-    }
-    names = [
-        face.name or _face_name(joint, i)
-        for joint, each in faces.items()
-        for i, face in enumerate(each)
-    ]
-    turned = [face.name for face in drive if face.name not in names]
+    driven = [face.name for face in drive if face.name not in names]
     first: dict[tuple[Face, ...], str] = {}  # loads may share a patch
     carriers = {
-        what: each[0].name if len(each) == 1 and each[0].name else first.setdefault(each, what)
-        for what, each in patches.items()
+        name: group[0].name if len(group) == 1 and group[0].name else first.setdefault(group, name)
+        for name, group in patches.items()
     }
-    more = [name for name in dict.fromkeys(carriers.values()) if name not in (*names, *turned)]
+    further = [name for name in dict.fromkeys(carriers.values()) if name not in (*names, *driven)]
     interfaces = [Interface(name) for name in dict.fromkeys(names)]
-    interfaces += [Interface(name, ("rz",)) for name in turned]
-    interfaces += [Interface(name, IN_THE_PLANE) for name in more]
-    held = {
-        what: tuple(map(_patch, each)) or Sides(across)
-        for what, each in patches.items()
-        if carriers[what] == what
-    }
+    interfaces += [Interface(name, ("rz",)) for name in driven]
+    interfaces += [Interface(name, IN_THE_PLANE) for name in further]
     limits: dict[str, Any] = {
         "time_limit": table.time_limit,
         "memory_limit": table.memory_limit_gb and 1e9 * table.memory_limit_gb,
@@ -304,7 +316,11 @@ def _part(
         table.path,
         MILLIMETRES,
         axes=axes,
-        patches=held,
+        patches={
+            name: tuple(map(_patch, group)) or Sides(normal)
+            for name, group in patches.items()
+            if carriers[name] == name
+        },
         **{name: limit for name, limit in limits.items() if limit is not None},
     )
     material = _material(table, CRANK_STEEL)
@@ -318,53 +334,42 @@ def _patch(face: Face) -> Patch:
     return Patch(box=(low, high))
 
 
-def _material(table: Flexible, usual: Any) -> Any:
+def _material(table: Flexible, default: Material) -> Material:
     keys = ("youngs_modulus", "poissons_ratio", "density")
-    given = {name: getattr(table, name) for name in keys}
-    return replace(usual, **{name: value for name, value in given.items() if value is not None})
-
-
-def _reduced(part: Part, reduction: Reduction, name: str, quiet: bool) -> ReducedPart:
-    with one_thread(), Progress(f"modes of {name}", 1.0, "", quiet=quiet) as progress:
-        return reduced_part(part, reduction, report=lambda what, share: progress.update(share))
+    values = {key: value for key in keys if (value := getattr(table, key)) is not None}
+    return replace(default, **values)
 
 
 def _refuse_shared(faces: Mapping[str, tuple[Face, ...]]) -> None:
-    """Refuse a face that two joints hold by its name, or one joint twice."""
-    taken: dict[str, str] = {}
-    for joint, each in faces.items():
-        for face in each:
+    """Refuse a named face that two joints hold, or one joint twice."""
+    holders: dict[str, str] = {}
+    for joint, group in faces.items():
+        for face in group:
             if not face.name or face.eccentric:
                 continue
-            if face.name in taken:
+            if face.name in holders:
                 raise InputError(
-                    f"joints.{taken[face.name]} and joints.{joint} hold the same face "
+                    f"joints.{holders[face.name]} and joints.{joint} hold the same face "
                     f"{face.name!r}; allowed are different ones"
                 )
-            taken[face.name] = joint
+            holders[face.name] = joint
 
 
-def _face_name(joint: str, number: int) -> str:
-    return joint if number == 0 else f"{joint} {number + 1}"
-
-
-def _fitted(pairs: list[tuple[Any, Any]]) -> tuple[Point, float]:
-    """Return origin and angle (rad) of a solid whose axes fit best to where the joints are."""
-    places, axes = (np.array(each) for each in zip(*pairs, strict=True))
-    here, there = places - places.mean(axis=0), axes - axes.mean(axis=0)
-    across = (there[:, 0] * here[:, 1] - there[:, 1] * here[:, 0]).sum()
-    turn = atan2(across, (there * here).sum())
-    x, y = _turned(axes.mean(axis=0), turn)
-    mean = places.mean(axis=0)
+def _fit_origin(joints: Array, axes: Array) -> tuple[Point, float]:
+    """Return origin and angle (rad) of a solid whose axes (n, 2) fit best to joints (n, 2)."""
+    from_mean, axes_from_mean = joints - joints.mean(axis=0), axes - axes.mean(axis=0)
+    cross = axes_from_mean[:, 0] * from_mean[:, 1] - axes_from_mean[:, 1] * from_mean[:, 0]
+    turn = atan2(cross.sum(), (axes_from_mean * from_mean).sum())
+    x, y = _rotate(axes.mean(axis=0), turn)
+    mean = joints.mean(axis=0)
     return (float(mean[0] - x), float(mean[1] - y)), turn
 
 
-def _turned(vector: Any, angle: float) -> Point:
+def _rotate(vector: Any, angle: float) -> Point:
     c, s = cos(angle), sin(angle)
     return float(c * vector[0] - s * vector[1]), float(s * vector[0] + c * vector[1])
 
 
-def _turned_by(motion: Motion, angle: float) -> Motion:
-    """Return the motion of a frame that is turned by a constant angle, rad."""
-    turned = motion.position + np.array([0.0, 0.0, angle])
-    return Motion(turned, motion.velocity, motion.acceleration)
+def _rotate_frame(motion: Motion, angle: float) -> Motion:
+    """Return the motion of a frame at a constant angle, rad, from another one."""
+    return replace(motion, position=motion.position + np.array([0.0, 0.0, angle]))

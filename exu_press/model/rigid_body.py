@@ -1,8 +1,7 @@
-"""Rigid bodies as Exudyn items, with no more coordinates than their ideal joints leave them.
+"""Rigid bodies as Exudyn items, with the coordinates that ideal guides and pivots leave them.
 
-A body in an ideal guide that keeps it upright moves up and down; one on an ideal pivot of the frame
-turns about it. No constraint holds the rest, so that its force comes from equilibrium, in
-`result/equilibrium.py`.
+A body in an ideal guide has its displacement alone, one on an ideal pivot of the frame its angle.
+The forces of these guides and pivots follow from equilibrium, in `result/equilibrium.py`.
 """
 
 import math
@@ -25,12 +24,12 @@ __all__ = ["PivotedBody", "RigidBody", "SlidingBody"]
 
 
 class RigidBody:
-    """A body that its joints alone hold.
+    """A body with all three coordinates.
 
     Attributes:
-        coordinates: which of "x", "y" and "angle" are coordinates of the node, in their order.
+        coordinates: those of "x", "y" and "angle" that the node has, in its order.
         reference: x, y and angle (m, m, rad) from which they count.
-        node: Exudyn's number.
+        node: number of Exudyn's node.
         number: of Exudyn's object.
         turned: angle of the body's frame in that of Exudyn's object, rad.
     """
@@ -45,10 +44,10 @@ class RigidBody:
 
         Args:
             mbs: not yet assembled.
-            body: its inertia is that about the centre of mass.
-            start: its first pose and velocity are the body's, as far as it can move.
-            reference: x, y and angle from which displacements count and where springs are relaxed;
-                that of the start unless given.
+            body: with its inertia about the centre of mass.
+            start: its first pose and velocity are the initial values of the coordinates.
+            reference: x, y and angle from which displacements count and at which springs are
+                relaxed; by default those of the start.
         """
         self.reference: Array = start.position[0] if reference is None else reference
         self.node = int(mbs.AddNode(self._node(body.name, start)))
@@ -68,11 +67,11 @@ class RigidBody:
         )
 
     def local(self, point: Point) -> Point:
-        """Return a point of the body's frame, in its centre of mass, in that of Exudyn's item."""
+        """Return a point of the body's frame, whose origin is the centre of mass, in the item's."""
         return point
 
-    def drawn(self, point: Point) -> Point:
-        """Return a point of the body's frame in that in which Exudyn draws the item's graphics."""
+    def graphics_point(self, point: Point) -> Point:
+        """Return a point of the body's frame in the frame of the item's graphics."""
         return self.local(point)
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
@@ -87,7 +86,7 @@ class RigidBody:
 
 
 class _OneCoordinate(RigidBody):
-    """A body that has one of x, y and angle alone, by its column."""
+    """A body with a single coordinate of x, y and angle, by its column."""
 
     _column = 2
 
@@ -102,7 +101,7 @@ class _OneCoordinate(RigidBody):
 
 
 class SlidingBody(_OneCoordinate):
-    """A body that an ideal guide along x or y keeps upright; it has its displacement alone."""
+    """A body in an ideal guide along x or y: its displacement is the only coordinate."""
 
     def __init__(
         self,
@@ -112,7 +111,7 @@ class SlidingBody(_OneCoordinate):
         direction: Point,
         reference: Array | None = None,
     ) -> None:
-        """Take what `RigidBody` takes, and the guide's direction: along x or y, either way."""
+        """Add the body; arguments as of `RigidBody`, and the guide's direction, along x or y."""
         self._column = column = 1 if direction[0] == 0.0 else 0
         self.coordinates = (("x", "y")[column],)
         self._along = np.eye(3)[column]
@@ -140,18 +139,18 @@ class SlidingBody(_OneCoordinate):
         a, b, _ = self._along.tolist()
         return a * x + b * y, a * y - b * x
 
-    def drawn(self, point: Point) -> Point:
-        """Return the point itself: Exudyn moves the graphics of sliding masses, and turns none."""
+    def graphics_point(self, point: Point) -> Point:
+        """Return the point: Exudyn translates the graphics of sliding masses without rotation."""
         return point
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """Return the motion as `RigidBody.motion`."""
-        moved, *rates = ((self._along[:, None] * part[:, 0]).T for part in (q, q_t, q_tt))
-        return Motion(self.reference + moved, *rates)
+        shift, *rates = ((self._along[:, None] * level[:, 0]).T for level in (q, q_t, q_tt))
+        return Motion(self.reference + shift, *rates)
 
 
 class PivotedBody(_OneCoordinate):
-    """A body on an ideal pivot of the frame: only its angle is a coordinate."""
+    """A body on an ideal pivot of the frame: its angle is the only coordinate."""
 
     coordinates: tuple[str, ...] = ("angle",)
 
@@ -164,7 +163,7 @@ class PivotedBody(_OneCoordinate):
         point: Point,
         reference: Array | None = None,
     ) -> None:
-        """Take what `RigidBody` takes, and the pivot in the global and the body's frame, m."""
+        """Add the body; arguments as of `RigidBody`, and the pivot in global and body frame, m."""
         self._pivot, self._point = pivot, point
         super().__init__(mbs, body, start, reference)
 
@@ -183,8 +182,8 @@ class PivotedBody(_OneCoordinate):
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
         """Return the motion as `RigidBody.motion`."""
-        place, *rates = (np.zeros((3, len(q))).T for _ in range(3))
-        place += [*self._pivot, self.reference[2]]
-        for columns, part in zip((place, *rates), (q, q_t, q_tt), strict=True):
-            columns[:, 2] += part[:, 0]
-        return Motion(place, *rates).point_motion(self.local((0.0, 0.0)))
+        position, *rates = (np.zeros((3, len(q))).T for _ in range(3))
+        position += [*self._pivot, self.reference[2]]
+        for columns, level in zip((position, *rates), (q, q_t, q_tt), strict=True):
+            columns[:, 2] += level[:, 0]
+        return Motion(position, *rates).point_motion(self.local((0.0, 0.0)))

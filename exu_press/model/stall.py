@@ -1,4 +1,4 @@
-"""The instant at which a press has stalled, and the reason."""
+"""Detection of a press that has stalled, and the message about it."""
 
 import math
 from collections.abc import Mapping
@@ -9,24 +9,24 @@ from exu_press.mechanism import Mechanism
 from exu_press.scene import Scene
 from exu_press.scene.applied import applied_loads
 
-__all__ = ["Stall", "holding_torque", "stalled"]
+__all__ = ["Stall", "holding_torque", "stall_message"]
 
 SLOW = 0.01
-"""Speed over that at the start, or without load: a crank that ran and is slower has stalled.
-Pressed by a forming force, which fades with the ram's speed, it goes on creeping."""
+"""Speed over that in operation, or without load, below which a running crank has stalled: under a
+forming force, which fades with the ram's speed, it goes on creeping."""
 
 PATIENCE = 0.1
-"""Revolutions at the nominal speed for which a crank that is to start may get no faster."""
+"""Time, in revolutions at the nominal speed, for which a starting crank may fail to accelerate."""
 
 FASTER = 1e-3
-"""Gain of speed, over that below which it is slow, by which a crank has got faster."""
+"""Gain of speed, over the speed of a stalled crank, that counts as acceleration."""
 
 
 class Stall:
-    """Tells a press that stalls from one that starts.
+    """Distinguishes a press that stalls from one that starts.
 
-    One that ran stalls when its crank is slow. One that starts is slow, too, but gets faster: where
-    it does not for some time, its loads, or friction, hold it.
+    A running press stalls when its crank becomes slow. A starting one is slow, too, but
+    accelerates: if it does not for some time, loads or friction hold it.
 
     >>> stall = Stall(speed=10.0, period=1.0)
     >>> [stall(time, speed, driven=True) for time, speed in ((0.0, 0.0), (0.05, 0.05), (0.1, 5.0))]
@@ -47,7 +47,7 @@ class Stall:
         Args:
             time: s.
             speed: of the crank, rad/s.
-            driven: whether something is to turn it.
+            driven: whether the drive is engaged.
         """
         if not driven or self._since == -math.inf:
             self._starts, self._fastest, self._since = True, speed, time
@@ -60,37 +60,40 @@ class Stall:
         return driven and self._starts and time - self._since > self._patience
 
 
-def stalled(time: float, angle: float, wanted: float, there: float, *, slips: bool) -> str:
-    """Return in words that a press has stalled.
+def stall_message(
+    time: float, angle: float, needed: float, available: float, *, slips: bool
+) -> str:
+    """Return the message that a press has stalled.
 
     Args:
         time: s.
         angle: of the crank, rad.
-        wanted: torque that loads and weights want of the crank, N m.
-        there: torque that turns it, N m.
-        slips: whether that is the torque of a clutch that slips.
+        needed: torque at the crank that balances loads and weights, N m.
+        available: torque of the motor, or of a clutch that slips, N m.
+        slips: whether the clutch slips.
     """
-    has = "the clutch, which slips," if slips else "the motor"
-    cure = "a larger drive.inertia, or a motor of a larger torque"
+    source, cure = "the motor", "a larger drive.inertia, or a motor of a larger torque"
     if slips:
-        cure = "a larger drive.clutch_torque"
-    rubs = f"; friction holds at least {there - wanted:.4g} N m" if there > wanted else ""
-    place = f"t = {time:.6g} s, crank angle {math.degrees(angle) % 360.0:.2f} deg"
+        source, cure = "the clutch, which slips,", "a larger drive.clutch_torque"
+    friction = available - needed
+    rubs = f"; friction holds at least {friction:.4g} N m" if friction > 0.0 else ""
+    degrees = math.degrees(angle) % 360.0
     return (
-        f"the press stalled at {place}: loads and weights, without friction, want {wanted:.4g} N m "
-        f"there, and {has} has {there:.4g} N m{rubs}; try {cure}"
+        f"the press stalled at t = {time:.6g} s, crank angle {degrees:.2f} deg: loads "
+        f"and weights, without friction, want {needed:.4g} N m there, and {source} has "
+        f"{available:.4g} N m{rubs}; try {cure}"
     )
 
 
 def holding_torque(
     mechanism: Mechanism, scene: Scene, forces: Mapping[str, float], angle: float
 ) -> float:
-    """Return the crank's torque that holds loads and weights, N m, by virtual work.
+    """Return the torque at the crank that balances loads and weights, N m, by virtual work.
 
     Args:
         mechanism: ideal, and without friction.
         scene: with the loads.
-        forces: of the loads, as they were before the output came to rest, N.
+        forces: name of a load -> its force just before the output came to rest, N.
         angle: of the crank, rad.
     """
     per_angle = mechanism.motion(np.array([angle]), 1.0)
@@ -100,6 +103,6 @@ def holding_torque(
     closes = float(mechanism.output_component(per_angle[mechanism.slider].velocity)[0]) < 0.0
     for name, load in applied_loads(scene).items():
         if load.fade is None or closes:
-            moved = per_angle[load.body].point_motion(load.point).velocity[0, :2]
-            torque -= forces[name] * float(moved @ np.array(load.direction))
+            rate = per_angle[load.body].point_motion(load.point).velocity[0, :2]
+            torque -= forces[name] * float(rate @ np.array(load.direction))
     return torque

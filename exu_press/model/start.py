@@ -1,10 +1,10 @@
-"""The start of flexible bodies: on the motion of ideal joints when vibrations are over.
+"""Initial deformation of flexible bodies: that of the quasi-static motion with ideal joints.
 
-Undeformed bodies that start at full speed ring for a revolution. The deformation on the ideal
-motion is found here: at every instant inertia, weight, springs and the forces of joints balance the
-modes' stiffness, with velocities and accelerations that follow from the change of the balance
-with the drive's angle. They lag behind by one turn of an iteration, which shrinks the error by
-the square of the drive's frequency over the lowest mode's: about a hundred times.
+Undeformed bodies that start at full speed vibrate for a revolution. In the quasi-static motion
+inertia, weight, springs and joint forces balance the modes' stiffness at every instant. Velocities
+and accelerations are derivatives of this balance by the drive's angle, of the previous iteration.
+Each iteration shrinks the error by the square of the drive's frequency over the lowest mode's:
+about a hundred times.
 """
 
 from collections.abc import Iterator
@@ -27,20 +27,21 @@ if TYPE_CHECKING:
 __all__ = ["deformed_start", "quasi_static_motion"]
 
 SMALL = 0.1
-"""Deformation over a body's size, up to which it is small, and so linear in the modes."""
+"""Largest deformation over a body's size: modes describe small ones alone."""
 
 CURRENT = exu.ConfigurationType.Current
 ANGLES = np.radians(np.arange(-3.0, 4.0))
-"""Angles of the drive about the start's, rad: a polynomial of sixth degree differentiates there.
+"""Angles of the drive from the start, rad: a polynomial of sixth degree through them is
+differentiated.
 From half to twice this spacing the result is the same to 1e-6."""
 
 ITERATIONS = 4
-"""Turns of the iteration: the first one at rest, the last one changes modes by 1e-4 of themselves.
-More would let rounding grow, which differentiating multiplies."""
+"""Iterations, the first one at rest; the last one changes modes by 1e-4 of themselves. More would
+let rounding grow, which differentiation multiplies."""
 
 CORRECTIONS = 4
-"""Steps of Newton's method in the first turn, from the undeformed start's position up to 3 degrees
-away; later ones start where the last one ended and take half as many."""
+"""Newton iterations in the first iteration, from the undeformed start up to 3 degrees away; later
+iterations continue from the previous one and need half as many."""
 
 
 def deformed_start(
@@ -49,14 +50,14 @@ def deformed_start(
     """Return the motion of the rigid bodies and the frames of the flexible ones at the start.
 
     Args:
-        ideal: assembled, on the start of undeformed bodies; all joints are ideal.
+        ideal: assembled, in the start of undeformed bodies; all joints are ideal.
         drive: object number of the constraint that turns the crank.
         speed: of the crank, rad/s.
 
     Raises:
-        InputError: a body is so soft that it does not stay in shape.
+        InputError: a body is so compliant that its deformation is not small.
     """
-    from exu_press.model.flexible_body import deformed
+    from exu_press.model.flexible_body import start_from_state
 
     mbs = ideal.mbs
     turned = turned_body(ideal)
@@ -64,18 +65,18 @@ def deformed_start(
     coordinate += ideal.rigid[turned].coordinates.index("angle")
     state = quasi_static_motion(mbs, drive, coordinate, speed)
 
-    def parts_of(node: int) -> Iterator[Array]:
+    def state_of(node: int) -> Iterator[Array]:
         indices = mbs.systemData.GetNodeLTGODE2(node)
         return (values[indices] for values in state)
 
     start, frames = {}, {}
     for name, rigid in ideal.rigid.items():
-        q, q_t = (values[None, :] for values in parts_of(rigid.node))
+        q, q_t = (values[None, :] for values in state_of(rigid.node))
         start[name] = rigid.motion(q, q_t, np.zeros_like(q))
     for name, body in ideal.flexible.items():
-        modes = [np.zeros(0)] * 2 if body.node_modes is None else list(parts_of(body.node_modes))
+        modes = [np.zeros(0)] * 2 if body.node_modes is None else list(state_of(body.node_modes))
         _refuse_too_compliant(ideal.scene, name, body, modes[0])
-        frames[name] = deformed(mbs, body, *parts_of(body.node_rigid), *modes)
+        frames[name] = start_from_state(mbs, body, *state_of(body.node_rigid), *modes)
     return start, frames
 
 
@@ -84,11 +85,11 @@ def _refuse_too_compliant(scene: Scene, name: str, body: "FlexibleBody", modes: 
     shift = np.linalg.norm((body.part.modes @ modes).reshape(-1, 3), axis=1).max(initial=0.0)
     share = shift / float(np.ptp(body.part.nodes, axis=0).max())
     if not share <= SMALL:
-        given = scene.bodies[name].youngs_modulus
-        than = "" if given is None else f" than {given:g} Pa"
-        bent = f"{share:.2g} of its size" if share < 1.0 else "more than its size"
+        modulus = scene.bodies[name].youngs_modulus
+        than = "" if modulus is None else f" than {modulus:g} Pa"
+        size = f"{share:.2g} of its size" if share < 1.0 else "more than its size"
         raise InputError(
-            f"bodies.{name}: its ideal motion would bend it by {bent}; allowed is {SMALL:g}, of a "
+            f"bodies.{name}: its ideal motion would bend it by {size}; allowed is {SMALL:g}, of a "
             f"larger youngs_modulus{than} or at a lower speed_rpm"
         )
 
@@ -96,10 +97,10 @@ def _refuse_too_compliant(scene: Scene, name: str, body: "FlexibleBody", modes: 
 def quasi_static_motion(
     mbs: exu.MainSystem, drive: int, coordinate: int, speed: float
 ) -> tuple[Array, Array]:
-    """Return all coordinates, (n,), and their rates, on the motion without vibrations.
+    """Return all coordinates, (n,), and their rates, of the quasi-static motion.
 
     Args:
-        mbs: assembled, on the start of the same mechanism with rigid bodies. All joints are ideal.
+        mbs: assembled, in the start of the same mechanism with rigid bodies. All joints are ideal.
         drive: object number of the constraint that prescribes the drive's speed.
         coordinate: the drive's angle among all coordinates.
         speed: of the drive, rad/s.
@@ -143,7 +144,7 @@ class _Balance:
         self._stiffness = self._matrix()[: self.size, : self.size]
 
     def correct(self, angle: float, q: Array, q_t: Array, q_tt: Array, forces: Array) -> None:
-        """Correct positions and the constraints' forces, in place, at an angle of the drive."""
+        """Correct positions and constraint forces, in place, at an angle of the drive."""
         mbs, solver, size = self._mbs, self._solver, self.size
         mbs.systemData.GetODE2Coordinates(CURRENT, False)[:] = q
         mbs.systemData.GetODE2Coordinates_t(CURRENT, False)[:] = q_t
@@ -151,21 +152,21 @@ class _Balance:
         solver.SetSystemJacobian(np.zeros((size + self.constraints,) * 2))
         solver.ComputeJacobianAE(mbs, 1.0, 1.0)
         matrix = self._matrix()
-        missing = np.zeros(len(matrix))
+        residual = np.zeros(len(matrix))
         solver.ComputeODE2RHS(mbs)
-        missing[:size] = self._residual()[:size]
-        missing[:size] -= np.asarray(solver.GetSystemMassMatrix()) @ q_tt
-        missing[:size] -= matrix[size:, :size].T @ forces
+        residual[:size] = self._residual()[:size]
+        residual[:size] -= np.asarray(solver.GetSystemMassMatrix()) @ q_tt
+        residual[:size] -= matrix[size:, :size].T @ forces
         solver.ComputeAlgebraicEquations(mbs, velocityLevel=False)
-        missing[size:] = -self._residual()[size:]
-        missing[size + self._driven] = angle - q[self._coordinate]  # its speed is held
+        residual[size:] = -self._residual()[size:]
+        residual[size + self._driven] = angle - q[self._coordinate]  # constrained is its speed
         matrix[:size, :size] = self._stiffness
         try:
-            found = np.linalg.solve(matrix, missing)
-        except np.linalg.LinAlgError:  # a body is bent out of all proportion, and is refused
-            found = np.full(len(missing), np.nan)
-        q += found[:size]
-        forces += found[size:]
+            correction = np.linalg.solve(matrix, residual)
+        except np.linalg.LinAlgError:  # a deformation that is refused later
+            correction = np.full(len(residual), np.nan)
+        q += correction[:size]
+        forces += correction[size:]
 
     def _matrix(self) -> Array:
         return np.array(self._solver.GetSystemJacobian())

@@ -1,4 +1,4 @@
-"""The state in which a run ends, and how another run goes on from it."""
+"""The state at the end of a run, and its continuation by another run."""
 
 from dataclasses import replace
 from typing import Any, NotRequired, TypedDict
@@ -15,20 +15,20 @@ __all__ = ["State", "go_on_from", "state_of"]
 
 
 ROUNDED = 1e-9
-"""rad: a crank that is no further ahead of its start and speed is where they say."""
+"""rad: a smaller difference of the crank from its start and speed is rounding."""
 
 
 class State(TypedDict):
-    """Everything that a run's future follows from, as numbers in lists.
+    """Everything that determines a run's future, as numbers in lists.
 
     Attributes:
         time: s.
-        step: last step, s, with which the next run begins.
+        step: last step, s, the first one of the next run.
         coordinates: of Exudyn's system: second-order ones and their rates, first-order ones,
-            constraint forces, data variables; without the reference's values.
+            constraint forces, data variables; without reference values.
         accelerations: of the second-order coordinates.
-        reference: place at which the second-order coordinates are zero; it goes with the start
-            angle and, of flexible bodies, with the speed.
+        reference: values of the second-order coordinates; they depend on the start angle and, of
+            flexible bodies, on the speed.
         joints: memory of clearance joints and guideways: bristles, approach speeds, paths.
         clocks: memory of pulses and sheets of loads.
         films: temperature, deg C, and pressure, Pa, of films whose oil warms.
@@ -47,20 +47,20 @@ class State(TypedDict):
 
 
 def state_of(model: Model) -> State:
-    """Return the state in which a model is after it was solved."""
+    """Return the state of a model after it was solved."""
     data: Any = model.mbs.systemData
     user_force = System.of(model.mbs).joints
     state: State = {
         "time": float(data.GetTime()),
         "step": float(model.mbs.sys["dynamicSolver"].it.currentStepSize),
-        "coordinates": [np.asarray(part).tolist() for part in data.GetSystemState()],
+        "coordinates": [np.asarray(values).tolist() for values in data.GetSystemState()],
         "accelerations": np.asarray(data.GetODE2Coordinates_tt()).tolist(),
         "reference": _reference(model).tolist(),
         "joints": None if user_force is None else user_force.memory(),
         "clocks": [clock.memory() for clock, _ in model.clocks],
     }
     if model.warm:
-        state["films"] = {n: (one.temperature, one.pressure) for n, one in model.warm.items()}
+        state["films"] = {n: (film.temperature, film.pressure) for n, film in model.warm.items()}
     if model.start_stop is not None:
         state["start_stop"] = model.start_stop.memory()
     return state
@@ -70,26 +70,27 @@ def go_on_from(model: Model, state: State) -> Model:
     """Return a model that starts in a state, at its time.
 
     Raises:
-        InputError: the state is one of another model: of other bodies, joints or modes.
+        InputError: the state belongs to other bodies, joints or modes.
     """
     data: Any = model.mbs.systemData
     initial = exu.ConfigurationType.Initial
     user_force = System.of(model.mbs).joints
-    sizes = [len(part) for part in data.GetSystemState(configuration=initial)]
-    given = [len(part) for part in state["coordinates"]]
+    sizes = [len(values) for values in data.GetSystemState(configuration=initial)]
+    state_sizes = [len(values) for values in state["coordinates"]]
     histories = 0 if state["joints"] is None else len(state["joints"]["joints"])
     joints = 0 if user_force is None else len(user_force.joints)
-    if sizes != given or histories != joints or len(state["clocks"]) != len(model.clocks):
+    if sizes != state_sizes or histories != joints or len(state["clocks"]) != len(model.clocks):
         raise InputError(
-            f"the state has {given[0]} coordinates and {histories} joints with clearance, the "
-            f"scene {sizes[0]} and {joints}: allowed is a run of the same bodies, joints and loads"
+            f"the state has {state_sizes[0]} coordinates and {histories} joints with clearance, "
+            f"the scene {sizes[0]} and {joints}: allowed is a run of the same bodies, joints and "
+            "loads"
         )
-    parts: list[Array] = [np.array(part) for part in state["coordinates"]]
-    parts[0] = parts[0] + (np.array(state["reference"]) - _reference(model))
-    data.SetSystemState(systemStateList=parts, configuration=initial)
+    coordinates: list[Array] = [np.array(values) for values in state["coordinates"]]
+    coordinates[0] = coordinates[0] + (np.array(state["reference"]) - _reference(model))
+    data.SetSystemState(systemStateList=coordinates, configuration=initial)
     data.SetODE2Coordinates_tt(coordinates=state["accelerations"], configuration=initial)
-    usual = model.scene.start_angle + model.scene.angular_speed * state["time"]
-    ahead = model.crank_at_start() - usual
+    nominal = model.scene.start_angle + model.scene.angular_speed * state["time"]
+    ahead = model.crank_at_start() - nominal
     model.ahead[0] = ahead if abs(ahead) > ROUNDED else 0.0
     data.SetTime(newTime=state["time"], configurationType=initial)
     if user_force is not None and state["joints"] is not None:
@@ -106,6 +107,6 @@ def go_on_from(model: Model, state: State) -> Model:
 
 
 def _reference(model: Model) -> Array:
-    """Return the place from which the second-order coordinates of a model count."""
+    """Return the reference values of a model's second-order coordinates."""
     data: Any = model.mbs.systemData
     return np.array(data.GetODE2Coordinates(configuration=exu.ConfigurationType.Reference))

@@ -32,7 +32,7 @@ __all__ = ["System"]
 
 
 class System:
-    """A system that is being assembled, with all that its parts need.
+    """A system under construction.
 
     Attributes:
         scene: of the system.
@@ -41,26 +41,26 @@ class System:
         constraints: independent ones of ideal joints and guides.
         ideal: name -> motion of the ideal mechanism at the start.
         loads: name -> load.
-        clocks: of pulses and sheets, each with the reader of its state, told at the end of
-            every step.
-        ahead: of a crank at constant speed, one angle, rad, by which it has turned further at time
-            0 than its start; not 0 where a run goes on from one of another speed or start.
+        clocks: of pulses and sheets, updated at the end of every step, each with a function that
+            reads its coordinate and rate at a time.
+        ahead: [angle, rad, of a crank at constant speed at time 0 from its start]; not 0 where a
+            run continues one of another speed or start.
         SC: Exudyn's system container.
         mbs: Exudyn's main system, not yet assembled.
         ground: object number of the frame.
         ground_node: node number of the frame.
-        still: marker on a coordinate of the frame.
+        still: marker of a coordinate of the frame.
         bodies: name -> object number.
         nodes: name -> node number.
         rigid: name -> rigid body.
         flexible: name -> flexible body.
         sensors: (name, quantity) -> sensor number.
-        local_forces: object numbers of connectors whose force is known in their own axes alone.
+        local_forces: object numbers of connectors whose force is output in their own axes alone.
     """
 
     def __init__(self, scene: Scene, parts: Mapping[str, "PlacedPart"]) -> None:
         self.scene, self.parts = scene, parts
-        solids = {name: (part.reduced.mass, part.inertia) for name, part in parts.items()}
+        solids = {name: (placed.reduced.mass, placed.inertia) for name, placed in parts.items()}
         self.mechanism = mechanism_of(scene)
         if scene.guide is not None:
             from exu_press.scene.elastic import with_elastic_guides
@@ -95,10 +95,10 @@ class System:
         still = MarkerNodeCoordinate(nodeNumber=self.ground_node, coordinate=0)
         self.still = self.mbs.AddMarker(still)
 
-    def take_in(self, name: str, added: RigidBody) -> None:
-        """Remember a rigid body by its name."""
-        self.rigid[name] = added
-        self.bodies[name], self.nodes[name] = added.number, added.node
+    def add_rigid(self, name: str, body: RigidBody) -> None:
+        """Register a rigid body under its name."""
+        self.rigid[name] = body
+        self.bodies[name], self.nodes[name] = body.number, body.node
 
     def marker(self, body: str, point: Point) -> int:
         """Add a marker on a rigid body or the frame."""
@@ -110,10 +110,10 @@ class System:
         """Add a marker for a joint; on a flexible body it follows its faces' mean motion."""
         if body not in self.flexible:
             return self.marker(body, point)
-        from exu_press.model.flexible_body import point_name
+        from exu_press.model.placed_part import point_name
 
         count = len(self.parts[body].faces[joint.name])
-        points = (point_name(joint, number) for number in range(count))
+        points = (point_name(joint.name, number) for number in range(count))
         return self.flexible[body].add_point_marker(self.mbs, *points)
 
     def coordinate(self, body: str, coordinate: str) -> int:
@@ -126,27 +126,27 @@ class System:
     def hold(self, body: str, coordinate: str, **options: Any) -> int:
         """Hold a rigid body's coordinate by a constraint."""
         markers = [self.still, self.coordinate(body, coordinate)]
-        held = ObjectConnectorCoordinate(markerNumbers=markers, **options)
-        return int(self.mbs.AddObject(held))
+        return int(self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers, **options)))
 
     def spring(self, body: str, coordinate: str, spring: Spring) -> int:
         """Hold a rigid body's coordinate by a spring and damper."""
-        held = ObjectConnectorCoordinateSpringDamper(
+        connector = ObjectConnectorCoordinateSpringDamper(
             markerNumbers=[self.still, self.coordinate(body, coordinate)],
             stiffness=spring.stiffness,
             damping=spring.damping,
         )
-        return int(self.mbs.AddObject(held))
+        return int(self.mbs.AddObject(connector))
 
 
 def _beside_flexible(scene: Scene, mechanism: Mechanism) -> frozenset[str]:
-    """Return the rigid bodies that have a joint with clearance with a flexible one.
+    """Return the rigid bodies that a joint with clearance connects to flexible ones.
 
-    In such a joint, which is one in space, they need all their coordinates.
+    Such joints are spatial, so these bodies need all their coordinates.
     """
-    beside: set[str] = set()
-    for joint in mechanism.joints:
-        ends = {joint.journal, joint.bearing}
-        if joint.name not in scene.joints.ideal and ends & scene.bodies.keys():
-            beside |= ends
-    return frozenset(beside - scene.bodies.keys())
+    pairs = (
+        {joint.journal, joint.bearing}
+        for joint in mechanism.joints
+        if joint.name not in scene.joints.ideal
+    )
+    neighbours = (pair for pair in pairs if pair & scene.bodies.keys())
+    return frozenset().union(*neighbours) - scene.bodies.keys()

@@ -127,7 +127,7 @@ def carried_motion(
         point: in the undeformed body's frame, m.
     """
     placed, count = model.parts[name], len(sensor(model, name, "position"))
-    position, modes = placed.carried(faces, point)
+    position, modes = placed.carried_point(faces, point)
     q, q_t = modal(model, name, placed.reduced, count)
     return moving_point(model, name, position + q @ modes.T, q_t @ modes.T)
 

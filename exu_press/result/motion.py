@@ -30,7 +30,7 @@ def body_motion(model: Model, name: str) -> Motion:
     mean of the whole body.
     """
     if name not in model.rigid:
-        return model.parts[name].body(frame_motion(model, name))
+        return model.parts[name].body_motion(frame_motion(model, name))
     levels = ("position", "velocity", "acceleration")
     return model.rigid[name].motion(
         *(np.asfortranarray(sensor(model, name, level)) for level in levels)

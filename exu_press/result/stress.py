@@ -55,7 +55,7 @@ def record(run: Recording) -> Record:
         worst[name] = {
             "von_mises": float(size[instant]),
             "time": float(time[instant]),
-            "place": [*placed.point(point), float(point[2])],
+            "place": [*placed.to_body(point), float(point[2])],
         }
     return Record(channels, info={"stress": worst})
 

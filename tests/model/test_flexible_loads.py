@@ -68,9 +68,9 @@ def bent(rocker, **keys):
     modes = q[mbs.systemData.GetNodeLTGODE2(model.nodes["rocker_modes"])]
     part, body = model.parts["rocker"], model.mechanism.body("rocker")
     top = body.local((AT, LENGTH + OVERHANG))
-    moved = {"tip": part.carried(part.loads["one"], top)[1] @ modes}
+    moved = {"tip": part.carried_point(part.loads["one"], top)[1] @ modes}
     for joint, y in {"pivot": 0.0, "knuckle": LENGTH}.items():
-        moved[joint] = part.carried(part.faces[joint], body.local((AT, y)))[1] @ modes
+        moved[joint] = part.carried_point(part.faces[joint], body.local((AT, y)))[1] @ modes
     model.SC.Reset()
     return beside({name: vector[0] for name, vector in moved.items()})
 

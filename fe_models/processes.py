@@ -1,18 +1,20 @@
-"""Child processes: how one starts, gets its work, answers, and ends; here alone one is started.
+"""Child processes: their start, requests, answers and end. No other module starts one.
 
 A new child is `python -P -m fe_models.processes`: it runs nothing of the caller's script and
-imports nothing from the folder where one works. On Linux a child may be a copy of the caller
-instead, which is there at once and has what no message carries, as an Exudyn system. Requests and
-answers are pickles, each after its length. A child ends with its parent, whatever ends that: Linux
-kills it, and on any system it ends itself when its requests close.
+imports nothing from the working folder. On Linux a child may be a copy of the caller instead, which
+is ready at once and has objects that no message carries, as an Exudyn system. Requests and answers
+are pickles, each after its length. A child ends with its parent, whatever ends that: Linux kills
+it, and on any system it ends itself when its requests close.
 """
 
 import contextlib
 import ctypes
+import gc
 import math
 import os
 import pickle
 import signal
+import stat
 import subprocess
 import sys
 import tempfile
@@ -21,11 +23,11 @@ import traceback
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from queue import SimpleQueue
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, NamedTuple
 
 from fe_models.errors import DiskFullError, InputError, disk_full
 
@@ -34,39 +36,27 @@ __all__ = ["ONE_THREAD", "Child", "ChildError", "TimeLimitError", "may_copy"]
 PR_SET_PDEATHSIG = 1
 """Of prctl(2): the signal that a process gets when its parent ends."""
 
-ONE_THREAD = dict.fromkeys(
-    (
-        "OMP_NUM_THREADS",
-        "OPENBLAS_NUM_THREADS",
-        "MKL_NUM_THREADS",
-        "BLIS_NUM_THREADS",
-        "VECLIB_MAXIMUM_THREADS",
-        "NGS_NUM_THREADS",
-    ),
-    "1",
-)
+ONE_THREAD = {
+    f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "BLIS", "NGS")
+} | {"VECLIB_MAXIMUM_THREADS": "1"}
 """Environment of a process whose libraries have one thread each."""
 
 LAST_LETTERS = 2000
-"""Of what a child that failed has printed, in the message."""
+"""Most letters of a failed child's output in a message."""
 
 NOT_FOUND = " (a child does not search the folder where one works; PYTHONPATH names others)"
 """Cure of a module that is not found."""
 
 ANSWER, REPORT, WRONG_INPUT, NO_ROOM, FAILURE = range(5)
-"""What a message from a child is."""
+"""Kinds of a child's messages."""
 
+DESCRIPTORS = "/proc/self/fd"
+"""Linux's folder of the files and pipes that a process has open."""
 
-def _working_folder() -> str:
-    """Return the folder where this process works, or nothing where that is gone."""
-    try:
-        return str(Path.cwd())
-    except OSError:
-        return ""
-
-
-WORKING_FOLDER = _working_folder()
-"""Where this process was started: it seldom works elsewhere before this import."""
+try:
+    WORKING_FOLDER = str(Path.cwd())
+except OSError:  # it has been removed
+    WORKING_FOLDER = ""
 
 
 class ChildError(RuntimeError):
@@ -74,18 +64,17 @@ class ChildError(RuntimeError):
 
 
 class TimeLimitError(ChildError):
-    """A child was ended as it took too long."""
+    """A child was killed as it took too long."""
 
 
-@dataclass(frozen=True)
-class Setup:
-    """What a child is told first, in Python's own types.
+class Setup(NamedTuple):
+    """What a child needs before its first request, in Python's own types.
 
     Attributes:
         parent: number of the parent's process.
-        path: the parent's `sys.path`, without the folder where one works.
-        function: "module:name" of what the child performs; or the function, of a copy.
-        niceness: by how much the child gives way to others.
+        path: the parent's `sys.path`, without the working folder.
+        function: "module:name" of the child's function; or the function, of a copy.
+        niceness: added to the parent's.
         memory: bytes of address space that it may have, where the system limits them.
     """
 
@@ -99,7 +88,7 @@ class Setup:
 class Child(AbstractContextManager["Child", None]):
     """A process that performs one function, on one request after another; a context manager.
 
-    It is ended where it was started, by the same thread: Linux ends a child with this thread.
+    The thread that has started it must end it, too: Linux ends a child with this thread.
     """
 
     def __init__(
@@ -117,30 +106,41 @@ class Child(AbstractContextManager["Child", None]):
         Args:
             function: "module:name" for a new process; a function for a copy of this one, where
                 `may_copy` allows it.
-            niceness: by how much it gives way to others.
+            niceness: added to that of this process.
             memory: bytes of address space that it may have.
             one_thread: libraries of a new process have one thread each.
-            silent: what it prints is shown only if it fails; else on standard error.
+            silent: its output is shown only if it fails; else on standard error.
             progress: called with what the function reports; the function has a further argument,
                 `report`, to do so.
         """
         setup = Setup(os.getpid(), _search_path(), function, niceness, memory)
         self._progress = progress
-        # without a name: none is left behind
-        self._printed = tempfile.TemporaryFile() if silent else None  # noqa: SIM115
-        errors = 2 if self._printed is None else self._printed.fileno()
+        # without a name: a kill leaves no file
+        self._output = tempfile.TemporaryFile() if silent else None  # noqa: SIM115
+        start = partial(
+            subprocess.Popen,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=2 if self._output is None else self._output.fileno(),
+            start_new_session=True,  # Ctrl-C in a terminal is for the parent alone
+            restore_signals=False,  # a closed pipe is an exception, not a signal
+        )
         if callable(function):
-            self._process: subprocess.Popen[bytes] | _Copy = _Copy(setup, errors)
+            for stream in (sys.stdout, sys.stderr):
+                stream.flush()  # else the copy writes it once more
+            with warnings.catch_warnings():  # of threads: those of libraries wait for work
+                warnings.simplefilter("ignore", DeprecationWarning)
+                self._process = start([sys.executable], preexec_fn=partial(_run_copy, setup))
         else:
-            self._process = subprocess.Popen(
-                [sys.executable, *_flags(), "-P", "-m", __name__],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=errors,
-                env={**os.environ, **(ONE_THREAD if one_thread else {})},
-                start_new_session=True,  # Ctrl-C in a terminal is for the parent alone
-            )
-            self._write(vars(setup))
+            flags = {"-E": sys.flags.ignore_environment, "-s": sys.flags.no_user_site}
+            options = [option for option, is_set in flags.items() if is_set]
+            environment = {**os.environ, **(ONE_THREAD if one_thread else {})}
+            command = [sys.executable, *options, "-P", "-m", __name__]
+            self._process = start(command, env=environment)
+        assert self._process.stdin is not None and self._process.stdout is not None
+        self._requests, self._answers = self._process.stdin, self._process.stdout
+        if not callable(function):
+            self._write(tuple(setup))
 
     @property
     def pid(self) -> int:
@@ -153,37 +153,36 @@ class Child(AbstractContextManager["Child", None]):
         return self._process.poll() is None
 
     def request(self, *arguments: Any) -> None:
-        """Let the function be called; the child works off requests in their order."""
+        """Request a call of the function; the child works off requests in their order."""
         self._write((arguments, self._progress is not None))
 
     def answer(self, time_limit: float | None = None) -> Any:
-        """Return what the function returns for the next request.
+        """Return the function's value for the next request.
 
         Args:
-            time_limit: s, after which the child is ended.
+            time_limit: s, after which the child is killed.
 
         Raises:
             InputError: the function says that the input is wrong, or a disk is full.
             TimeLimitError: it takes too long.
             ChildError: it raises another error, or the process ends.
         """
-        with self._ended_after(time_limit) as expired:
+        with self._kill_after(time_limit) as expired:
             while True:
                 try:
-                    kind, value = pickle.loads(_read(self._stream("stdout")))
+                    kind, value = pickle.loads(_read(self._answers))
                 except EOFError:
                     code = self._process.wait()
                     if expired.is_set():
                         raise TimeLimitError(f"stopped after {time_limit:g} s") from None
-                    raise ChildError(f"{_how(code)}{self._said()}") from None
+                    raise ChildError(f"{_describe_end(code)}{self._last_output()}") from None
                 if kind == REPORT and self._progress is not None:
                     self._progress(*value)
                 elif kind == ANSWER:
                     return value
-                elif kind in (WRONG_INPUT, NO_ROOM):
-                    raise (InputError if kind == WRONG_INPUT else DiskFullError)(value)
                 else:
-                    raise ChildError(value)
+                    errors = {WRONG_INPUT: InputError, NO_ROOM: DiskFullError}
+                    raise errors.get(kind, ChildError)(value)
 
     def kill(self) -> None:
         """Kill the process from another thread; one that waits for it gets `ChildError`."""
@@ -193,25 +192,21 @@ class Child(AbstractContextManager["Child", None]):
         """End the process, whatever it does."""
         self._process.kill()
         self._process.wait()
-        for stream in (self._process.stdin, self._process.stdout, self._printed):
-            with contextlib.suppress(OSError):  # a request that it has not read
+        for stream in (self._requests, self._answers, self._output):
+            with contextlib.suppress(OSError):  # an unread request
                 if stream is not None:
                     stream.close()
 
     def __exit__(self, *_: object) -> None:
         self.end()
 
-    def _stream(self, name: str) -> BinaryIO:
-        stream: BinaryIO = getattr(self._process, name)
-        return stream
-
     def _write(self, message: Any) -> None:
         with contextlib.suppress(BrokenPipeError):  # then there is no answer either
-            _send(self._stream("stdin"), pickle.dumps(message))
+            _send(self._requests, pickle.dumps(message))
 
     @contextmanager
-    def _ended_after(self, time_limit: float | None) -> Iterator[threading.Event]:
-        """End the process after a time, s; the event is set then."""
+    def _kill_after(self, time_limit: float | None) -> Iterator[threading.Event]:
+        """Kill the process after a time, s, and set the event."""
         expired = threading.Event()
 
         def stop() -> None:
@@ -227,78 +222,36 @@ class Child(AbstractContextManager["Child", None]):
         finally:
             timer.cancel()
             if expired.is_set():
-                self._process.wait()  # just done when it was killed: nothing more to ask of it
+                self._process.wait()  # it may have answered just before
 
-    def _said(self) -> str:
-        """Return the end of what the child has printed in a line, after a colon; no traceback."""
-        if self._printed is None:
+    def _last_output(self) -> str:
+        """Return the end of the child's output in a line, after a colon; no traceback."""
+        if self._output is None:
             return ""
-        size = self._printed.seek(0, os.SEEK_END)
-        self._printed.seek(max(0, size - LAST_LETTERS))
-        text = self._printed.read().decode(errors="replace").strip()
+        size = self._output.seek(0, os.SEEK_END)
+        self._output.seek(max(0, size - LAST_LETTERS))
+        text = self._output.read().decode(errors="replace").strip()
         if "Traceback (most recent call last)" in text:
             text = text.splitlines()[-1]
         return f": {' '.join(text.split())}" if text else ""
 
 
-class _Copy:
-    """A copy of this process, with what `Child` uses of `subprocess.Popen`."""
-
-    def __init__(self, setup: Setup, errors: int) -> None:
-        (requests, stdin), (stdout, answers) = os.pipe(), os.pipe()
-        for stream in (sys.stdout, sys.stderr):
-            stream.flush()  # else the copy writes it once more
-        with warnings.catch_warnings():  # of threads: those of libraries wait for work
-            warnings.simplefilter("ignore", DeprecationWarning)
-            self.pid = os.fork()
-        if self.pid == 0:
-            os.close(stdin)
-            os.close(stdout)
-            _perform_in_copy(setup, requests, answers, errors)
-        os.close(requests)
-        os.close(answers)
-        self.stdin, self.stdout = os.fdopen(stdin, "wb"), os.fdopen(stdout, "rb")
-        self._code: int | None = None
-
-    def poll(self) -> int | None:
-        """Return the exit status, negative for a signal, or None as long as it runs."""
-        return self._wait(os.WNOHANG)
-
-    def wait(self) -> int:
-        """Return the exit status once it has ended."""
-        code = self._wait(0)
-        assert code is not None
-        return code
-
-    def kill(self) -> None:
-        """Kill it, if it has not ended."""
-        if self._code is None:
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(self.pid, signal.SIGKILL)
-
-    def _wait(self, option: int) -> int | None:
-        if self._code is None:
-            try:
-                ended, status = os.waitpid(self.pid, option)
-                self._code = os.waitstatus_to_exitcode(status) if ended else None
-            except ChildProcessError:  # a program that ignores its children's ends (SIGCHLD)
-                self._code = 0
-        return self._code
-
-
 def may_copy() -> bool:
-    """Return whether a copy of this process can go on by itself.
+    """Return whether a copy of this process can run by itself.
 
-    It has this thread alone, so a lock that another one holds is never released in it; NGSolve has
+    It has this thread alone, so it never gets a lock that another thread holds; NGSolve has
     threads of its own.
     """
     return (
-        sys.platform == "linux" and threading.active_count() == 1 and "ngsolve" not in sys.modules
+        sys.platform == "linux"
+        and Path(DESCRIPTORS).is_dir()
+        and threading.active_count() == 1
+        and "ngsolve" not in sys.modules
     )
 
 
 def _search_path() -> list[str]:
-    """Return `sys.path` without the entry that `-c`, `-m` or a prompt sets for the working folder.
+    """Return `sys.path` without the entry that `-c`, `-m` or a prompt adds for the working folder.
 
     Folders that the user has named stay: PYTHONPATH's, and that of his script.
     """
@@ -309,14 +262,8 @@ def _search_path() -> list[str]:
     return path
 
 
-def _flags() -> list[str]:
-    """Return the options by which this process does without the user's environment and packages."""
-    flags = {"-E": sys.flags.ignore_environment, "-s": sys.flags.no_user_site}
-    return [option for option, is_set in flags.items() if is_set]
-
-
-def _how(code: int) -> str:
-    """Return how a process ended, in words."""
+def _describe_end(code: int) -> str:
+    """Return a text about the exit status of a process, negative for a signal."""
     if code >= 0:
         return f"exit status {code}"
     with contextlib.suppress(ValueError):
@@ -324,42 +271,42 @@ def _how(code: int) -> str:
     return f"killed by signal {-code}"
 
 
-def _send(stream: BinaryIO, message: bytes) -> None:
+def _send(stream: Any, message: bytes) -> None:
     stream.write(len(message).to_bytes(8) + message)
     stream.flush()
 
 
-def _read(stream: BinaryIO) -> bytes:
+def _read(stream: Any) -> bytes:
     """Return the next message; raise EOFError where the other side has ended."""
-    head = stream.read(8)
-    message = stream.read(int.from_bytes(head)) if len(head) == 8 else b""
+    head: bytes = stream.read(8)
+    message: bytes = stream.read(int.from_bytes(head)) if len(head) == 8 else b""
     if len(head) < 8 or len(message) < int.from_bytes(head):
         raise EOFError
     return message
 
 
-def main() -> None:
-    """Perform requests from standard input; answers go to what standard output was."""
-    requests, answers = os.dup(0), os.dup(1)
+def _open_pipes() -> tuple[BinaryIO, BinaryIO]:
+    """Return requests and answers, which were standard input and output; output goes to errors."""
+    requests, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     with Path(os.devnull).open("rb") as nothing:
         os.dup2(nothing.fileno(), 0)
-    os.dup2(2, 1)  # what a function prints is no answer
-    stream = os.fdopen(requests, "rb")
-    setup = Setup(**pickle.loads(_read(stream)))
-    sys.path[:] = setup.path
-    _perform(setup, stream, os.fdopen(answers, "wb"))
+    os.dup2(2, 1)
+    return requests, answers
 
 
-def _perform_in_copy(setup: Setup, requests: int, answers: int, errors: int) -> None:
+def _run_copy(setup: Setup) -> None:
     """Perform requests in a copy of this process; never returns."""
     code = 1
     try:
-        for terminal in (1, 2):
-            os.dup2(errors, terminal)
-        sys.stdout = sys.stderr = os.fdopen(errors, "w", closefd=False)
-        if hasattr(os, "setsid"):
-            os.setsid()
-        _perform(setup, os.fdopen(requests, "rb"), os.fdopen(answers, "wb"))
+        gc.enable()  # which starting a process disables
+        # the parent's ends of pipes; files stay open
+        for number in [int(path.name) for path in Path(DESCRIPTORS).iterdir()]:
+            with contextlib.suppress(OSError):
+                if number > 2 and stat.S_ISFIFO(os.fstat(number).st_mode):
+                    os.close(number)
+        pipes = _open_pipes()
+        sys.stdout = sys.stderr = os.fdopen(2, "w", closefd=False)
+        _perform(setup, *pipes)
     except SystemExit as stop:
         code = stop.code if isinstance(stop.code, int) else 1
     except BaseException:
@@ -371,15 +318,22 @@ def _perform_in_copy(setup: Setup, requests: int, answers: int, errors: int) -> 
 
 def _perform(setup: Setup, requests: BinaryIO, answers: BinaryIO) -> None:
     """Perform requests until they close; answers wait in memory until they are read."""
-    _end_with(setup.parent)
+    if sys.platform == "linux":  # compiled code need not notice a closed pipe
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+        if os.getppid() != setup.parent:  # it has ended already
+            os._exit(1)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if setup.niceness and hasattr(os, "nice"):
         os.nice(setup.niceness)
-    _limit(setup.memory)
+    if setup.memory is not None:
+        with contextlib.suppress(ImportError, ValueError, OSError):  # a system without such limits
+            import resource
+
+            resource.setrlimit(resource.RLIMIT_AS, (setup.memory, setup.memory))
     received: SimpleQueue[bytes] = SimpleQueue()
     ready: SimpleQueue[bytes] = SimpleQueue()
     threading.Thread(target=_receive, args=(requests, received), daemon=True).start()
-    threading.Thread(target=_hand_over, args=(answers, ready), daemon=True).start()
+    threading.Thread(target=_deliver, args=(answers, ready), daemon=True).start()
 
     def report(*values: Any) -> None:
         ready.put(pickle.dumps((REPORT, values)))
@@ -395,50 +349,39 @@ def _perform(setup: Setup, requests: BinaryIO, answers: BinaryIO) -> None:
             value = function(*arguments, *([report] if reports else []))
             answer = pickle.dumps((ANSWER, value))
         except Exception as error:
-            if full := disk_full(error):
-                answer = pickle.dumps((NO_ROOM, str(full)))
-            elif isinstance(error, InputError):
-                answer = pickle.dumps((WRONG_INPUT, str(error)))
-            else:
-                text = " ".join(str(error).partition("\n\nAt:")[0].split())  # no calls of Exudyn
-                name = type(error).__name__
-                missing = NOT_FOUND if isinstance(error, ModuleNotFoundError) else ""
-                answer = pickle.dumps((FAILURE, f"{name}: {text}{missing}" if text else name))
+            answer = pickle.dumps(_failure(error))
         ready.put(answer)
 
 
+def _failure(error: Exception) -> tuple[int, str]:
+    """Return kind and text of the message about an error."""
+    if full := disk_full(error):
+        return NO_ROOM, str(full)
+    if isinstance(error, InputError):
+        return WRONG_INPUT, str(error)
+    text = " ".join(str(error).partition("\n\nAt:")[0].split())  # no calls of Exudyn
+    cure = NOT_FOUND if isinstance(error, ModuleNotFoundError) else ""
+    name = type(error).__name__
+    return FAILURE, f"{name}: {text}{cure}" if text else name
+
+
 def _receive(stream: BinaryIO, received: "SimpleQueue[bytes]") -> None:
-    """Hand on requests; where they close, end this process, whatever it computes."""
+    """Queue requests; where they close, end this process, whatever it computes."""
     with contextlib.suppress(EOFError):
         while True:
             received.put(_read(stream))
     os._exit(1)
 
 
-def _hand_over(stream: BinaryIO, ready: "SimpleQueue[bytes]") -> None:
+def _deliver(stream: BinaryIO, ready: "SimpleQueue[bytes]") -> None:
     """Write answers as they come, while the next one is computed."""
     with contextlib.suppress(BrokenPipeError):  # the parent is gone
         while True:
             _send(stream, ready.get())
 
 
-def _end_with(parent: int) -> None:
-    """Let Linux kill this process when its parent ends: compiled code need not notice a pipe."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-        if os.getppid() != parent:  # it has ended before
-            os._exit(1)
-
-
-def _limit(memory: int | None) -> None:
-    """Limit the address space of this process, bytes."""
-    if memory is None:
-        return
-    with contextlib.suppress(ImportError, ValueError, OSError):  # a system without such limits
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
-
-
 if __name__ == "__main__":
-    main()
+    pipes = _open_pipes()
+    setup = Setup(*pickle.loads(_read(pipes[0])))
+    sys.path[:] = setup.path
+    _perform(setup, *pipes)

@@ -1,10 +1,10 @@
-"""Reduced parts on disk: made once, read in milliseconds without NGSolve.
+"""Cache of reduced parts on disk, which are read in milliseconds without NGSolve.
 
-A file's name is the digest of everything that determines its content: geometry, material,
+A file's name has the digest of everything that determines its content: geometry, material,
 interfaces, mesh size, reduction, versions of NGSolve, Netgen, NumPy, SciPy, and our own code. It
-is an .npz of plain arrays (nothing is unpickled), and behind it the digest of all its bytes; a
-damaged or foreign file is rebuilt. It is written under another name and renamed, so no half-written
-one is ever read.
+is an .npz of plain arrays (nothing is unpickled), followed by the digest of its bytes; a damaged
+file is written again. It is written under a temporary name and renamed, so that no half-written
+file is read.
 """
 
 import hashlib
@@ -44,8 +44,8 @@ SOURCES = (
     "cache",
 )
 PACKAGES = ("ngsolve", "netgen-mesher", "numpy", "scipy")
-TOLD = {"name", "method", "mass", "couplings", "interfaces", "meta"}
-PLAIN = [field.name for field in fields(ReducedPart) if field.name not in TOLD]
+NOT_PLAIN = {"name", "method", "mass", "couplings", "interfaces", "meta"}
+PLAIN = [field.name for field in fields(ReducedPart) if field.name not in NOT_PLAIN]
 """Arrays of a part, stored under their own names."""
 
 DIGEST_SIZE = hashlib.sha256().digest_size
@@ -60,13 +60,13 @@ def reduced_part(
     folder: str | Path | None = None,
     report: Report | None = None,
 ) -> ReducedPart:
-    """Return a part reduced: from the cache if it is there and sound, made and stored otherwise.
+    """Return a reduced part, from the cache if it has a sound one; else reduce and store it.
 
     Args:
         part: to be reduced.
-        reduction: how; 20 Craig-Bampton modes unless told.
-        folder: of the cache; `default_folder()` unless told.
-        report: called with (what is being done, share done) while it is made.
+        reduction: how; by default 20 Craig-Bampton modes.
+        folder: of the cache; by default `default_folder()`.
+        report: called with (text about the progress, share done) during the reduction.
 
     Raises:
         InputError: the part cannot be meshed or lacks a face, or the reduction does not fit it.
@@ -90,7 +90,7 @@ def reduced_part(
     reduced = reduce_part(part, reduction, report)
     try:
         save(reduced, file)
-    except OSError as error:  # a cache is a help, not a need
+    except OSError as error:  # the cache is optional
         _warn_of_cache(file, str(error.strerror), part)
     return reduced
 
@@ -114,7 +114,7 @@ def reduce_here(
     reduced = reduce_part(part.replace(geometry=OpenedStepFile(part.geometry)), reduction, report)
     try:
         save(reduced, file)
-    except OSError as error:  # a cache is a help, not a need
+    except OSError as error:  # the cache is optional
         save(reduced, spare)
         return spare, str(error.strerror)
     return file, ""
@@ -138,7 +138,7 @@ def default_folder() -> Path:
 
 
 def cache_file(part: Part, reduction: Reduction, folder: Path) -> Path:
-    """Return where a reduced part belongs."""
+    """Return the file of a reduced part in a cache's folder."""
     determined_by = {
         "name": part.name,
         "part": part.key(),
@@ -151,7 +151,7 @@ def cache_file(part: Part, reduction: Reduction, folder: Path) -> Path:
 
 
 def save(part: ReducedPart, file: Path) -> None:
-    """Write a reduced part; the file appears whole or not at all."""
+    """Write a reduced part, the whole file at once."""
     arrays = {key: np.asarray(getattr(part, key)) for key in PLAIN}
     for i, interface in enumerate(part.interfaces):
         arrays |= {f"interface{i}.{key}": getattr(interface, key) for key in PER_INTERFACE}

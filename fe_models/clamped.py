@@ -1,7 +1,7 @@
-"""Frequencies with all bearing surfaces clamped: the reading that meets the paper's, with its mesh.
+"""Frequencies with all bearing surfaces clamped, as published, and their mesh convergence.
 
-Clamped, every node of a bearing face is held: stiffer than the interfaces of the reduction, which
-hold the mean motion alone and let the bores go oval.
+Every node of a clamped face is held: stiffer than the interfaces of the reduction, which hold the
+mean motion alone and let the bores go oval.
 """
 
 from collections.abc import Sequence
@@ -52,7 +52,7 @@ def clamped_modes(
     Args:
         part: is meshed here, and not reduced.
         count: number of modes, from the lowest up.
-        faces: those clamped; all bearings (interfaces with six motions) unless told.
+        faces: to be clamped; by default all bearings (interfaces with six motions).
 
     Raises:
         InputError: a face is no interface of the part, or there is none to clamp.

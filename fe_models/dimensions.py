@@ -1,4 +1,4 @@
-"""Dimensions of a crank shaft and a linkage, and places on a solid, for OCC's shapes.
+"""Dimensions of a crank shaft and a linkage, and positions of faces on a solid.
 
 Plain data, checked; `fe_models.geometry` makes solids of it.
 """
@@ -19,14 +19,14 @@ class Axis:
     """An axis along z, or a ball's centre on it, whose cylinders or sphere a joint holds.
 
     Attributes:
-        place: (x, y), m.
+        position: (x, y), m.
         sphere: whether it is a ball's or socket's.
-        hole: whether a hole is meant rather than a shaft, where the solid has both.
-        radius: m, where several have this axis.
-        z: lowest and highest place along it, m, where several have this radius.
+        hole: whether it is a hole's rather than a shaft's, where the solid has both.
+        radius: m; needed where several faces have this axis.
+        z: lowest and highest z, m; needed where several faces have this radius.
     """
 
-    place: tuple[float, float]
+    position: tuple[float, float]
     sphere: bool = False
     hole: bool = True
     radius: float | None = None
@@ -35,11 +35,11 @@ class Axis:
 
 @dataclass(frozen=True)
 class Patch:
-    """Faces by their name, or all that lie wholly within a box.
+    """Faces with a name, or within a box.
 
     Attributes:
-        name: as the STEP file has it; empty: by the box.
-        box: lowest and highest corner, m; infinite where any place will do.
+        name: in the STEP file; empty for faces in a box.
+        box: lowest and highest corner, m; infinite where there is no limit.
     """
 
     name: str = ""
@@ -123,7 +123,7 @@ class LinkageDimensions:
     length: float = 0.383
 
     def __post_init__(self) -> None:
-        """Refuse walls that are none and bores that meet."""
+        """Refuse walls without thickness and bores that meet."""
         _positive(self, exempt=("pocket_depth", "rim"))
         for end in ("big", "small"):
             outer, bore = getattr(self, f"{end}_outer_radius"), getattr(self, f"{end}_bore_radius")

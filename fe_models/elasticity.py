@@ -189,9 +189,9 @@ def generate_mesh(part: Part) -> Any:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Drop what Netgen prints: of a mesh that fails a thousand lines, whatever its message level.
+    """Drop Netgen's output: a thousand lines for a mesh that fails, whatever its message level.
 
-    Its errors are left, as it may end the process with one.
+    Its standard error is kept, as it may end the process with a message there.
     """
     sys.stdout.flush()
     c_library = ctypes.CDLL(None)

@@ -1,9 +1,9 @@
 """A reduced part as a body of an Exudyn system, with markers on its interfaces.
 
-Modes given, it is an ObjectFFRFreducedOrder; with 0 modes an ObjectRigidBody of the same mass.
-A marker's cost goes with its nodes. Three virtual nodes, moving with the mean motion of a bearing
-face, do the same to 4e-11 as all nodes of the face, which cost over twenty times as much; so they
-are the body's mesh nodes after those of the surface.
+It is an ObjectFFRFreducedOrder; without modes an ObjectRigidBody of the same mass. A marker's cost
+goes with its nodes. Three virtual nodes, which move with the mean motion of a bearing face, give
+the same to 4e-11 as all nodes of the face at a twentieth of the cost; they follow the nodes of the
+surface in the body's mesh.
 """
 
 from collections.abc import Mapping, Sequence
@@ -56,15 +56,15 @@ class FlexibleBody:
     node_modes: int | None
     virtual_nodes: dict[str, list[int]]
     points: dict[str, int]
-    places: Mapping[str, Sequence[float]]
+    point_positions: Mapping[str, Sequence[float]]
 
     def add_point_marker(self, mbs: Any, *points: str) -> int:
-        """Add a position marker on one of the `points` that the body was made with, or their mean.
+        """Add a position marker on one of the body's `points`, or their mean.
 
         It has one mesh node each, so that it costs a sixth of `add_marker`, and no orientation.
         """
         if self.node_modes is None:
-            mean = np.mean([self.places[point] for point in points], axis=0)
+            mean = np.mean([self.point_positions[point] for point in points], axis=0)
             position = [float(value) for value in mean]
             marker: Any = MarkerBodyRigid(bodyNumber=self.object_number, localPosition=position)
         else:
@@ -123,7 +123,7 @@ def add_flexible_body(
         mbs: exudyn.MainSystem, not yet assembled.
         part: from `reduced_part`; one with 0 modes becomes a rigid body.
         position: origin of the body frame, global, (3,), m.
-        rotation: from the body to the global frame, (3, 3); none unless given.
+        rotation: from the body to the global frame, (3, 3); by default the identity.
         velocity: of the body frame's origin, global components, (3,), m/s.
         angular_velocity: global components, (3,), rad/s.
         gravity: (3,), m/s^2; zero adds no load.
@@ -131,7 +131,7 @@ def add_flexible_body(
         rotation_parameters: "euler_parameters" or "rotation_vector".
         initial_modes: (n,) modal coordinates at the start, sqrt(kg) m.
         initial_modes_t: (n,) their rates.
-        points: name -> (face, place (3,) in the body frame, m): points that move with the mean
+        points: name -> (face, position (3,) in the body frame, m): points that move with the mean
             motion of a face, for `add_point_marker`.
         color: red, green, blue, opacity, 0 to 1.
         name: of the object; its nodes become "<name> frame" and "<name> modes".
@@ -157,8 +157,8 @@ def add_flexible_body(
     node = int(mbs.AddNode(node_item))
     if part.mode_count == 0:
         rigid = _add_rigid(mbs, part, node, color, name)
-        places = {point: place for point, (_, place) in (points or {}).items()}
-        body = FlexibleBody(part, rigid, node, None, {}, {}, places)
+        positions = {point: position for point, (_, position) in (points or {}).items()}
+        body = FlexibleBody(part, rigid, node, None, {}, {}, positions)
     else:
         modes_node = int(
             mbs.AddNode(
@@ -213,7 +213,7 @@ def _add_flexible(
 ) -> FlexibleBody:
     """Add the part with its modes; mesh nodes: the surface, then three for each interface."""
     virtual = [interface.virtual_nodes() for interface in part.interfaces]
-    virtual += [part.interface(face).moved_point(place) for face, place in points.values()]
+    virtual += [part.interface(face).moved_point(position) for face, position in points.values()]
     positions = np.vstack([part.nodes, *(points for points, _ in virtual)])
     modes = np.vstack([part.modes, *(modes for _, modes in virtual)])
     first = len(part.nodes)
@@ -249,9 +249,9 @@ def _add_flexible(
     )
     alone = first + VIRTUAL * len(part.interfaces)
     numbered = {point: alone + i for i, point in enumerate(points)}
-    places = {point: place for point, (_, place) in points.items()}
+    point_positions = {point: position for point, (_, position) in points.items()}
     body = int(mbs.AddObject(item))
-    return FlexibleBody(part, body, nodes[0], nodes[1], numbers, numbered, places)
+    return FlexibleBody(part, body, nodes[0], nodes[1], numbers, numbered, point_positions)
 
 
 def _container(matrix: NDArray[np.float64]) -> Any:

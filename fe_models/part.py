@@ -105,7 +105,7 @@ def shipped_part(name: str, mesh_size: float | None = None) -> Part:
 
     Args:
         name: of the part.
-        mesh_size: m; the one in parts.toml unless told.
+        mesh_size: m; by default that in parts.toml.
 
     Raises:
         InputError: there is no such part.

@@ -1,4 +1,4 @@
-"""Faces of a solid that a guide or a load holds together: by name, by their place, or its sides."""
+"""Faces of a solid that a guide or a load holds together: by name, by a box, or the sides."""
 
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
@@ -13,13 +13,13 @@ from fe_models.errors import InputError
 __all__ = ["lies_within", "name_patches"]
 
 NEAR = 1e-4
-"""m: how far a face may lie outside of a box; drawings are rounded to tenths of a mm."""
+"""m: how far a face may reach out of a box; drawings are rounded to tenths of a mm."""
 
 PARALLEL = 1e-3
-"""rad: between a plane's normal and the direction that it is across."""
+"""rad: largest angle between a plane's normal and a direction that count as parallel."""
 
 FLAT = 1e-6
-"""Distance beside a plane over that of the points, up to which they lie in it."""
+"""Largest distance of points from a plane over their spacing, up to which they lie in it."""
 
 
 def name_patches(
@@ -29,20 +29,20 @@ def name_patches(
 
     Args:
         shape: in m.
-        patches: name -> which faces.
-        held: names of faces that are held by others already.
-        where: begin of messages.
+        patches: name -> its faces.
+        held: names of faces that joints hold.
+        where: beginning of messages.
 
     Raises:
-        InputError: a patch has no faces, or one that something else holds.
+        InputError: a patch has no faces, or one that a joint or another patch holds.
     """
-    before = [face.name for face in shape.faces]
-    taken: dict[int, str] = {i: name for i, name in enumerate(before) if name in held}
+    names = [face.name for face in shape.faces]
+    taken: dict[int, str] = {i: name for i, name in enumerate(names) if name in held}
     for name, patch in patches.items():
         if isinstance(patch, Sides):
             numbers = _sides(shape, patch, name, where)
         else:
-            numbers = set().union(*(_faces(shape, before, held, p, name, where) for p in patch))
+            numbers = set().union(*(_faces(shape, names, held, p, name, where) for p in patch))
         for i in sorted(numbers):
             if i in taken:
                 raise InputError(
@@ -60,7 +60,7 @@ def _faces(
     what: str,
     where: str,
 ) -> set[int]:
-    """Return the numbers of the faces that are meant."""
+    """Return the numbers of a patch's faces."""
     if patch.box is None:
         numbers = {i for i, name in enumerate(names) if name == patch.name}
         if not numbers:

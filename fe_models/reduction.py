@@ -27,12 +27,12 @@ METHODS = ("craig_bampton", "free")
 PLANE = {"x", "y", "rz"}
 USUAL_MODES = 20
 MOST_MODES = 80
-"""That a flexibility error is sought with."""
+"""Most modes among which those for a flexibility error are selected."""
 
 ROUND = 1e-4
-"""Distance of nodes from a circle over the face's size, up to which it is round."""
+"""Largest distance of nodes from a circle over the face's size, for a round face."""
 
-Report = Callable[[str, float], None]  # (what is done next, share done so far)
+Report = Callable[[str, float], None]  # (text about the progress, share done)
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Reduction:
     """Method of reducing a part.
 
     Attributes:
-        modes: number of modal coordinates, from 0 (a rigid body) up; 20 unless given. Craig-Bampton
+        modes: number of modal coordinates, from 0 (a rigid body) up; by default 20. Craig-Bampton
             spends them on the static modes first (one for each loaded motion of an interface beyond
             six), then on the lowest fixed-interface modes; fewer than the static ones: the lowest
             modes of their span.
@@ -53,7 +53,7 @@ class Reduction:
         stress: whether the stresses of the modes are kept too (more to store).
 
     Raises:
-        InputError: the number of modes or the error is none, both are given, or the method is
+        InputError: the number of modes or the error is invalid, both are set, or the method is
             unknown.
     """
 
@@ -91,7 +91,7 @@ def reduce_part(part: Part, reduction: Reduction, report: Report | None = None) 
     Args:
         part: to be reduced.
         reduction: how.
-        report: called with (what is being done, share done).
+        report: called with (text about the progress, share done).
 
     Raises:
         InputError: the part cannot be meshed or lacks a face, or the reduction does not fit it.
@@ -149,7 +149,7 @@ def interface_rows(part: Part, model: Any) -> sp.csr_matrix:
 
 
 def _most_modes(part: Part, model: Any, reduction: Reduction) -> int:
-    """Return how many modes to compute; refuse more than the mesh has, and a body that is loose."""
+    """Return the number of modes to compute; refuse more than the mesh has, and a loose body."""
     rows = sum(len(interface.motions) for interface in part.interfaces)
     most = int(model.unknowns - max(rows, 6) - 1)
     if reduction.modes is not None and reduction.modes > most:
@@ -182,8 +182,8 @@ def _free_basis(model: Any, count: int) -> tuple[Array, Any]:
 def _craig_bampton_basis(part: Part, model: Any, count: int | None) -> tuple[Array, Array, Any]:
     """Return the static and the lowest fixed-interface modes, and the latter's frequencies [Hz].
 
-    Without a count, what accelerations of the whole body bend it into between held interfaces is
-    taken instead of the latter. The third is the factorised stiffness.
+    Without a count, deformations by accelerations of the body between fixed interfaces replace the
+    latter. The third is the factorised stiffness.
     """
     from fe_models.elasticity import rigid_motions
     from fe_models.saddle import SaddleSolver, lowest_modes
@@ -304,10 +304,10 @@ def _package(
 
 
 def _axis(nodes: Array, centre: Array) -> Array:
-    """Return where the axis of a cylinder along z, or a sphere's centre, is; else the centre.
+    """Return a point on the axis of a cylinder along z, or a sphere's centre; else the centre.
 
     Nodes lie on the face exactly: a circle or a sphere through them by least squares, as
-    2 x . m + c = |x|^2, whose rest is rounding. A part of the mantle is enough.
+    2 x . m + c = |x|^2, whose residual is rounding. A part of the mantle is enough.
     """
     for columns in (slice(0, 2), slice(0, 3)):
         arm = (nodes - centre)[:, columns]

@@ -1,4 +1,4 @@
-"""Faces of a solid that joints hold: cylinders along z and spheres, found by where they lie."""
+"""Faces of a solid that joints hold: cylinders along z and spheres, named by their positions."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from fe_models.errors import InputError
 __all__ = ["NEAR", "name_round_faces"]
 
 NEAR = 1e-4
-"""m: how far an axis may lie from where a joint is; drawings are rounded to tenths of a mm."""
+"""m: largest distance of an axis from a joint; drawings are rounded to tenths of a mm."""
 
 PARAMETERS = (0.3, 1.1, 2.0, 3.7, 5.2)
 EXACT = 1e-6  # of the size
@@ -41,11 +41,11 @@ def name_round_faces(shape: Any, axes: Mapping[str, Axis], where: str) -> None:
 
     Args:
         shape: in m.
-        axes: name -> place of the axis, and marks of the face.
-        where: begin of messages.
+        axes: name of a face -> its axis.
+        where: beginning of messages.
 
     Raises:
-        InputError: an axis has no such face, several, or one that another axis has taken.
+        InputError: an axis has no face, several, or one that another axis has.
     """
     if not axes:
         return
@@ -53,9 +53,9 @@ def name_round_faces(shape: Any, axes: Mapping[str, Axis], where: str) -> None:
     taken: dict[int, str] = {}
     for name, axis in axes.items():
         suitable = [face for face in round_faces if _suits(face, axis)]
-        group = _chosen(shape, suitable, axis, name, where)
+        group = _select_group(shape, suitable, axis, name, where)
         if not group:
-            raise InputError(f"{where}: {_nothing(round_faces, axis, name)}")
+            raise InputError(f"{where}: {_no_face_message(round_faces, axis, name)}")
         for round_face in group:
             number = round_faces.index(round_face)
             if number in taken:
@@ -111,17 +111,17 @@ def _suits(face: _Round, axis: Axis) -> bool:
 
 
 def _distance(face: _Round, axis: Axis) -> float:
-    return hypot(face.x - axis.place[0], face.y - axis.place[1])
+    return hypot(face.x - axis.position[0], face.y - axis.position[1])
 
 
-def _chosen(
+def _select_group(
     shape: Any, round_faces: list[_Round], axis: Axis, name: str, where: str
 ) -> list[_Round]:
-    """Return the one group of faces of the same radius that touch; holes or shafts as is meant."""
+    """Return the group of touching faces of one radius that an axis has, holes or shafts."""
     groups = _groups(round_faces)
     if len(groups) > 1:
-        meant = [group for group in groups if _is_hole(shape, group[0]) == axis.hole]
-        groups = meant if len(meant) == 1 else groups
+        suitable = [group for group in groups if _is_hole(shape, group[0]) == axis.hole]
+        groups = suitable if len(suitable) == 1 else groups
     if len(groups) > 1:
         descriptions = "; ".join(str(_whole(group)) for group in groups)
         raise InputError(
@@ -151,7 +151,7 @@ def _whole(group: list[_Round]) -> _Round:
 
 
 def _is_hole(shape: Any, face: _Round) -> bool:
-    """Return whether there is material around a round face rather than inside of it."""
+    """Return whether the material is outside a round face."""
     middle, small = 0.5 * (face.low + face.high), 0.02 * face.radius
     for turn in np.arange(0.1, 2.0 * pi, 0.7):
         points = (
@@ -164,12 +164,12 @@ def _is_hole(shape: Any, face: _Round) -> bool:
     return False
 
 
-def _nothing(round_faces: Iterable[_Round], axis: Axis, name: str) -> str:
-    """Return a message where no face suits an axis, with the distance of the nearest one."""
+def _no_face_message(round_faces: Iterable[_Round], axis: Axis, name: str) -> str:
+    """Return the message that no face suits an axis, with the distance of the nearest one."""
     kind = "sphere" if axis.sphere else "cylinder along z"
     asked = "" if axis.radius is None else f" of radius {axis.radius:g} m"
     asked += "" if axis.z is None else f" within z = {list(axis.z)}"
-    x, y = axis.place
+    x, y = axis.position
     text = f"no {kind}{asked} lies about {name}, at ({x:.6g}, {y:.6g}) m of the file"
     alike = [candidate for candidate in round_faces if candidate.sphere == axis.sphere]
     if not alike:

@@ -1,7 +1,7 @@
-"""STEP files are read in a child process: a damaged one may end that process, or keep it busy.
+"""Reading of STEP files in a child process, as a damaged file may crash or block its reader.
 
-With `reduced_part`, reading, meshing and reducing are done there in one go. What comes back is a
-file of plain arrays; this process never lets the kernel of solids open such a file.
+`reduced_part` reads, meshes and reduces there in one go, and the result is a file of plain arrays.
+The geometry kernel of this process never opens a STEP file.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from fe_models.step_text import faulty_entity
 __all__ = ["read_in_child"]
 
 NO_MEMORY = ("MemoryError", "bad_alloc", "failed to map segment", "allocation failed")
-"""What libraries say where a limit of memory is reached."""
+"""Texts of libraries' errors where memory is exhausted."""
 
 
 def read_in_child(
@@ -26,7 +26,7 @@ def read_in_child(
     memory_limit: float,
     report: Callable[..., None] | None = None,
 ) -> Any:
-    """Return what a function that reads a STEP file returns in a child.
+    """Return the value of a function that reads a STEP file in a child.
 
     Args:
         function: "module:name".
@@ -34,10 +34,10 @@ def read_in_child(
         path: of the STEP file, for messages.
         time_limit: of the child, s.
         memory_limit: of the child, bytes.
-        report: called with (what is being done, share done); the function's last argument does so.
+        report: called with (text about the progress, share done) by the function's last argument.
 
     Raises:
-        InputError: the function says so, or the file is damaged or needs more than its limits.
+        InputError: the function raises it, or the file is damaged or needs more than its limits.
     """
     memory = round(memory_limit)
     with Child(function, memory=memory, one_thread=True, progress=report) as child:

@@ -1,4 +1,4 @@
-"""What the text of a STEP file says of its damage: an entity for an error message, no judgement.
+"""Search for a damaged entity in the text of a STEP file, for an error message.
 
 ISO 10303-21: statements `#12 = TYPE(...);`, texts between quotes, comments as in C.
 """
@@ -11,7 +11,7 @@ from pathlib import Path
 __all__ = ["faulty_entity"]
 
 MOST = 100_000_000
-"""Bytes of a file that is looked at."""
+"""Largest size of a file that is searched, bytes."""
 
 TEXTS = re.compile(r"'(?:[^']|'')*'")
 COMMENTS = re.compile(r"/\*.*?\*/", re.DOTALL)
@@ -19,11 +19,11 @@ ENTITY = re.compile(r"\s*#(\d+)\s*=\s*(.*)", re.DOTALL)
 TYPE = re.compile(r"([A-Z][A-Z_0-9]*)\s*\(")
 REFERENCE = re.compile(r"#(\d+)")
 STRANGE = re.compile(r"[(,]\s*[-+]?(?:[0-9.]*#[A-Z]+|NAN|INF|\d[\d.]*E[+-]?\d{4,})", re.IGNORECASE)
-"""Beginning of a number that is none."""
+"""Beginning of an invalid number."""
 
 
 def faulty_entity(path: Path) -> str:
-    """Return which entity of a STEP file is damaged, to follow a message; nothing if all seem fine.
+    """Return the damaged entity of a STEP file, to follow a message; nothing if none is found.
 
     A type is known if the library that reads it has its name.
     """
@@ -40,23 +40,26 @@ def faulty_entity(path: Path) -> str:
             continue
         number, body = match.groups()
         if number in entities:
-            return _told(number, body, "is there twice")
+            return _describe_fault(number, body, "is there twice")
         entities[number] = body
     for number, body in entities.items():
         if body.count("(") != body.count(")") or not body.rstrip().endswith(")"):
-            return _told(number, body, "is cut off")
+            return _describe_fault(number, body, "is cut off")
         if STRANGE.search(body):
-            return _told(number, body, "has a number that is none")
-        for other in REFERENCE.findall(body):
-            if other not in entities:
-                return _told(number, body, f"refers to #{other}, which is not there")
+            return _describe_fault(number, body, "has a number that is none")
+        for reference in REFERENCE.findall(body):
+            if reference not in entities:
+                text = f"refers to #{reference}, which is not there"
+                return _describe_fault(number, body, text)
         for kind in TYPE.findall(body):
             if not _is_known(kind):
-                return _told(number, body, f"is of a type, {kind[:60]}, that no reader knows")
+                return _describe_fault(
+                    number, body, f"is of a type, {kind[:60]}, that no reader knows"
+                )
     return ""
 
 
-def _told(number: str, body: str, what: str) -> str:
+def _describe_fault(number: str, body: str, what: str) -> str:
     start = " ".join(body.split())[:60]
     return f": #{number} = {start}{'...' if len(start) == 60 else ''} {what}"
 

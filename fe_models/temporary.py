@@ -1,4 +1,4 @@
-"""Temporary folders: each goes with its object, or after a kill at the start of the next one."""
+"""Temporary folders, removed with their object, or by the next one after a kill."""
 
 import contextlib
 import os
@@ -20,10 +20,10 @@ class TemporaryFolder:
     """A folder that is removed with this object, or by the next one if its process is killed."""
 
     def __init__(self) -> None:
-        """Make it, and remove those that killed processes have left.
+        """Create it, and remove the folders of killed processes.
 
         Raises:
-            OSError: it cannot be made.
+            OSError: it cannot be created.
         """
         remove_abandoned()
         self._folder = tempfile.TemporaryDirectory(prefix=BEGINNING, ignore_cleanup_errors=True)
@@ -53,7 +53,7 @@ class TemporaryFolder:
 
 
 def remove_abandoned() -> None:
-    """Remove the folders that killed processes have left."""
+    """Remove the folders of killed processes."""
     with contextlib.suppress(OSError):  # no folder for temporary ones, or none that can be read
         for folder in Path(tempfile.gettempdir()).glob(f"{BEGINNING}*"):
             _remove_abandoned(folder)

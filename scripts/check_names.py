@@ -38,7 +38,6 @@ NOT_YET: tuple[str, ...] = (  # names there still have to be mended
     "exu_press/scene/",
     "exu_press/schema/",
     "exu_press/studies/",
-    "fe_models/",
 )
 
 

@@ -141,7 +141,7 @@ class Constraints:
         """
         size = len(norm)
         try:
-            changes = Equations(self.matrix(norm, directions)).of_rows(size, len(directions))
+            changes = Equations(self.matrix(norm, directions)).solver_of_rows(size, len(directions))
         except np.linalg.LinAlgError:
             return lambda violations: np.full((size, violations.shape[1]), math.nan)
         return lambda violations: changes(violations)[:size]

@@ -5,7 +5,7 @@ import math
 from exu_press.integrate.jacobian import FlexibleJacobian, FrictionJacobian
 from exu_press.integrate.task import Task
 from exu_press.joints.guide_friction import guide_frictions
-from exu_press.numerics.floats import Floats
+from exu_press.numerics.floats import FloatBuffer
 
 __all__ = ["Predictor"]
 
@@ -35,8 +35,11 @@ class Predictor:
         self._relative = tuning.newton_tolerance * task.tolerance
         current = system.current
         self._multipliers = current.multipliers
-        self._positions, self._velocities = Floats(current.positions), Floats(current.velocities)
-        self._accelerations = Floats(current.accelerations)
+        self._positions, self._velocities = (
+            FloatBuffer(current.positions),
+            FloatBuffer(current.velocities),
+        )
+        self._accelerations = FloatBuffer(current.accelerations)
         self._multipliers_before = system.start.multipliers
         # where they begin among the coordinates, and their reference values
         self._quaternions: list[tuple[int, list[float]]] = []
@@ -57,12 +60,12 @@ class Predictor:
         self._ratio = (1.0 - solver.alphaF) / (1.0 - solver.alphaM)
         self._beta, self._gamma = solver.newmarkBeta, solver.newmarkGamma
         self._absolute = self._accepted = solver.newton.absoluteTolerance
-        self._now = self._accelerations.get()
+        self._now = self._accelerations.read()
         self._rate = [0.0 for _ in self._now]
 
     def accept(self, step: float) -> None:
         """Take the current state as the end of an accepted step (s)."""
-        before, now = self._now, self._accelerations.get()
+        before, now = self._now, self._accelerations.read()
         self._rate = [(now[i] - before[i]) / step for i in range(len(now))]
         self._last, self._now = step, now
 
@@ -88,16 +91,16 @@ class Predictor:
         now, rate, ahead = self._now, self._rate, min(step, self._reach * self._last)
         expected = [rate[i] * ahead + now[i] for i in range(len(now))]
         by_q, by_v = step * step * self._ratio * self._beta, step * self._ratio * self._gamma
-        positions, velocities = self._positions.get(), self._velocities.get()
+        positions, velocities = self._positions.read(), self._velocities.read()
         if self._quaternions:
             self._normalise_quaternions(expected, positions, by_q)
         for i in range(len(expected)):
             position, velocity, change = positions[i], velocities[i], expected[i]
             positions[i] = position + by_q * change
             velocities[i] = velocity + by_v * change
-        self._positions.assign(positions)
-        self._velocities.assign(velocities)
-        self._accelerations.assign(expected)
+        self._positions.write(positions)
+        self._velocities.write(velocities)
+        self._accelerations.write(expected)
         if len(self._multipliers):
             self._multipliers[:] = self._multipliers_before
 

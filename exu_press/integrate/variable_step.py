@@ -7,7 +7,7 @@ import numpy as np
 from exu_press.integrate.constraints import Constraints, normalised
 from exu_press.integrate.task import SAME, Task, inertia_factor
 from exu_press.numerics.arrays import Array
-from exu_press.numerics.floats import Floats
+from exu_press.numerics.floats import FloatBuffer
 
 __all__ = ["VariableStepCorrection"]
 
@@ -55,7 +55,11 @@ class VariableStepCorrection:
         self._task, self._solver, self._constraints = task, task.solver, constraints
         self._data, self._current, self._at_start = system.data, system.current, system.start
         self._now, self._before = (
-            (Floats(state.positions), Floats(state.velocities), Floats(state.accelerations))
+            (
+                FloatBuffer(state.positions),
+                FloatBuffer(state.velocities),
+                FloatBuffer(state.accelerations),
+            )
             for state in (self._current, self._at_start)
         )
         self._start: float | None = None  # of the step under way, s
@@ -118,7 +122,7 @@ class VariableStepCorrection:
         """
         solver = self._solver
         if not self._state:
-            self._state = [floats.get() for floats in self._before]
+            self._state = [floats.read() for floats in self._before]
         q, v, a = self._state
         if abs(ratio - 1.0) > SAME:
             part = step / self._fits
@@ -155,7 +159,7 @@ class VariableStepCorrection:
         for state, there in ((self._now, now), (self._before, at_start)):
             for k in range(3):
                 values, part = shifted[k], by[k]
-                state[k].assign(
+                state[k].write(
                     [
                         values[i] + part * (algorithmic[i] - there[i])
                         for i in range(len(algorithmic))

@@ -260,7 +260,7 @@ def hold_driven(mbs: exu.MainSystem, disc: int, body: FlexibleBody, placed: Plac
         body: flexible.
         placed: part of the body.
     """
-    middle, rim = (np.array(body.places[point]) for point in DRIVEN)
+    middle, rim = (np.array(body.point_positions[point]) for point in DRIVEN)
     height = [0.0, 0.0, float(middle[2])]
     arm = RotationMatrixZ(-placed.angle) @ (rim - middle)
     end = height + arm + np.cross((0.0, 0.0, 1.0), arm)

@@ -182,7 +182,7 @@ def _place_part(
     if table.from_file:
         axes = {
             interface: Axis(
-                place=_rotate((joint.at[0] - origin[0], joint.at[1] - origin[1]), -turn),
+                position=_rotate((joint.at[0] - origin[0], joint.at[1] - origin[1]), -turn),
                 sphere=joint.spherical,
                 hole=joint.bearing == body.name,
                 radius=face.radius,

@@ -1,7 +1,7 @@
 """Linear equations with one matrix: dense ones where they are few, sparse ones where they are many.
 
 Matrices of mechanisms are all but empty. Of 1700 unknowns a sparse factorisation takes an eighth of
-the time of a dense one, and most of that is to look for what is not zero; of 530 it takes as long,
+the time of a dense one, and most of that is the search for nonzeros; of 530 it takes as long,
 and half as long where three solutions follow, as where a step changes; of 300 as long then.
 """
 
@@ -15,11 +15,11 @@ from exu_press.numerics.arrays import Array
 __all__ = ["SPARSE_FROM", "Equations"]
 
 SPARSE_FROM = 300
-"""Unknowns from which on the sparse way is the faster one."""
+"""Unknowns from which the sparse solution is faster."""
 
 
 INVERSE_FROM = 3
-"""Solutions from which on a small matrix is inverted, which takes as long as three of them."""
+"""Solutions from which a small matrix is inverted, which takes as long as three of them."""
 
 
 class Equations:
@@ -58,10 +58,10 @@ class Equations:
                 raise np.linalg.LinAlgError(str(error)) from error
         return np.asarray(self._factors.solve(np.ascontiguousarray(right)), dtype=float)
 
-    def of_rows(self, first: int, count: int) -> Callable[[Array], Array]:
+    def solver_of_rows(self, first: int, count: int) -> Callable[[Array], Array]:
         """Return a function of right sides, (count, k), that are zero in all rows but these.
 
-        For several of them: a small matrix's part of the inverse is worked out once.
+        For repeated use: a small matrix's block of the inverse is computed once.
 
         Raises:
             numpy.linalg.LinAlgError: the matrix is singular.

@@ -1,6 +1,6 @@
-"""Piecewise polynomials, as SciPy has them, whose import takes longer than a short run.
+"""Piecewise polynomials, without SciPy, whose import takes longer than a short run.
 
-A cubic one is c[0] + c[1] u + c[2] u^2 + c[3] u^3 between two neighbours of x, u from the left one.
+A cubic is c[0] + c[1] u + c[2] u^2 + c[3] u^3 between two neighbours of x, u from the left one.
 """
 
 from typing import Literal
@@ -9,14 +9,14 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["evaluate", "hermite", "integral", "slopes", "spline", "unbent"]
+__all__ = ["eno_cubic", "evaluate", "hermite", "integral", "slopes", "spline"]
 
 VARIES = 0.75
 """Change of second differences over the sum of its neighbours: 0.5 where a curve is smooth, 1 at an
 event."""
 
-AT_ONCE = 16384
-"""Places whose slopes are worked out together."""
+BLOCK = 16384
+"""Number of points whose slopes are computed together."""
 
 
 def hermite(x: Array, values: Array, slopes: Array) -> Array:
@@ -30,16 +30,16 @@ def hermite(x: Array, values: Array, slopes: Array) -> Array:
     )
 
 
-def unbent(x: Array, values: Array) -> Array:
-    """Return the coefficients (4, n - 1) of polynomials through values (n,) that no event bends.
+def eno_cubic(x: Array, values: Array) -> Array:
+    """Return coefficients (4, n - 1) of essentially non-oscillatory polynomials, n at least 4.
 
     Cubics through the four samples about each step where second differences change evenly. About a
-    corner or a jump the parabola with the smaller curvature of those at the two ends, none where
-    these differ in sign: straight across a jump, and without overshoot (A. Harten, S. Osher, SIAM
-    J. Numer. Anal. 24 (1987) 279-309, eq. 3.4). Of four samples at least.
+    corner or a jump the parabola with the smaller curvature of those at the two ends, straight
+    where these differ in sign: across a jump, without overshoot (A. Harten, S. Osher, SIAM J.
+    Numer. Anal. 24 (1987) 279-309, eq. 3.4).
 
     >>> x = np.array([0.0, 1.0, 3.0, 4.0, 5.0])
-    >>> values = evaluate(x, unbent(x, x**3), 2.0), evaluate(x, unbent(x, x > 1.0), 2.0)
+    >>> values = evaluate(x, eno_cubic(x, x**3), 2.0), evaluate(x, eno_cubic(x, x > 1.0), 2.0)
     >>> [float(value.round(12)) for value in values]
     [8.0, 0.5]
     """
@@ -95,16 +95,16 @@ def spline(
 
 
 def evaluate(x: Array, coefficients: Array, at: Array | float, derivative: int = 0) -> Array:
-    """Return the values at given places, beyond the ends those of the outer polynomials.
+    """Return values of a piecewise cubic, beyond its ends those of the outer polynomials.
 
     Args:
         x: (n,), increasing.
         coefficients: (4, ..., n - 1).
-        at: (m,), or one place.
+        at: points (m,), or one point.
         derivative: 0, or 1 for the slopes.
 
     Returns:
-        (..., m), or (...) at one place.
+        (..., m), or (...) at one point.
     """
     interval = np.searchsorted(x, at, side="right") - 1
     interval = np.minimum(np.maximum(interval, 0), len(x) - 2)
@@ -127,11 +127,11 @@ def integral(x: Array, values: Array) -> Array:
 def slopes(x: Array, values: Array) -> Array:
     """Return the slopes (n,) of values (n,) at x (n,), as `numpy.gradient`.
 
-    Part by part: of a long record its dozen arrays would not stay near the processor.
+    In blocks, as the dozen arrays of a long record do not fit into the processor's cache.
     """
     gradient = np.empty(len(x))
-    for begin in range(0, len(x), AT_ONCE):
-        end = begin + AT_ONCE
+    for begin in range(0, len(x), BLOCK):
+        end = begin + BLOCK
         first = max(begin - 1, 0)
         gradient[begin:end] = np.gradient(values[first : end + 1], x[first : end + 1])[
             begin - first : end - first

@@ -14,12 +14,12 @@ __all__ = ["WINDOWS", "Spectrogram", "Spectrum", "amplitude_spectrum", "cell_mea
 WINDOWS = ("flattop", "hann", "boxcar")
 
 FEWEST = 16
-"""Cells, of which a spectrum says something."""
+"""Least number of cells of a spectrum."""
 
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Amplitudes of a curve over frequency; 0 is left out, as the mean is taken away.
+    """Amplitudes of a curve over frequency, without its mean.
 
     Attributes:
         frequency: (m,), in 1 over the unit of x: Hz, or orders where x is in revolutions.
@@ -28,7 +28,7 @@ class Spectrum:
             value of the curve left out: the error of resampling and steps.
         window: its name.
         resolution: width of the window's main lobe at half its power, as frequency is.
-        cells: number of even cells, each of which has the curve's mean in it.
+        cells: number of even cells, over each of which the curve is averaged.
     """
 
     frequency: Array

@@ -9,7 +9,7 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
-from exu_press.numerics.piecewise import hermite, unbent
+from exu_press.numerics.piecewise import eno_cubic, hermite
 from exu_press.result import Result
 from exu_press.schema.checks import nearest
 from exu_press.schema.two_columns import read_two_columns
@@ -82,7 +82,7 @@ def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array
     """Return what a run has of the quantity that a curve shows, over places that increase.
 
     Between steps it is Hermite's polynomial where the run has the channel's rate; else, as forces
-    have corners and jumps, `unbent`.
+    have corners and jumps, `eno_cubic`.
 
     Args:
         where: the file, said of a fault.
@@ -116,7 +116,7 @@ def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array
             f"{at[first]:.6g} deg, t = {result.time[first]:.6g} s; allowed is a curve over time"
         )
     if name not in RATES:
-        return at, unbent(at, values), result.units[name]
+        return at, eno_cubic(at, values), result.units[name]
     rate = result[RATES[name]]
     if angle:
         with np.errstate(divide="ignore", invalid="ignore"):  # where the crank stands

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
-from exu_press.numerics.piecewise import evaluate, hermite, integral, spline, unbent
+from exu_press.numerics.piecewise import eno_cubic, evaluate, hermite, integral, spline
 
 X = np.array([-1.0, -0.4, 0.1, 0.2, 1.0, 1.7])
 VALUES = np.array([[2.0, -1.0, 0.5, 0.7, 3.0, 1.0], np.sin(X)])
@@ -44,10 +44,10 @@ def test_no_event_bends_its_neighbours():
     x = np.sort(np.random.default_rng(1).uniform(0.0, 1.0, 60))
     places = np.linspace(x[0], x[-1], 5001)
     corners = np.clip(x, x[20], x[40])  # corners on samples, as steps end there
-    assert np.abs(evaluate(x, unbent(x, corners), places) - np.clip(places, x[20], x[40])).max() < (
-        1e-14
-    )
-    jump = evaluate(x, unbent(x, x > 0.5), places)
+    assert np.abs(
+        evaluate(x, eno_cubic(x, corners), places) - np.clip(places, x[20], x[40])
+    ).max() < (1e-14)
+    jump = evaluate(x, eno_cubic(x, x > 0.5), places)
     assert jump.min() > -1e-14 and jump.max() < 1.0 + 1e-14
 
 
@@ -56,5 +56,7 @@ def test_what_is_smooth_is_cubic():
     for count in (50, 100):
         x = np.linspace(0.0, 1.0, count)
         inside = np.linspace(0.0, 1.0, 5001)
-        errors.append(np.abs(evaluate(x, unbent(x, np.sin(20 * x)), inside) - np.sin(20 * inside)))
+        errors.append(
+            np.abs(evaluate(x, eno_cubic(x, np.sin(20 * x)), inside) - np.sin(20 * inside))
+        )
     assert 12.0 < errors[0].max() / errors[1].max() < 19.0

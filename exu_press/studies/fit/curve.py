@@ -11,7 +11,7 @@ from scipy.signal import butter, sosfilt, sosfilt_zi
 
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
-from exu_press.numerics.piecewise import evaluate, unbent
+from exu_press.numerics.piecewise import eno_cubic, evaluate
 from exu_press.schema.checks import Table, key
 from exu_press.studies.curve_file import CurveFile, factor_to, read_curve
 from exu_press.studies.fit.measured import under_of
@@ -191,4 +191,4 @@ def _filtered(
         if corner is not None:
             sections = butter(2, corner, kind, fs=rate, output="sos")
             found = sosfilt(sections, found, zi=sosfilt_zi(sections) * found[0])[0]
-    return even, unbent(even, found)
+    return even, eno_cubic(even, found)

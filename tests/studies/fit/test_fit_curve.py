@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, simulate
-from exu_press.numerics.piecewise import evaluate, unbent
+from exu_press.numerics.piecewise import eno_cubic, evaluate
 from exu_press.studies.curve_file import CurveFile, computed, factor_to, read_curve
 from exu_press.studies.fit.curve import Curve, matched
 
@@ -24,7 +24,7 @@ def sine(amplitude=1.0, lag=0.0):
     return amplitude * np.sin(2.0 * np.pi * FREQUENCY * PLACES - lag)
 
 
-COMPUTED = unbent(AT, np.sin(2.0 * np.pi * FREQUENCY * AT))
+COMPUTED = eno_cubic(AT, np.sin(2.0 * np.pi * FREQUENCY * AT))
 
 
 def test_a_known_band():

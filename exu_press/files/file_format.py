@@ -1,7 +1,8 @@
 """Formats of files: a name and a number, which grows with what older versions cannot read."""
 
+from importlib.metadata import version
+
 from exu_press.errors import InputError
-from exu_press.installation.versions import version_of
 
 __all__ = ["NewerFormatError", "refuse_newer_format"]
 
@@ -25,5 +26,5 @@ def refuse_newer_format(stored: str, known: str) -> None:
     if stored_name == name and number.isdecimal() and int(number[:9]) > int(newest):
         raise NewerFormatError(
             f"is of format {number[:9]}, written by a newer version of exu_press; this one, "
-            f"{version_of('exu-press')}, reads formats up to {newest}: update exu_press"
+            f"{version('exu-press')}, reads formats up to {newest}: update exu_press"
         )

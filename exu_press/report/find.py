@@ -18,6 +18,7 @@ class Kind(Enum):
     RUN = "run.nc"
     COMPARISON = "comparison.json"
     STUDY = REPORT_FILE
+    OLD_SWEEP = "table.csv"  # of versions before 0.9, which wrote no report
 
 
 def find_output(path: Path, wanted: Kind | None = None) -> tuple[Kind, Path]:
@@ -30,9 +31,11 @@ def find_output(path: Path, wanted: Kind | None = None) -> tuple[Kind, Path]:
     Raises:
         InputError: nothing is there, or results of several commands are.
     """
-    named = ", ".join(kind.value for kind in Kind)
+    named = ", ".join(kind.value for kind in Kind if kind is not Kind.OLD_SWEEP)
     if path.is_dir():
         found = [kind for kind in Kind if (path / kind.value).is_file()]
+        if Kind.STUDY in found:
+            found = [kind for kind in found if kind is not Kind.OLD_SWEEP]
         if not found and checkpoint_directory(path / Kind.RUN.value).is_dir():
             found = [Kind.RUN]
         if not found:
@@ -72,6 +75,6 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
         return comparison_report(file, span)
     if span != ALL:
         raise InputError(f"--from, --to: {file.name} has no curves over time; allowed for runs")
-    from exu_press.report.study import study_page
+    from exu_press.report.study import study_page, sweep_page
 
-    return study_page(file)
+    return study_page(file) if kind is Kind.STUDY else sweep_page(file)

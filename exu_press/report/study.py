@@ -12,10 +12,13 @@ from exu_press.page.study import study_viewer
 from exu_press.report.html import page, paragraph, picture, stills, table, warnings
 from exu_press.report.run import scene_parts
 from exu_press.scene import Scene
+from exu_press.schema.checks import table_from
+from exu_press.schema.csv_table import read_csv
 from exu_press.schema.stored import from_json
 from exu_press.studies.base.report import Column, Line, Panel, Points, Table
+from exu_press.studies.sweep import Sweep, SweepReport
 
-__all__ = ["reading", "study_page"]
+__all__ = ["reading", "study_page", "sweep_page"]
 
 WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError)
 
@@ -34,28 +37,40 @@ def reading(file: Path, kind: str) -> Iterator[Any]:
 def study_page(file: Path) -> str:
     """Return the page of a study, from its report and the pictures beside it."""
     with reading(file, "a report of exu_press") as report:
-        live = _live(report)
-        title = "Curves" if report["points"] is None else str(report["points"]["title"])
-        tables = [(entry["title"], _table(Table(**entry))) for entry in report["tables"]]
-        pictures = [
-            picture(path, caption)
-            for name, caption in report["pictures"].items()
-            if (path := _picture_file(file, name)).is_file()
-        ]
-        drawn = "\n".join(pictures) or paragraph("None was drawn.")
-        scene = report["scene"]
-        about = [] if scene is None else scene_parts(Scene.from_dict(scene, resolve=False))
-        return page(
-            report["title"],
-            "; ".join(filter(None, [report["subtitle"], f"{file.parent.name}/{file.name}"])),
-            [
-                *([(title, live)] if live else []),
-                *tables,
-                ("Warnings", warnings(report["warnings"])),
-                ("Pictures", stills(drawn, live)),
-                *about,
-            ],
-        )
+        return _page(file, report)
+
+
+def sweep_page(file: Path) -> str:
+    """Return the page of a sweep that a version before 0.9 wrote, from table.csv and study.json."""
+    with reading(file.with_name("study.json"), "a sweep of exu_press") as study:
+        report = SweepReport(table_from(Sweep, "", study), read_csv(file))
+        return _page(file, report.page_data())
+
+
+def _page(file: Path, report: dict[str, Any]) -> str:
+    """Return the page of a report's data; pictures lie beside the file."""
+    live = _live(report)
+    title = "Curves" if report["points"] is None else str(report["points"]["title"])
+    tables = [(entry["title"], _table(Table(**entry))) for entry in report["tables"]]
+    pictures = [
+        picture(path, caption)
+        for name, caption in report["pictures"].items()
+        if (path := _picture_file(file, name)).is_file()
+    ]
+    drawn = "\n".join(pictures) or paragraph("None was drawn.")
+    scene = report["scene"]
+    about = [] if scene is None else scene_parts(Scene.from_dict(scene, resolve=False))
+    return page(
+        report["title"],
+        "; ".join(filter(None, [report["subtitle"], f"{file.parent.name}/{file.name}"])),
+        [
+            *([(title, live)] if live else []),
+            *tables,
+            ("Warnings", warnings(report["warnings"])),
+            ("Pictures", stills(drawn, live)),
+            *about,
+        ],
+    )
 
 
 def _picture_file(file: Path, name: str) -> Path:

@@ -252,8 +252,12 @@ class Report(ABC):
             write_json(directory / f"{self.name}.json", data)
         for name, values in self.csv_files().items():
             write_csv(directory / name, values)
+        write_json(directory / REPORT_FILE, self.page_data())
+
+    def page_data(self) -> dict[str, Any]:
+        """Return that of which a page is made."""
         points = self.points()
-        page = {
+        return {
             "title": self.title,
             "subtitle": self.subtitle,
             "scene": None if self.scene is None else self.scene.to_dict(),
@@ -263,7 +267,6 @@ class Report(ABC):
             "points": None if points is None else asdict(points),
             "panels": [asdict(panel) for panel in self.panels()],
         }
-        write_json(directory / REPORT_FILE, page)
 
 
 def quantity_column(

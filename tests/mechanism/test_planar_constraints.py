@@ -9,11 +9,15 @@ from refused import refused
 
 from exu_press import Scene, simulate
 from exu_press.mechanism import Press, press
-from exu_press.mechanism.constraint import Coincidence, PointOnLine, RotationRatio
 from exu_press.mechanism.independent_constraints import independent_constraints
 from exu_press.mechanism.mobility import mobility_of
 from exu_press.mechanism.parts import ROD
-from exu_press.mechanism.planar_constraints import PlanarConstraints
+from exu_press.mechanism.planar_constraints import (
+    Coincidence,
+    PlanarConstraints,
+    PointOnLine,
+    RotationRatio,
+)
 
 MOVING = PlanarConstraints(
     size=1.0,

@@ -17,7 +17,6 @@ from exu_press import Scene, simulate
 PACKAGE = Path(exu_press.__file__).parent
 ENDS = {"build": "model/assemble.py", "solve": "solving/solve.py", "simulate": "verification/"}
 """Function at whose end the walk is counted -> beginning of its file's path."""
-
 SCENES = {
     "ideal joints": Scene(joints={}, revolutions=0.02),
     "film and contacts": Scene(revolutions=0.02),
@@ -32,8 +31,7 @@ def walk(scene: Scene) -> dict[str, list[str]]:
 
     def watch(frame: FrameType, event: str, _: object) -> None:
         code = frame.f_code
-        path = Path(code.co_filename)
-        if not path.is_relative_to(PACKAGE):
+        if not (path := Path(code.co_filename)).is_relative_to(PACKAGE):
             return
         file = path.relative_to(PACKAGE).as_posix()
         if event == "call" and code not in known:

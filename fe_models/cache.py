@@ -11,7 +11,6 @@ import hashlib
 import io
 import json
 import os
-import tempfile
 import warnings
 from collections.abc import Mapping
 from dataclasses import fields
@@ -27,7 +26,7 @@ from fe_models.geometry import OpenedStepFile, StepFile
 from fe_models.part import Part
 from fe_models.reduced import ReducedInterface, ReducedPart
 from fe_models.reduction import Reduction, Report, reduce_part
-from fe_models.temporary import TemporaryFolder
+from fe_models.temporary import TemporaryFolder, remove_partial_files, replacing
 
 __all__ = ["cache_file", "default_folder", "load", "reduced_part", "save"]
 
@@ -73,6 +72,7 @@ def reduced_part(
     """
     reduction = reduction or Reduction()
     file = cache_file(part, reduction, default_folder() if folder is None else Path(folder))
+    remove_partial_files(file.parent)
     stored = load(file)
     if stored is not None:
         return stored
@@ -168,15 +168,9 @@ def save(part: ReducedPart, file: Path) -> None:
     content = io.BytesIO()
     np.savez(content, allow_pickle=False, **arrays)
     file.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=".part")
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content.getvalue())
-            stream.write(hashlib.sha256(content.getvalue()).digest())
-        Path(temporary).replace(file)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    with replacing(file) as stream:
+        stream.write(content.getvalue())
+        stream.write(hashlib.sha256(content.getvalue()).digest())
 
 
 def load(file: Path) -> ReducedPart | None:

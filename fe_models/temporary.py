@@ -1,16 +1,21 @@
-"""Temporary folders, removed with their object, or by the next one after a kill."""
+"""Temporary folders and files: each goes with its process, or after a kill at the next start."""
 
 import contextlib
 import os
 import shutil
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
+from typing import IO
 
-__all__ = ["TemporaryFolder", "remove_abandoned"]
+__all__ = ["TemporaryFolder", "remove_abandoned", "remove_partial_files", "replacing"]
 
 BEGINNING = "exu_press_temporary_"
 """Of the folders' names."""
+
+PARTIAL = ".part"
+"""Ending of files that are being written; their process keeps them locked."""
 
 LOCK = ".lock"
 """File in a folder that its process keeps locked; the system frees it, however the process ends."""
@@ -68,6 +73,38 @@ def _remove_abandoned(folder: Path) -> None:
                 shutil.rmtree(folder, ignore_errors=True)
         finally:
             os.close(lock)
+
+
+@contextlib.contextmanager
+def replacing(file: Path) -> Iterator[IO[bytes]]:
+    """Yield a new file that replaces another one when it is written, or goes.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    handle, name = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=f"{PARTIAL}.new")
+    partial = Path(name)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            _lock(handle)
+            partial = partial.rename(partial.with_suffix(""))  # locked when others see it
+            yield stream
+        partial.replace(file)
+    except BaseException:
+        partial.unlink(missing_ok=True)
+        raise
+
+
+def remove_partial_files(folder: Path) -> None:
+    """Remove the files of a folder that killed processes have left half written."""
+    for file in folder.glob(f".*{PARTIAL}"):
+        with contextlib.suppress(OSError):  # a link, or a file of another user
+            lock = os.open(file, os.O_RDWR | getattr(os, "O_NOFOLLOW", 0))
+            try:
+                if _lock(lock):
+                    file.unlink()
+            finally:
+                os.close(lock)
 
 
 def _lock(file: int) -> bool:

@@ -7,20 +7,19 @@ and was read without a word, another exception than the one of wrong input, or a
 ten seconds; it is printed with its seed.
 """
 
-import argparse
 import random
-import shutil
 import sys
-import tempfile
 import time
 import traceback
 import warnings
-from collections import Counter
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
+import attacks
+from attacks import Totals
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.result import run as runs
 from exu_press.scene import flexible_press
@@ -89,41 +88,27 @@ def same_runs(first: Result, second: Result) -> bool:
     )
 
 
-class Campaign:
-    """Reads damaged files, counts what becomes of them, and prints faults."""
+def read_damaged(totals: Totals, seed: int, read: Callable[[], bool | None]) -> None:
+    """Count what becomes of a damaged file.
 
-    def __init__(self, name: str, read: Callable[[], bool | None]) -> None:
-        """Take a function that says whether a file is still right; None where it is refused."""
-        self.name, self.read = name, read
-        self.counts, self.faults = Counter[str](), 0
-
-    def attack(self, seed: int) -> None:
-        """Read what a seed has made."""
-        begin = time.process_time()
-        try:
-            with warnings.catch_warnings(action="ignore"):
-                right = self.read()
-        except Exception:
-            self.fault(seed, traceback.format_exc())
-            return
-        if time.process_time() - begin > LONGEST:
-            self.fault(seed, f"longer than {LONGEST:g} s")
-        elif right is False:
-            self.fault(seed, "other values, without a word")
-        else:
-            self.counts["still right" if right else "refused"] += 1
-
-    def fault(self, seed: int, what: str) -> None:
-        """Count and print a fault."""
-        self.faults += 1
-        self.counts["FAULT"] += 1
-        print(f"FAULT, seed {seed}, {self.name}: {what}", flush=True)
-
-    def close(self) -> int:
-        """Print the totals, and return the number of faults."""
-        ends = ", ".join(f"{count} {how}" for how, count in self.counts.most_common())
-        print(f"{self.counts.total()} {self.name}: {ends or 'none'}", flush=True)
-        return self.faults
+    Args:
+        totals: of its kind.
+        seed: of its damage.
+        read: returns whether the file is still right; None where it is refused.
+    """
+    begin = time.process_time()
+    try:
+        with warnings.catch_warnings(action="ignore"):
+            is_right = read()
+    except Exception:
+        totals.fault(seed, traceback.format_exc())
+        return
+    if time.process_time() - begin > LONGEST:
+        totals.fault(seed, f"longer than {LONGEST:g} s")
+    elif is_right is False:
+        totals.fault(seed, "other values, without a word")
+    else:
+        totals.count("still right" if is_right else "refused")
 
 
 def read_run(path: Path, sound: Result) -> bool | None:
@@ -145,41 +130,42 @@ def attack_results(folder: Path, seeds: Sequence[int]) -> int:
         simulate(scene).save(file)
     sound = [(Result.load(file), file.read_bytes()) for file in files]
     path = folder / "run.nc"
-    whole = Campaign("damaged results", lambda: read_run(path, sound[seed % len(sound)][0]))
+    totals = Totals("damaged results")
     for seed in seeds:
-        path.write_bytes(damaged(random.Random(seed), sound[seed % len(sound)][1]))
-        whole.attack(seed)
-    return whole.close()
+        original, content = sound[seed % len(sound)]
+        path.write_bytes(damaged(random.Random(seed), content))
+        read_damaged(totals, seed, partial(read_run, path, original))
+    return totals.close()
 
 
 def attack_blocks(folder: Path, seeds: Sequence[int]) -> int:
     """Damage one of the files of an unfinished run."""
-    left = folder / "left"
+    blocks = folder / "blocks"
     runs.BLOCK = 0.3  # two blocks of a short run
     if seeds:
         scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.6)
-        simulate(scene, unfinished=left)
-    names = sorted(file.name for file in left.glob("*") if file.stat().st_size > PAGE)
+        simulate(scene, unfinished=blocks)
+    names = sorted(file.name for file in blocks.glob("*") if file.stat().st_size > PAGE)
     with warnings.catch_warnings(action="ignore"):
-        sound = Result.load(left).map_values(lambda _, values: values) if seeds else None
-        kept = {name: np.array(sound[name]) for name in sound} if sound else {}
-    campaign = Campaign("damaged blocks", lambda: _same_blocks(left, kept))
+        sound = Result.load(blocks).map_values(lambda _, values: values) if seeds else None
+        expected = {name: np.array(sound[name]) for name in sound} if sound else {}
+    totals = Totals("damaged blocks")
     for seed in seeds:
         draw = random.Random(seed)
-        file = left / draw.choice(names)
+        file = blocks / draw.choice(names)
         whole = file.read_bytes()
         file.write_bytes(damaged(draw, whole))
-        campaign.attack(seed)
+        read_damaged(totals, seed, partial(_same_blocks, blocks, expected))
         file.write_bytes(whole)
-    return campaign.close()
+    return totals.close()
 
 
 def _same_blocks(
-    left: Path, kept: dict[str, "np.ndarray[tuple[int, ...], np.dtype[np.float64]]"]
+    blocks: Path, expected: dict[str, "np.ndarray[tuple[int, ...], np.dtype[np.float64]]"]
 ) -> bool | None:
     try:
-        run = Result.load(left)
-        return all(np.array_equal(run[name], values) for name, values in kept.items())
+        run = Result.load(blocks)
+        return all(np.array_equal(run[name], values) for name, values in expected.items())
     except InputError:
         return None
 
@@ -187,7 +173,7 @@ def _same_blocks(
 def attack_caches(folder: Path, seeds: Sequence[int]) -> int:
     """Damage a reduced part; None is what makes it be reduced again."""
     if not seeds:
-        return Campaign("damaged caches", lambda: None).close()
+        return Totals("damaged caches").close()
     part, reduction = shipped_part("linkage", 0.06), Reduction(4)
     sound = reduced_part(part, reduction, folder=folder)
     file = cache.cache_file(part, reduction, folder)
@@ -201,33 +187,21 @@ def attack_caches(folder: Path, seeds: Sequence[int]) -> int:
             np.array_equal(getattr(stored, name), getattr(sound, name)) for name in cache.PLAIN
         ) and (stored.name, stored.mass, stored.meta) == (sound.name, sound.mass, sound.meta)
 
-    campaign = Campaign("damaged caches", read)
+    totals = Totals("damaged caches")
     for seed in seeds:
         file.write_bytes(damaged(random.Random(seed), content))
-        campaign.attack(seed)
-    return campaign.close()
+        read_damaged(totals, seed, read)
+    return totals.close()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Return 0 without a fault, else 1."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("--results", type=int, default=400, metavar="N", help="damaged run.nc")
-    parser.add_argument("--blocks", type=int, default=200, metavar="N", help="of unfinished runs")
-    parser.add_argument("--caches", type=int, default=1000, metavar="N", help="reduced parts")
-    parser.add_argument("--seed", type=int, default=0, metavar="S", help="of the first input")
-    options = parser.parse_args(arguments)
-    faults = 0
-    for attack, count in (
-        (attack_results, options.results),
-        (attack_blocks, options.blocks),
-        (attack_caches, options.caches),
-    ):
-        folder = Path(tempfile.mkdtemp())
-        try:
-            faults += attack(folder, range(options.seed, options.seed + count))
-        finally:
-            shutil.rmtree(folder)
-    return int(bool(faults))
+    kinds = {
+        "results": (attack_results, 400, "damaged run.nc"),
+        "blocks": (attack_blocks, 200, "of unfinished runs"),
+        "caches": (attack_caches, 1000, "reduced parts"),
+    }
+    return attacks.main(__doc__ or "", kinds, arguments)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,6 @@ imported. The totals count how inputs end; a traceback, a crash, a mark, a messa
 line and a file outside the folder are faults, which are printed with the seed of their input.
 """
 
-import argparse
 import contextlib
 import copy
 import dataclasses
@@ -16,15 +15,16 @@ import json
 import os
 import random
 import sys
-import tempfile
 import tomllib
 import traceback
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
+import attacks
 import exu_press
+from attacks import Totals
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main as command_line
 from exu_press.result import netcdf
@@ -131,12 +131,13 @@ def perform(arguments: list[str], folder: str) -> tuple[int | None, str]:
             return None, traceback.format_exc()
 
 
-class Attacker:
-    """Runs commands on hostile inputs in a child, counts how they end, and prints faults."""
+class Attacker(AbstractContextManager["Attacker", None]):
+    """Runs commands on hostile inputs in a child."""
 
-    def __init__(self, folder: Path) -> None:
-        """Put modules into a folder that leave a mark when they are imported."""
-        self.folder, self.counts, self.faults = folder, Counter[str](), 0
+    def __init__(self, folder: Path, name: str) -> None:
+        """Put modules into a new folder that leave a mark when they are imported."""
+        folder.mkdir()
+        self.folder, self.totals = folder, Totals(name)
         self._child: Child | None = None
         self._around = sorted(folder.parent.iterdir())
         for module in HOSTILE_MODULES:
@@ -151,7 +152,7 @@ class Attacker:
         try:
             status, messages = child.answer(LONGEST)
         except TimeLimitError:
-            self.count(f"longer than {LONGEST:g} s")
+            self.totals.count(f"longer than {LONGEST:g} s")
             self.end()
         except ChildError as error:
             self.fault(seed, arguments, f"crash: {error}")
@@ -165,22 +166,16 @@ class Attacker:
                 self.fault(seed, arguments, f"refused in other words: {messages[:500]}")
             else:
                 ends = {0: "completed", 2: "refused in one line", 3: "stopped, with its reason"}
-                self.count(ends.get(status, f"exit status {status}"))
+                self.totals.count(ends.get(status, f"exit status {status}"))
         if (self.folder / MARK).exists():
             self.fault(seed, arguments, f"code ran: {(self.folder / MARK).read_text()}")
             (self.folder / MARK).unlink()
         if sorted(self.folder.parent.iterdir()) != self._around or (self.folder / "ran").exists():
             self.fault(seed, arguments, "a file outside the output directory")
 
-    def count(self, how: str) -> None:
-        """Count an end."""
-        self.counts[how] += 1
-
     def fault(self, seed: int, arguments: list[str], what: str) -> None:
         """Count and print a fault."""
-        self.faults += 1
-        self.count("FAULT")
-        print(f"FAULT, seed {seed}, {' '.join(arguments)}: {what}", flush=True)
+        self.totals.fault(seed, f"{' '.join(arguments)}: {what}")
 
     def end(self) -> None:
         """End the child."""
@@ -188,42 +183,51 @@ class Attacker:
             self._child.end()
         self._child = None
 
+    def __exit__(self, *_: object) -> None:
+        self.end()
 
-def attack_scenes(attacker: Attacker, seeds: Sequence[int]) -> None:
+
+def attack_scenes(base: Path, seeds: Sequence[int]) -> int:
     """Run commands on hostile scenes."""
-    for seed in seeds:
-        draw = random.Random(seed)
-        data = damaged_scene(draw)
-        lines = [f"{json.dumps(key)} = {toml(value)}" for key, value in data.items()]
-        (attacker.folder / "scene.toml").write_text("\n".join(lines), encoding="utf-8")
-        more = ["--no-pictures", "--quiet", "--out", "out"]
-        command = draw.choice((["run", "--no-error"], ["compare", "--no-error"], ["attractor"]))
-        if draw.random() < 0.1:
-            command, more = ["draw"], ["--save", "drawing.png"]
-        elif draw.random() < 0.3:
-            more += ["--set", f"joints.crank_pin={draw.choice(CODE)}"]
-        attacker.attack(seed, [command[0], "scene.toml", *command[1:], *more])
+    with Attacker(base / "work", "scenes") as attacker:
+        for seed in seeds:
+            attacker.attack(seed, hostile_command(attacker.folder, seed))
+    return attacker.totals.close()
 
 
-def attack_results(attacker: Attacker, seeds: Sequence[int]) -> None:
+def hostile_command(folder: Path, seed: int) -> list[str]:
+    """Write a hostile scene into a folder, and return a command that reads it."""
+    draw = random.Random(seed)
+    data = damaged_scene(draw)
+    lines = [f"{json.dumps(key)} = {toml(value)}" for key, value in data.items()]
+    (folder / "scene.toml").write_text("\n".join(lines), encoding="utf-8")
+    more = ["--no-pictures", "--quiet", "--out", "out"]
+    command = draw.choice((["run", "--no-error"], ["compare", "--no-error"], ["attractor"]))
+    if draw.random() < 0.1:
+        command, more = ["draw"], ["--save", "drawing.png"]
+    elif draw.random() < 0.3:
+        more += ["--set", f"joints.crank_pin={draw.choice(CODE)}"]
+    return [command[0], "scene.toml", *command[1:], *more]
+
+
+def attack_results(base: Path, seeds: Sequence[int]) -> int:
     """Read results whose scene names code."""
     joints = {"crank_pin": "dry", "wrist_pin": "dry"}
     result = simulate(Scene(mechanism="slider_crank", joints=joints, revolutions=0.02))
-    file = attacker.folder / "run.nc"
-    for seed in seeds:
-        draw = random.Random(seed)
-        netcdf.write(forged(result, draw), file)
-        out = ["--no-pictures", "--out", "out"]
-        command = draw.choice(
-            (
-                ["report", "run.nc"],
-                ["spectrum", "run.nc", "--out", "out"],
-                ["view", "run.nc", "--save", "frame.png"],
-                ["compare", "run.nc", "press", "--no-error", *out],
-                ["run", "slider_crank", "--once", "--from", "run.nc", *out],
-            )
-        )
-        attacker.attack(seed, command)
+    out = ["--no-pictures", "--out", "out"]
+    commands = (
+        ["report", "run.nc"],
+        ["spectrum", "run.nc", "--out", "out"],
+        ["view", "run.nc", "--save", "frame.png"],
+        ["compare", "run.nc", "press", "--no-error", *out],
+        ["run", "slider_crank", "--once", "--from", "run.nc", *out],
+    )
+    with Attacker(base / "work", "results") as attacker:
+        for seed in seeds:
+            draw = random.Random(seed)
+            netcdf.write(forged(result, draw), attacker.folder / "run.nc")
+            attacker.attack(seed, draw.choice(commands))
+    return attacker.totals.close()
 
 
 def forged(result: Result, draw: random.Random) -> Result:
@@ -249,7 +253,14 @@ def forged(result: Result, draw: random.Random) -> Result:
     return other
 
 
-def attack_step_files(attacker: Attacker, seeds: Sequence[int]) -> Iterator[str]:
+def attack_step_files(base: Path, seeds: Sequence[int]) -> int:
+    """Reduce parts of damaged STEP files."""
+    with Attacker(base / "work", "STEP files") as attacker:
+        named = sum(1 for _ in named_entities(attacker, seeds))
+    return attacker.totals.close(f"; {named} messages name an entity" if named else "")
+
+
+def named_entities(attacker: Attacker, seeds: Sequence[int]) -> Iterator[str]:
     """Reduce parts of damaged STEP files; yield the entities that messages name."""
     axes = {"big": Axis((0.015, 0.232), hole=True), "small": Axis((0.043, -0.595), hole=True)}
     faces, text = (Interface("big"), Interface("small")), ROD.read_text(encoding="utf-8")
@@ -265,57 +276,30 @@ def attack_step_files(attacker: Attacker, seeds: Sequence[int]) -> Iterator[str]
             if "\n" in message or (str(file) not in message and "rod" not in message):
                 attacker.fault(seed, ["STEP"], message)
             elif "more than" in message and "takes" in message:
-                attacker.count(f"longer than {LONGEST:g} s")
+                attacker.totals.count(f"longer than {LONGEST:g} s")
             else:
                 crashed = "killed by" in message or "exit status" in message
-                attacker.count("refused, as the child crashed" if crashed else "refused")
-            _, found, entity = message.partition(": #")
-            if found:
+                attacker.totals.count("refused, as the child crashed" if crashed else "refused")
+            _, mark, entity = message.partition(": #")
+            if mark:
                 yield entity.partition(" ")[0]
         except Exception:
             attacker.fault(seed, ["STEP"], traceback.format_exc())
         else:
             finite = 0.0 < reduced.mass < 1e6 and bool((reduced.frequencies >= 0.0).all())
-            attacker.count("reduced")
+            attacker.totals.count("reduced")
             if not finite:
                 attacker.fault(seed, ["STEP"], f"mass {reduced.mass}, {reduced.frequencies}")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Return 0 without a fault, else 1."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("--scenes", type=int, default=500, metavar="N", help="hostile scenes")
-    parser.add_argument("--results", type=int, default=100, metavar="N", help="forged results")
-    parser.add_argument("--step", type=int, default=200, metavar="N", help="damaged STEP files")
-    parser.add_argument("--seed", type=int, default=0, metavar="S", help="of the first input")
-    options = parser.parse_args(arguments)
-    faults = 0
-    for name, count in (("scenes", options.scenes), ("results", options.results)):
-        faults += campaign(name, range(options.seed, options.seed + count))
-    return int(
-        bool(faults + campaign("STEP files", range(options.seed, options.seed + options.step)))
-    )
-
-
-def campaign(name: str, seeds: Sequence[int]) -> int:
-    """Attack with inputs of one kind, print the totals, and return the number of faults."""
-    with tempfile.TemporaryDirectory() as base:
-        folder = Path(base) / "work"
-        folder.mkdir()
-        attacker, entities = Attacker(folder), []
-        try:
-            if name == "scenes":
-                attack_scenes(attacker, seeds)
-            elif name == "results":
-                attack_results(attacker, seeds)
-            else:
-                entities = [*attack_step_files(attacker, seeds)]
-        finally:
-            attacker.end()
-    ends = ", ".join(f"{count} {how}" for how, count in attacker.counts.most_common())
-    named = f"; {len(entities)} messages name an entity" if entities else ""
-    print(f"{len(seeds)} {name}: {ends or 'none'}{named}", flush=True)
-    return attacker.faults
+    kinds = {
+        "scenes": (attack_scenes, 500, "hostile scenes"),
+        "results": (attack_results, 100, "forged results"),
+        "step": (attack_step_files, 200, "damaged STEP files"),
+    }
+    return attacks.main(__doc__ or "", kinds, arguments)
 
 
 if __name__ == "__main__":

@@ -9,23 +9,22 @@ root alone make. A command on it must end with 0, or with 3 and one message that
 what it then leaves must be readable. Faults are printed with their seed.
 """
 
-import argparse
 import csv
 import os
 import random
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import warnings
-from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 
+import attacks
+from attacks import Totals
 from exu_press import InputError, Result
 from exu_press.result.checkpoint import HEAD, has_blocks
 
@@ -137,25 +136,6 @@ def same(first: Path, second: Path) -> bool:
     )
 
 
-class Campaign:
-    """Counts how attacks end, and prints faults."""
-
-    def __init__(self, name: str) -> None:
-        self.name, self.counts, self.faults = name, Counter[str](), 0
-
-    def fault(self, seed: int, what: str) -> None:
-        """Count and print a fault."""
-        self.faults += 1
-        self.counts["FAULT"] += 1
-        print(f"FAULT, seed {seed}, {self.name}: {what}", flush=True)
-
-    def close(self) -> int:
-        """Print the totals, and return the number of faults."""
-        ends = ", ".join(f"{count} {how}" for how, count in self.counts.most_common())
-        print(f"{self.counts.total()} {self.name}: {ends or 'none'}", flush=True)
-        return self.faults
-
-
 def descendants(process: int) -> set[int]:
     """Return the numbers of a process's children, and of theirs."""
     files = Path(f"/proc/{process}/task").glob("*/children")
@@ -178,7 +158,7 @@ def alive(process: int) -> bool:
 
 def attack_by_kills(base: Path, seeds: Sequence[int]) -> int:
     """Kill commands, give them again, and compare with what is undisturbed."""
-    campaign, usual = Campaign("kills"), base / "undisturbed"
+    totals, usual = Totals("kills"), base / "undisturbed"
     lasts: dict[str, float] = {}
     for name, arguments in COMMANDS.items() if seeds else ():
         prepare(usual / name)
@@ -186,7 +166,7 @@ def attack_by_kills(base: Path, seeds: Sequence[int]) -> int:
         status, messages = perform(usual / name, *arguments)
         lasts[name] = time.monotonic() - begin
         if status != 0:
-            campaign.fault(-1, f"undisturbed {name}: {status}, {messages}")
+            totals.fault(-1, f"undisturbed {name}: {status}, {messages}")
     for seed in seeds:
         draw, name = random.Random(seed), [*COMMANDS][seed % len(COMMANDS)]
         folder = base / f"{seed}"
@@ -199,22 +179,28 @@ def attack_by_kills(base: Path, seeds: Sequence[int]) -> int:
         ended = process.returncode == 0
         time.sleep(1.0)
         if any(map(alive, children)):
-            campaign.fault(seed, f"{name}: processes live on")
+            totals.fault(seed, f"{name}: processes live on")
             continue
         try:
-            kept = len(results_in(folder))
+            has_results = bool(results_in(folder))
         except InputError as error:
-            campaign.fault(seed, f"{name}: half a file ({error})")
+            totals.fault(seed, f"{name}: half a file ({error})")
             continue
         status, messages = perform(folder, *COMMANDS[name])
         if status == 2 and name == "run" and "finished blocks" in messages:
             status, messages = perform(folder, *COMMANDS[name], "--overwrite")
         if status != 0 or not same(usual / name, folder):
-            campaign.fault(seed, f"{name} again: {status}, {messages}")
+            totals.fault(seed, f"{name} again: {status}, {messages}")
             continue
-        how = "had ended" if ended else "with results kept" if kept else "with nothing there yet"
-        campaign.counts[f"{name} {how}, equal when given again"] += 1
-    return campaign.close()
+        how = (
+            "had ended"
+            if ended
+            else "with results kept"
+            if has_results
+            else "with nothing there yet"
+        )
+        totals.count(f"{name} {how}, equal when given again")
+    return totals.close()
 
 
 @contextmanager
@@ -246,12 +232,12 @@ VARIABLES = {"temporary folder": "TMPDIR", "cache": "EXU_PRESS_CACHE"}
 
 def attack_by_full_disks(base: Path, seeds: Sequence[int]) -> int:
     """Let output, temporary folder or cache of commands lie on a small disk."""
-    campaign, inputs = Campaign("full disks"), base / "inputs"
+    totals, inputs = Totals("full disks"), base / "inputs"
     prepare(inputs)
     for seed in seeds:
         disk, name = base / f"disk {seed}", [*OF_DISKS][seed % len(OF_DISKS)]
-        with small_disk(disk, 1 << random.Random(seed).randrange(14, 23)) as made:
-            if not made:
+        with small_disk(disk, 1 << random.Random(seed).randrange(14, 23)) as exists:
+            if not exists:
                 print("full disks: this user may make no file systems", flush=True)
                 return 0
             out = base / f"o{seed}" if name in VARIABLES else disk / "o"
@@ -259,17 +245,17 @@ def attack_by_full_disks(base: Path, seeds: Sequence[int]) -> int:
             arguments = (*OF_DISKS[name], "--quiet", "--out", str(out))
             status, messages = perform(inputs, *arguments, **environment)
             if what := wrong_end(status, messages, str(disk)):
-                campaign.fault(seed, f"{name}: {what}: {status}, {messages!r}")
+                totals.fault(seed, f"{name}: {what}: {status}, {messages!r}")
                 continue
             try:
                 results_in(base)
             except InputError as error:
-                campaign.fault(seed, f"{name}: half a file ({error})")
+                totals.fault(seed, f"{name}: half a file ({error})")
                 continue
             warned = ", with a warning" if messages and status == 0 else ""
             how = f"full: status {status}{warned}" if messages else "large enough"
-            campaign.counts[f"{name} {how}"] += 1
-    return campaign.close()
+            totals.count(f"{name} {how}")
+    return totals.close()
 
 
 def wrong_end(status: int, messages: str, disk: str) -> str:
@@ -286,20 +272,11 @@ def wrong_end(status: int, messages: str, disk: str) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Return 0 without a fault, else 1."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("--kills", type=int, default=32, metavar="N", help="commands to kill")
-    parser.add_argument("--disks", type=int, default=36, metavar="N", help="small disks")
-    parser.add_argument("--seed", type=int, default=0, metavar="S", help="of the first attack")
-    options = parser.parse_args(arguments)
-    faults = 0
-    attacks: tuple[tuple[Callable[[Path, Sequence[int]], int], int], ...] = (
-        (attack_by_kills, options.kills),
-        (attack_by_full_disks, options.disks),
-    )
-    for attack, count in attacks:
-        with tempfile.TemporaryDirectory() as base:
-            faults += attack(Path(base), range(options.seed, options.seed + count))
-    return int(bool(faults))
+    kinds = {
+        "kills": (attack_by_kills, 32, "commands to kill"),
+        "disks": (attack_by_full_disks, 36, "small disks"),
+    }
+    return attacks.main(__doc__ or "", kinds, arguments)
 
 
 if __name__ == "__main__":

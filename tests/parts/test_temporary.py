@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from exu_press.cli import main
-from fe_models.temporary import TemporaryFolder
+from fe_models.temporary import TemporaryFolder, remove_partial_files, replacing
 
 
 @pytest.fixture(autouse=True)
@@ -74,3 +74,34 @@ def test_no_link_is_followed(base, tmp_path):
         pass
     assert (precious / ".lock").exists()
     assert (base / "exu_press_temporary_b").exists()
+
+
+def test_a_half_written_file_goes_at_the_next_write_and_one_in_writing_stays(base):
+    code = (
+        "import sys; from pathlib import Path; from fe_models.temporary import replacing\n"
+        f"with replacing(Path({str(base / 'part.npz')!r})) as stream:\n"
+        "    stream.write(b'half'); stream.flush(); print('written', flush=True); sys.stdin.read()"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    process.stdout.readline()
+    remove_partial_files(base)
+    (partial,) = base.glob(".*.part")  # its process lives
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    assert partial.read_bytes() == b"half"
+    (base / ".mine.part").symlink_to(base / "precious")
+    remove_partial_files(base)
+    assert [file.name for file in base.iterdir()] == [".mine.part"]
+
+
+def test_a_file_replaces_another_one_whole_or_not_at_all(base):
+    (base / "a").write_bytes(b"old")
+    with pytest.raises(ZeroDivisionError), replacing(base / "a") as stream:
+        stream.write(b"half")
+        raise ZeroDivisionError
+    assert (base / "a").read_bytes() == b"old"
+    with replacing(base / "a") as stream:
+        stream.write(b"new")
+    assert [(file.name, file.read_bytes()) for file in base.iterdir()] == [("a", b"new")]

@@ -86,7 +86,7 @@ def run_chain(add_joint, steps):
     settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = steps * STEP, steps
     # accelerations to 1e-4 of gravity's, as a scene with fixed steps has them
     settings.timeIntegration.newton.absoluteTolerance = 1e-4 * BODIES * MASS * 9.81
-    task = Task(System.of(mbs), settings, None, ErrorScales(), SolverTuning())
+    task = Task(System.of_mbs(mbs), settings, None, ErrorScales(), SolverTuning())
     task.smallest = STEP / 1024
     start = time.perf_counter()
     with prepared_settings(settings, task):

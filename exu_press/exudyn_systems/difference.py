@@ -19,40 +19,40 @@ LARGEST_TURN = 0.5  # angle by which a body may turn in a step of a level that d
 STEPS_IN_PERIOD = 10.0  # fewest steps in a period of a coordinate in a level that decides
 
 
-def common(one: Samples, other: Samples) -> tuple[Any, Any]:
+def common(first: Samples, second: Samples) -> tuple[Any, Any]:
     """Return the numbers of the instants that two runs have in common, in either run."""
-    close = 1e-7 * (other.times[-1] - other.times[0])
-    theirs = np.searchsorted(other.times[:-1], one.times - close)
-    ours = np.flatnonzero(np.abs(other.times[theirs] - one.times) <= close)
+    close = 1e-7 * (second.times[-1] - second.times[0])
+    theirs = np.searchsorted(second.times[:-1], first.times - close)
+    ours = np.flatnonzero(np.abs(second.times[theirs] - first.times) <= close)
     return ours, theirs[ours]
 
 
-def differences(one: Samples, other: Samples, variables: Variables) -> Array:
+def differences(first: Samples, second: Samples, variables: Variables) -> Array:
     """Return the differences of two runs at their common instants, (instants, quantities)."""
-    ours, theirs = common(one, other)
+    ours, theirs = common(first, second)
 
-    def apart(name: str) -> Any:
-        return getattr(one, name)[ours] - getattr(other, name)[theirs]
+    def change(name: str) -> Any:
+        return getattr(first, name)[ours] - getattr(second, name)[theirs]
 
-    coordinates, sensors = apart("coordinates"), np.abs(apart("sensors"))
+    coordinates, sensors = change("coordinates"), np.abs(change("sensors"))
     angles = np.char.endswith(variables.kinds, ".Rotation")
     sensors[:, angles] = np.abs((sensors[:, angles] + np.pi) % (2.0 * np.pi) - np.pi)
     plain = [_lengths(coordinates[:, variables.spans[node]]) for node in variables.plain]
     parts = [
-        _lengths(apart("displacements")),
-        _angles(apart("rotations")),
+        _lengths(change("displacements")),
+        _angles(change("rotations")),
         np.reshape(plain, (len(plain), len(ours))).T,
-        np.abs(apart("first_order")),
+        np.abs(change("first_order")),
         sensors,
-        np.full((len(ours), 1), abs(one.times[-1] - other.times[-1])),
+        np.full((len(ours), 1), abs(first.times[-1] - second.times[-1])),
     ]
     return np.asarray(np.nan_to_num(np.concatenate(parts, axis=1), nan=np.inf))
 
 
-def of_peaks(one: Samples, other: Samples) -> Array:
+def of_peaks(first: Samples, second: Samples) -> Array:
     """Return by how much the largest magnitudes of the sensors' values differ, (values,)."""
-    ours, theirs = common(one, other)
-    peaks = np.abs(one.sensors[ours]).max(axis=0) - np.abs(other.sensors[theirs]).max(axis=0)
+    ours, theirs = common(first, second)
+    peaks = np.abs(first.sensors[ours]).max(axis=0) - np.abs(second.sensors[theirs]).max(axis=0)
     return np.asarray(np.abs(peaks))
 
 
@@ -62,14 +62,14 @@ def scales_of(samples: Samples, variables: Variables, duration: float) -> Array:
     turned = _angles(samples.rotations - samples.rotations[0]).max(initial=0.0)
     change = samples.coordinates - samples.coordinates[0]
     plain = [_lengths(change[:, variables.spans[node]]).max() for node in variables.plain]
-    others = np.concatenate([plain, np.abs(samples.first_order).max(axis=0)])
+    coordinates = np.concatenate([plain, np.abs(samples.first_order).max(axis=0)])
     sensors = np.abs(samples.sensors).max(axis=0)
     for kind in set(variables.kinds):
         alike = variables.kinds == kind
         sensors[alike] = np.maximum(sensors[alike], SMALLEST * sensors[alike].max())
     nodes = [moved] * len(variables.placed) + [turned] * len(variables.turning)
     least = SMALLEST * np.abs(change).max(initial=0.0)
-    return np.concatenate([nodes, np.maximum(others, least), sensors, [duration]])
+    return np.concatenate([nodes, np.maximum(coordinates, least), sensors, [duration]])
 
 
 def excess_step(

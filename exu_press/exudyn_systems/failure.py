@@ -19,9 +19,11 @@ GROWN = 1e3  # growth of differences in a run from which on the motion amplifies
 
 def agreed_until(refinement: Refinement) -> float:
     """Return the time up to which the last two levels agree within the tolerance, s."""
-    one, two = refinement.levels[-2:]
-    above = np.flatnonzero(refinement.apart(one, two).max(axis=1) > refinement.tolerance)
-    times = one.samples.times[common(one.samples, two.samples)[0]]
+    coarser, finer = refinement.levels[-2:]
+    above = np.flatnonzero(
+        refinement.differences(coarser, finer).max(axis=1) > refinement.tolerance
+    )
+    times = coarser.samples.times[common(coarser.samples, finer.samples)[0]]
     return float(times[max(above[0] - 1, 0)] if len(above) else times[-1])
 
 
@@ -35,8 +37,8 @@ def why_not_converged(refinement: Refinement) -> str:
             f"Newton's method fails at every level{' but coarser ones' * bool(levels)} ({numbers} "
             f"steps), at the latest at {latest.end:.4g} s: {latest.failure}"
         )
-    worst = int(refinement.apart(*levels[-2:]).max(axis=0).argmax())
-    pairs = [(refinement.apart(*pair), *pair) for pair in itertools.pairwise(levels[-3:])]
+    worst = int(refinement.differences(*levels[-2:]).max(axis=0).argmax())
+    pairs = [(refinement.differences(*pair), *pair) for pair in itertools.pairwise(levels[-3:])]
     last = [f"{d[:, worst].max():.2g} from {a.steps} to {b.steps} steps" for d, a, b in pairs]
     return (
         f"the last two levels agree within the tolerance up to {agreed_until(refinement):.4g} s; "
@@ -56,7 +58,7 @@ def _cause(refinement: Refinement) -> str:
         )
     if judgement is not None and not judgement.decided and judgement.order < PLAUSIBLE[0]:
         times = coarser.samples.times[common(coarser.samples, finest.samples)[0]]
-        apart = refinement.apart(coarser, finest).max(axis=1)
+        apart = refinement.differences(coarser, finest).max(axis=1)
         rate = growth(times, apart, APART).rate or 0.0
         logs = np.log(np.maximum.accumulate(np.clip(apart, SMALL, APART)))
         window = max(len(logs) // 20, 1)  # a switch makes differences within it

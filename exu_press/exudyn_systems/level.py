@@ -111,12 +111,12 @@ class Levels:
         """Refuse a process that cannot be copied safely, with a message that says what to do."""
         container: Any = self.mbs.GetSystemContainer()
         threads, of_solver = threading.active_count(), int(self.settings.parallel.numberOfThreads)
-        others = "NGSolve is loaded" if "ngsolve" in sys.modules else f"there are {threads} threads"
-        others = others if sys.platform == "linux" else f"this is {sys.platform}"
+        unsafe = "NGSolve is loaded" if "ngsolve" in sys.modules else f"there are {threads} threads"
+        unsafe = unsafe if sys.platform == "linux" else f"this is {sys.platform}"
         for reason, applies in (
             ("the renderer is running", container.renderer.IsActive()),
             (f"settings.parallel.numberOfThreads = {of_solver}", of_solver > 1),
-            (others, not may_copy()),
+            (unsafe, not may_copy()),
         ):
             if applies:
                 raise InputError(
@@ -134,14 +134,14 @@ def _constant_steps(settings: exu.SimulationSettings, steps: int, *, alone: bool
     values += [(integration, "adaptiveStep", False)]
     if alone:
         values += [(integration, name, 0) for name in ("verboseMode", "verboseModeFile")]
-        values += [(part, "write", False) for part in (output.file, output.restart)]
-        values += [(part, "active", False) for part in (output.sensors, integration.realtime)]
+        values += [(owner, "write", False) for owner in (output.file, output.restart)]
+        values += [(owner, "active", False) for owner in (output.sensors, integration.realtime)]
         values += [(output, "recordImagesInterval", -1.0), (exu.config, "printToConsole", False)]
-    before = [(part, name, getattr(part, name)) for part, name, _ in values]
+    before = [(owner, name, getattr(owner, name)) for owner, name, _ in values]
     try:
-        for part, name, value in values:
-            setattr(part, name, value)
+        for owner, name, value in values:
+            setattr(owner, name, value)
         yield
     finally:
-        for part, name, value in before:
-            setattr(part, name, value)
+        for owner, name, value in before:
+            setattr(owner, name, value)

@@ -49,9 +49,9 @@ class Refinement:
             while not self.solver_gives_up():
                 steps, last = self._next()
                 repeats = bool(self.levels) and steps == self.levels[-1].steps
-                if last and (held is None or (repeats and self.converged())):
+                if last and (held is None or (repeats and self.meets_tolerance())):
                     held = self._run_last(steps, repeats=repeats)
-                    if repeats or self.converged():
+                    if repeats or self.meets_tolerance():
                         return held
                 elif held is not None and (repeats or not (self.runs.build or self.runs.spares)):
                     return held
@@ -62,7 +62,7 @@ class Refinement:
             for spare in self.runs.spares:
                 spare.end()
 
-    def converged(self) -> bool:
+    def meets_tolerance(self) -> bool:
         """Return whether the finest level has the tolerance."""
         if self.judgement is None or self.remembers:
             return False
@@ -78,9 +78,9 @@ class Refinement:
         samples, scales = level.samples, self.scales()
         return difference.excess_step(samples, level.step, self.variables, scales, self.tolerance)
 
-    def apart(self, one: Level, other: Level) -> Array:
+    def differences(self, first: Level, second: Level) -> Array:
         """Return the differences of two levels over the scales, (instants, quantities)."""
-        apart = difference.differences(one.samples, other.samples, self.variables)
+        apart = difference.differences(first.samples, second.samples, self.variables)
         scales = self.scales()
         apart[:, scales > 0.0] /= scales[scales > 0.0]
         return apart
@@ -96,7 +96,7 @@ class Refinement:
         level = self.runs.run(steps)
         if repeats and not level.failure:
             copy, self.levels[-1] = self.levels[-1], level
-            self.remembers = bool(self.apart(copy, level).max() > self.tolerance)
+            self.remembers = bool(self.differences(copy, level).max() > self.tolerance)
             self.cost.append((steps, level.seconds))
         else:
             self._keep(level)
@@ -114,8 +114,8 @@ class Refinement:
                 pairs = list(itertools.pairwise(deciding))
                 self.judgement = judge(
                     [level.steps for level in deciding],
-                    [self.apart(*pair).max(axis=0) for pair in pairs],
-                    [difference.of_peaks(one.samples, two.samples) for one, two in pairs],
+                    [self.differences(*pair).max(axis=0) for pair in pairs],
+                    [difference.of_peaks(coarse.samples, fine.samples) for coarse, fine in pairs],
                     self.tolerance,
                 )
                 self.orders.append(self.judgement.order)
@@ -134,16 +134,16 @@ class Refinement:
         steps = tried * math.ceil(min(factor, FACTORS[1]) - 1e-9)
         near = range(steps, int(ALIGNED * steps) + 1, self.runs.samples)
         steps = next((n for n in near if n % self.rows == 0 or self.rows % n == 0), steps)
-        left = float(self.max_steps - sum(steps for steps, _ in self.cost))
+        remaining = float(self.max_steps - sum(steps for steps, _ in self.cost))
         if self.levels:
             pace = max(self.levels[-1].seconds / self.levels[-1].steps, 1e-9)
-            left = min(left, (self.runs.deadline - clock.monotonic()) / pace)
-        if steps * (1 if last else 2) <= left:
+            remaining = min(remaining, (self.runs.deadline - clock.monotonic()) / pace)
+        if steps * (1 if last else 2) <= remaining:
             return steps, last
         if not self.levels:
             return tried, True
         finest = self.levels[-1].steps
-        return finest * max(int(min(left, steps) // finest), 1), True
+        return finest * max(int(min(remaining, steps) // finest), 1), True
 
     def _next_factor(self) -> tuple[float, bool]:
         """Return the factor to the next level's number of steps, and whether that is the last."""
@@ -152,7 +152,7 @@ class Refinement:
             if len(levels) < 2 or self.excess(self.levels[-1]) > 1.0:
                 return self.excess(self.levels[-1]), False
             ratio = levels[1].steps / levels[0].steps  # the order is taken for the method's
-            error = SAFETY * self.apart(*levels).max() / (ratio**ORDER - 1.0)
+            error = SAFETY * self.differences(*levels).max() / (ratio**ORDER - 1.0)
             order = ORDER
         elif judgement.decided:
             error, order = judgement.error, min(judgement.order, ORDER)

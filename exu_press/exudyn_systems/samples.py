@@ -61,7 +61,7 @@ class Variables:
                 self.plain += [node] * (not displaced or (not turns and count > 3))
         sensors = [system.GetSensor(number) for number in range(data.NumberOfSensors())]
         self.sensors = [int(np.size(system.GetSensorValues(n))) for n in range(len(sensors))]
-        types = [str(one.get("outputVariableType", one["sensorType"])) for one in sensors]
+        types = [str(sensor.get("outputVariableType", sensor["sensorType"])) for sensor in sensors]
         self.kinds = np.repeat(np.array(types, dtype=str), self.sensors)
         names = {node: f"node {node} ({system.GetNode(node)['name']})" for node in self.spans}
         self.names = [f"displacement of {names[node]}" for node in self.placed]
@@ -91,4 +91,4 @@ class Variables:
         row += [of_nodes(self.placed, output.Displacement, 3)]
         row += [of_nodes(self.turning, output.RotationMatrix, 3, 3)]
         row += [of_nodes(self.turning, output.AngularVelocity, 3), np.concatenate([*sensors, []])]
-        return [np.array(part, dtype=float) for part in row]
+        return [np.array(values, dtype=float) for values in row]

@@ -119,7 +119,7 @@ def solve_dynamic(
     refinement = Refinement(runs, Variables(mbs), float(tolerance or 0.0), users, rows, budget)
     last = refinement.refine(coarsest)
     holds_finest = bool(refinement.levels) and refinement.levels[-1] is last
-    converged = holds_finest and refinement.converged()
+    converged = holds_finest and refinement.meets_tolerance()
     reason = "" if converged else why_not_converged(refinement)
     if reason:
         warnings.warn(f"solve_dynamic: not converged: {reason}", stacklevel=2)
@@ -168,7 +168,7 @@ def _stated_error(refinement: Refinement) -> RunError | None:
     values = (judgement.errors * refinement.scales())[first:-1]
     return RunError(
         motion=float(judgement.errors[:first].max(initial=0.0)),
-        since=math.inf if refinement.converged() else agreed_until(refinement),
+        since=math.inf if refinement.meets_tolerance() else agreed_until(refinement),
         sensors=np.split(values, ends) if sizes else [],
         peaks=np.split(judgement.peaks, ends) if sizes else [],
     )

@@ -16,7 +16,7 @@ from exu_press.integrate.task import Task
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.linear import Equations
 
-__all__ = ["Constraints", "normalised"]
+__all__ = ["Constraints", "normalise"]
 
 Flags = NDArray[np.bool_]
 
@@ -28,7 +28,7 @@ FAR_OFF = 0.1
 position is meant is not known."""
 
 
-def normalised(directions: Array) -> tuple[Array, Array]:
+def normalise(directions: Array) -> tuple[Array, Array]:
     """Return constraints' directions of length 1, a row each, and what their lengths were.
 
     What is switched off keeps its zeros.
@@ -76,7 +76,7 @@ class Constraints:
         positions = self._current.positions
         tried = np.array(positions)
         positions[:] = self._start.positions
-        directions, _ = normalised(self.directions())
+        directions, _ = normalise(self.directions())
         positions[:] = tried
         active = directions[directions.any(axis=1)]
         return len(active) - int(np.linalg.matrix_rank(active, tol=REDUNDANT))

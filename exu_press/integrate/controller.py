@@ -14,10 +14,10 @@ ORDER = 3
 class Controller(Protocol):
     """Changes steps for their errors; 1 is the largest allowed one."""
 
-    def repeated(self, error: float) -> float:
+    def repeat_factor(self, error: float) -> float:
         """Return the factor with which to repeat a step whose error is above 1, or no number."""
 
-    def continued(self, error: float) -> float:
+    def growth_factor(self, error: float) -> float:
         """Return the factor for the steps after one whose error is at most 1."""
 
 
@@ -35,13 +35,13 @@ class LimitedGrowth:
         self._safety = tuning.safety
         self._factor_min, self._factor_max = tuning.factor_min, tuning.factor_max
 
-    def repeated(self, error: float) -> float:
+    def repeat_factor(self, error: float) -> float:
         """Return the factor with which to repeat a step whose error is above 1, or no number."""
         if error != error:
             return self._factor_min
         return max(self._factor_min, self._factor(error))
 
-    def continued(self, error: float) -> float:
+    def growth_factor(self, error: float) -> float:
         """Return the factor for the steps after one whose error is at most 1."""
         return self._factor_max if self._factor(error) > self._factor_max else 1.0
 

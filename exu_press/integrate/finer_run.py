@@ -54,7 +54,7 @@ class SampledVelocities:
         self._state, self._close = system.current, 1e-9 * (end - start)
         self._before: tuple[float, Array, Array] | None = None
 
-    def beside(self, watch: Watch) -> Watch:
+    def sampling_watch(self, watch: Watch) -> Watch:
         """Return a watch that keeps the velocities, too."""
 
         def watch_and_sample(time: float) -> str:
@@ -109,7 +109,7 @@ def with_error(
         _write_nothing(system.mbs, settings)
         most = math.ceil(max_steps / FINER)
         try:
-            outcome, _ = run(FINER * tolerance, finer.beside(watch), most, True)
+            outcome, _ = run(FINER * tolerance, finer.sampling_watch(watch), most, True)
             why = "" if outcome.status.ended else f"{outcome.status.value}: {outcome.reason}"
         except Exception as error:  # of the user's functions; the run itself tells its own
             why = " ".join(str(error).partition("\n\nAt:")[0].split())  # without the calls
@@ -117,7 +117,7 @@ def with_error(
 
     with Child(run_finer) as copy:
         copy.request()
-        outcome, task = run(tolerance, motion.beside(watch), max_steps, quiet)
+        outcome, task = run(tolerance, motion.sampling_watch(watch), max_steps, quiet)
         if not outcome.status.ended:
             return outcome
         with Progress("finer run", 1.0, "run", quiet=quiet) as progress:

@@ -92,7 +92,7 @@ class ConsistentInitialization:
             if i:
                 self._solver.ComputeMassMatrix(self._mbs)
                 self._linearise()
-            self._q = self._q - self._projected(violations)
+            self._q = self._q - self._least_change(violations)
         return last < math.inf
 
     def _set_state(self, time: float = 0.0) -> None:
@@ -111,10 +111,10 @@ class ConsistentInitialization:
     def _rates(self) -> tuple[Array, Array, Array]:
         """Return the first, second and third rate of change of the violations."""
         h = self._ahead
-        now, one, two, three = (self._violations(i * h) for i in range(4))
-        first = (-11.0 * now + 18.0 * one - 9.0 * two + 2.0 * three) / (6.0 * h)
-        second = (2.0 * now - 5.0 * one + 4.0 * two - three) / (h * h)
-        return first, second, (three - 3.0 * two + 3.0 * one - now) / (h * h * h)
+        now, after_1, after_2, after_3 = (self._violations(i * h) for i in range(4))
+        first = (-11.0 * now + 18.0 * after_1 - 9.0 * after_2 + 2.0 * after_3) / (6.0 * h)
+        second = (2.0 * now - 5.0 * after_1 + 4.0 * after_2 - after_3) / (h * h)
+        return first, second, (after_3 - 3.0 * after_2 + 3.0 * after_1 - now) / (h * h * h)
 
     def _project(self, vector: Array, missing: Callable[[Array], Array], order: int) -> Array:
         """Return the nearest vector, in the kinetic norm, with which nothing is missing.
@@ -128,7 +128,7 @@ class ConsistentInitialization:
         last = before = math.inf
         fits, least = FITS[order], self._roundoff(order)
         for _ in range(ITERATIONS):
-            change = self._projected(missing(vector))
+            change = self._least_change(missing(vector))
             size = self._norm(change)
             if size <= max(least, fits * self._norm(vector - change)) or size > SHRINKS * before:
                 break
@@ -138,7 +138,7 @@ class ConsistentInitialization:
     def _roundoff(self, order: int) -> float:
         """Return what rounding makes of a change that rates of this order ask for."""
         rounding = self._task.tuning.rounding * self._length / self._ahead**order
-        return self._norm(self._projected(np.full(len(self._held), rounding)))
+        return self._norm(self._least_change(np.full(len(self._held), rounding)))
 
     def _fit_rates(self, *, moved: bool) -> Array:
         """Let velocities and accelerations fit; return what of their rate constraints prescribe.
@@ -166,7 +166,7 @@ class ConsistentInitialization:
         else:
             self._a = accelerations
         _, second, third = self._rates()
-        rate = -self._projected(np.where(held, third, second))
+        rate = -self._least_change(np.where(held, third, second))
         self._set_state()
         return rate if self._norm(rate) > self._roundoff(3) else np.zeros_like(rate)
 
@@ -184,13 +184,13 @@ class ConsistentInitialization:
         self._set_state()
         self._solver.ComputeODE2RHS(self._mbs)
         forces = np.array(self._solver.GetSystemResidual())[: len(self._q)]
-        return self._solved(forces, np.zeros(len(self._held)))
+        return self._solve(forces, np.zeros(len(self._held)))
 
-    def _projected(self, violations: Array) -> Array:
+    def _least_change(self, violations: Array) -> Array:
         """Return the least change to take away, in the kinetic norm, that undoes violations."""
-        return self._solved(np.zeros(len(self._q)), violations)
+        return self._solve(np.zeros(len(self._q)), violations)
 
-    def _solved(self, forces: Array, violations: Array) -> Array:
+    def _solve(self, forces: Array, violations: Array) -> Array:
         """Return the change that forces and violations ask for."""
         right = np.concatenate([forces, violations])
         try:

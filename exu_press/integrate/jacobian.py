@@ -94,7 +94,10 @@ class FlexibleJacobian:
         """Give the solver its Jacobian in the current state; return that this went well."""
         size = solver.GetODE2size()
         if self._bodies is None:
-            self._bodies, self._factors = self._differentiated(solver, mbs, settings), (0.0, 0.0)
+            self._bodies, self._factors = (
+                self._partial_derivatives(solver, mbs, settings),
+                (0.0, 0.0),
+            )
             self._jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
         step, jacobian = solver.it.currentStepSize, self._jacobian
         self._step = step
@@ -111,7 +114,7 @@ class FlexibleJacobian:
         solver.ComputeJacobianAE(mbs, 1.0, by_q_t / by_q)  # adds the constraints
         return True
 
-    def _differentiated(
+    def _partial_derivatives(
         self, solver: Any, mbs: exu.MainSystem, settings: exu.SimulationSettings
     ) -> Array:
         """Return stiffness and damping of all but the clearance joints, a row each."""

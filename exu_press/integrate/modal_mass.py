@@ -44,10 +44,10 @@ class ModalMass:
     (1949); T. J. R. Hughes, The Finite Element Method (1987), 9.1.
     """
 
-    def __init__(self, mbs: exu.MainSystem, solver: Any, part: float) -> None:
-        """Change a part of the mass that keeps the frequencies; 0.0 leaves modes their own."""
-        self._mbs, self._solver, self._part = mbs, solver, part
-        self._item = modal_item(mbs) if part > 0.0 else None
+    def __init__(self, mbs: exu.MainSystem, solver: Any, ratio: float) -> None:
+        """Change the mass by a ratio of what keeps the frequencies; 0.0 leaves modes their own."""
+        self._mbs, self._solver, self._ratio = mbs, solver, ratio
+        self._item = modal_item(mbs) if ratio > 0.0 else None
         self._step = 0.0
         self._squares: Array = np.zeros(0)  # of the frequencies, 1/s^2
         self._weights: Array = np.zeros((0, 0))  # M times the modes of K and M
@@ -70,7 +70,7 @@ class ModalMass:
             return
         self._step = step
         offset = self._solver.alphaF - self._solver.alphaM
-        kappa = self._part * (1.0 / 6.0 + 0.75 * offset * offset)
+        kappa = self._ratio * (1.0 / 6.0 + 0.75 * offset * offset)
         squares = kappa * step * step * self._squares
         changes = self._weights * (-squares / (1.0 + squares)) @ self._weights.T
         self._entries[:, 2] = changes[self._places]
@@ -83,10 +83,10 @@ def _diagonal(containers: list[Any]) -> Array:
     """Return a matrix with those of Exudyn's containers along its diagonal."""
     blocks = [container.Convert2DenseMatrix() for container in containers]
     ends = np.cumsum([len(block) for block in blocks])
-    found = np.zeros((ends[-1], ends[-1]))
+    matrix = np.zeros((ends[-1], ends[-1]))
     for block, end in zip(blocks, ends, strict=True):
-        found[end - len(block) : end, end - len(block) : end] = block
-    return found
+        matrix[end - len(block) : end, end - len(block) : end] = block
+    return matrix
 
 
 def _bodies(mbs: exu.MainSystem) -> list[dict[str, Any]]:

@@ -98,7 +98,7 @@ class Monitor:
         self._start = self._time = task.start  # of the run and of the step under way, s
 
     @contextmanager
-    def attached(self) -> Iterator[None]:
+    def attach(self) -> Iterator[None]:
         """Let Exudyn call this monitor."""
         with (
             self._functions.replaced_by(
@@ -173,7 +173,7 @@ class Monitor:
 
     def _after_newton(self, mbs: exu.MainSystem, end: float) -> list[float]:
         """Return [0, -1] to accept the step, or [2, step] to have it repeated."""
-        return self._functions.combined(self._verdict(end - self._time, end), end)
+        return self._functions.combine(self._verdict(end - self._time, end), end)
 
     def _verdict(self, step: float, end: float) -> list[float]:
         if step <= 0.0:

@@ -77,7 +77,7 @@ class NewtonFilter:
         self._data.SetTime(time)
         return violations
 
-    def filtered(self, change: list[float]) -> list[float]:
+    def filter_change(self, change: list[float]) -> list[float]:
         """Return what the Jacobian at hand leaves of a change of all coordinates."""
         solver, size = self._solver, self._size
         right = np.zeros(len(self._jacobian))

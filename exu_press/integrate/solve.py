@@ -115,7 +115,7 @@ def solve_dynamic(
         )
     if event is not None and tolerance is None:
         raise InputError("event: allowed with a tolerance, as fixed steps end on their grid")
-    system = System.of(mbs, bodies)
+    system = System.of_mbs(mbs, bodies)
     words = advice(system, tolerance is not None)
     if system.joints is not None:
         system.joints.refuse_start(words.joint)
@@ -179,7 +179,7 @@ def _run(
     # matrices of a hundred rows: further threads only wait for each other; to look for NumPy's
     # libraries takes as long as a hundred steps
     with (
-        monitor.attached(),
+        monitor.attach(),
         prepared_settings(settings, task),
         _silent_console(),
         one_thread() if system.equations > FEW else nullcontext(),

@@ -50,7 +50,7 @@ class StepControl:
         self.error = error
         if error <= 1.0:
             return 0.0
-        self._step = self._asked = step * self._controller.repeated(error)
+        self._step = self._asked = step * self._controller.repeat_factor(error)
         return self._step
 
     def accept(self, step: float, *, at_event: bool = False) -> None:
@@ -58,8 +58,8 @@ class StepControl:
         self._estimate.accept()
         if not at_event and 0.5 * self._step <= step < (1.0 - SAME) * self._asked:
             self._step = step  # shortened by Exudyn
-        part = step / self._step
-        self._step *= self._controller.continued(self.error / (part * part * part))
+        ratio = step / self._step
+        self._step *= self._controller.growth_factor(self.error / (ratio * ratio * ratio))
 
     def next_step(self, time: float) -> float:
         """Return the step from a time on, s; it ends exactly on corners and the end.
@@ -68,11 +68,11 @@ class StepControl:
         that only rounding tells from the end is the end.
         """
         self._step = step = min(self._step, self._largest)
-        left, corner = self._end - time, self._next_corner(time)
-        if self._smallest < corner - time < left - self._smallest:
-            left = corner - time
-        if left > self._smallest and step > 0.5 * left:
-            step = left if step >= left else 0.5 * left
+        remaining, corner = self._end - time, self._next_corner(time)
+        if self._smallest < corner - time < remaining - self._smallest:
+            remaining = corner - time
+        if remaining > self._smallest and step > 0.5 * remaining:
+            step = remaining if step >= remaining else 0.5 * remaining
         self._asked = step
         return step
 
@@ -144,10 +144,10 @@ class Event:
         self.passed = now * self._before < 0.0
         if not self.passed:
             return 0.0
-        part = self._before / (self._before - now)
-        if (1.0 - part) * step <= self._narrow:
+        fraction = self._before / (self._before - now)
+        if (1.0 - fraction) * step <= self._narrow:
             return 0.0
-        return min(part * step + 0.5 * self._narrow, 0.9 * step)
+        return min(fraction * step + 0.5 * self._narrow, 0.9 * step)
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""

@@ -138,7 +138,7 @@ class System:
     length: float
 
     @classmethod
-    def of(
+    def of_mbs(
         cls, mbs: exu.MainSystem, bodies: Mapping[int, tuple[str, float]] | None = None
     ) -> "System":
         """Look at an assembled system; bodies are those of `solve_dynamic`.

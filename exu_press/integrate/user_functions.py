@@ -78,8 +78,8 @@ class UserFunctions:
             return True
         self._interval = interval
         go_on = bool(self.before_step(self._mbs, self._end_of(interval)))
-        for state, kept in self._states:
-            kept[:] = state
+        for state, start in self._states:
+            start[:] = state
         return go_on
 
     def call_before_residual(self, end: float, iteration: int, discontinuous: int) -> None:
@@ -87,7 +87,7 @@ class UserFunctions:
         if self._before_residual:
             self._before_residual(self._mbs, end, iteration, discontinuous)
 
-    def combined(self, verdict: list[float], end: float) -> list[float]:
+    def combine(self, verdict: list[float], end: float) -> list[float]:
         """Return our verdict of a step that ends at a time, s, and the post-Newton function's."""
         if not self._after_newton:
             return verdict

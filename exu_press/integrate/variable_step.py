@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from exu_press.integrate.constraints import Constraints, normalised
+from exu_press.integrate.constraints import Constraints, normalise
 from exu_press.integrate.task import SAME, Task, inertia_factor
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.floats import FloatBuffer
@@ -125,16 +125,16 @@ class VariableStepCorrection:
             self._state = [floats.read() for floats in self._before]
         q, v, a = self._state
         if abs(ratio - 1.0) > SAME:
-            part = step / self._fits
+            fraction = step / self._fits
             differenced = self._constraints.rates_not_provided
-            if part < self._refit or self._smooth:
+            if fraction < self._refit or self._smooth:
                 self._leaves = step
                 if self._constraints.count:
                     if self._offsets is None or (differenced and step < self._ahead):
                         self._ahead = self._look_ahead * min(step, self._fits)
                         self._offsets = self._violations().tolist()
                     of_q, of_v = self._offsets
-                    more = 1.0 - part * part
+                    more = 1.0 - fraction * fraction
                     q = [q[i] - of_q[i] for i in range(len(q))]
                     v = [v[i] - more * of_v[i] for i in range(len(v))]
         at_start: list[float] = solver.GetStartOfStepStateAAlgorithmic().tolist()
@@ -158,10 +158,10 @@ class VariableStepCorrection:
         now: list[float] = solver.GetAAlgorithmic().tolist()
         for state, there in ((self._now, now), (self._before, at_start)):
             for k in range(3):
-                values, part = shifted[k], by[k]
+                values, factor = shifted[k], by[k]
                 state[k].write(
                     [
-                        values[i] + part * (algorithmic[i] - there[i])
+                        values[i] + factor * (algorithmic[i] - there[i])
                         for i in range(len(algorithmic))
                     ]
                 )
@@ -176,7 +176,7 @@ class VariableStepCorrection:
         """
         solver, size = self._solver, len(self._current.positions)
         jacobian, state = np.asarray(solver.GetSystemJacobian()), np.array(self._state)
-        directions, lengths = normalised(jacobian[-self._constraints.count :, :size])
+        directions, lengths = normalise(jacobian[-self._constraints.count :, :size])
         forces = jacobian[:size, :size]
         inertia = inertia_factor(solver) * solver.GetSystemMassMatrix()
         project = self._constraints.projection(0.5 * (forces + forces.T), directions)

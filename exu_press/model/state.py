@@ -49,7 +49,7 @@ class State(TypedDict):
 def state_of(model: Model) -> State:
     """Return the state of a model after it was solved."""
     data: Any = model.mbs.systemData
-    user_force = System.of(model.mbs).joints
+    user_force = System.of_mbs(model.mbs).joints
     state: State = {
         "time": float(data.GetTime()),
         "step": float(model.mbs.sys["dynamicSolver"].it.currentStepSize),
@@ -74,7 +74,7 @@ def go_on_from(model: Model, state: State) -> Model:
     """
     data: Any = model.mbs.systemData
     initial = exu.ConfigurationType.Initial
-    user_force = System.of(model.mbs).joints
+    user_force = System.of_mbs(model.mbs).joints
     sizes = [len(values) for values in data.GetSystemState(configuration=initial)]
     state_sizes = [len(values) for values in state["coordinates"]]
     histories = 0 if state["joints"] is None else len(state["joints"]["joints"])

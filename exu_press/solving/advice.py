@@ -168,7 +168,7 @@ def leapt_over_load(model: SolvableModel) -> str:
     shortest = edges[name]
     if solver.step <= shortest / STEPS_IN_AN_EDGE * (1.0 + 1e-9):
         return ""
-    advice = SceneAdvice(model, System.of(model.mbs, None), False)
+    advice = SceneAdvice(model, System.of_mbs(model.mbs, None), False)
     return (
         f"under-resolved {advice.location(begin)}: steps of {solver.step:.2g} s in load.{name} "
         f"with an edge of {shortest:.2g} s; peaks are the step's; try solver.step = "

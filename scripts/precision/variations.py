@@ -100,7 +100,7 @@ def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
     silent, exu.config.printToConsole = exu.config.printToConsole, False
     start, cpu_start = time.perf_counter(), time.process_time()
     try:
-        task = Task(System.of(model.mbs), settings, None, ErrorScales(), SolverTuning())
+        task = Task(System.of_mbs(model.mbs), settings, None, ErrorScales(), SolverTuning())
         task.smallest = SMALLEST
         model.mbs.SetPostStepUserFunction(lambda mbs, time: not model.watch(time))
         with prepared_settings(settings, task):

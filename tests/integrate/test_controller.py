@@ -18,11 +18,11 @@ class ProportionalIntegral:
     def __init__(self):
         self.before, self.accepted, self.repeats = 0.4, 0, 0
 
-    def repeated(self, error):
+    def repeat_factor(self, error):
         self.repeats += 1
         return max(0.1, (0.4 / error) ** (1.0 / 3.0)) if error == error else 0.1
 
-    def continued(self, error):
+    def growth_factor(self, error):
         self.accepted += 1
         error = max(error, 1e-6)
         factor = (0.4 / error) ** (0.6 / 3.0) * (self.before / 0.4) ** (0.2 / 3.0)
@@ -54,8 +54,8 @@ def test_steps_stay_until_they_may_grow_by_the_whole_factor():
     tuning = SolverTuning()
     control = LimitedGrowth(tuning)
     edge = tuning.safety / tuning.factor_max**3
-    assert control.continued(1.01 * edge) == 1.0
-    assert control.continued(0.99 * edge) == tuning.factor_max
-    assert control.repeated(8.0 * tuning.safety) == pytest.approx(0.5)
-    assert control.repeated(math.nan) == tuning.factor_min
-    assert control.repeated(math.inf) == tuning.factor_min
+    assert control.growth_factor(1.01 * edge) == 1.0
+    assert control.growth_factor(0.99 * edge) == tuning.factor_max
+    assert control.repeat_factor(8.0 * tuning.safety) == pytest.approx(0.5)
+    assert control.repeat_factor(math.nan) == tuning.factor_min
+    assert control.repeat_factor(math.inf) == tuning.factor_min

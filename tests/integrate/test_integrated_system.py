@@ -11,7 +11,7 @@ from exu_press.integrate.system import System
 
 
 def test_nodes_come_in_the_order_of_their_coordinates_and_leave_none_out():
-    system = System.of(Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}).build().mbs)
+    system = System.of_mbs(Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}).build().mbs)
     ends = [node.start + node.size for node in system.nodes]
     assert [node.start for node in system.nodes] == [0, *ends[:-1]]
     assert ends[-1] == len(system.current.positions)
@@ -26,7 +26,7 @@ def test_a_mass_on_a_line_is_displaced_and_a_rotor_is_not():
     mbs.AddObject(items.ObjectMass1D(mass=1.0, nodeNumber=nodes[0]))
     mbs.AddObject(items.ObjectRotationalMass1D(inertia=1.0, nodeNumber=nodes[1]))
     mbs.Assemble()
-    system = System.of(mbs)
+    system = System.of_mbs(mbs)
     assert [node.displacements for node in system.nodes] == [1, 0]
     assert system.length == 0.5
 
@@ -43,7 +43,7 @@ def test_rates_of_prescribed_offsets_are_not_provided(offset):
     keys = {"offsetUserFunction": lambda mbs, time, item, offset: time} if offset else {}
     mbs.AddObject(items.ObjectConnectorCoordinate(markerNumbers=ends, **keys))
     mbs.Assemble()
-    assert System.of(mbs).rates_not_provided is offset
+    assert System.of_mbs(mbs).rates_not_provided is offset
 
 
 def test_contacts_of_exudyns_own_are_named_and_a_connector_that_counts_turns_is_none():
@@ -61,13 +61,13 @@ def test_contacts_of_exudyns_own_are_named_and_a_connector_that_counts_turns_is_
     contact = {"contactStiffness": 1e5, "name": "stop"}
     mbs.AddObject(items.ObjectContactCoordinate(markerNumbers=ends, nodeNumber=data[1], **contact))
     mbs.Assemble()
-    assert System.of(mbs).contacts == ("stop (ContactCoordinate)",)
+    assert System.of_mbs(mbs).contacts == ("stop (ContactCoordinate)",)
 
 
 def test_nodes_that_are_not_named_are_excluded():
-    system = System.of(pendulum("dry"), {7: ("rod", 4.0)})
+    system = System.of_mbs(pendulum("dry"), {7: ("rod", 4.0)})
     assert [node.mass for node in system.nodes] == [np.inf]
-    system = System.of(pendulum("dry"), {0: ("rod", 4.0)})
+    system = System.of_mbs(pendulum("dry"), {0: ("rod", 4.0)})
     assert [(node.name, node.mass) for node in system.nodes] == [("rod", 4.0)]
 
 
@@ -77,7 +77,7 @@ def test_its_states_are_where_exudyn_keeps_them_in_a_whole_run():
     node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.5], initialVelocities=[1.0]))
     mbs.AddObject(items.ObjectMass1D(mass=1.0, nodeNumber=node))
     mbs.Assemble()
-    system, seen = System.of(mbs), []
+    system, seen = System.of_mbs(mbs), []
     current = exu.ConfigurationType.Current
 
     def look(mbs, time):
@@ -98,4 +98,4 @@ def test_lie_group_nodes_are_refused():
     mbs.AddObject(items.ObjectRigidBody(nodeNumber=node, mass=1, inertia=[1, 1, 1, 0, 0, 0]))
     mbs.Assemble()
     with pytest.raises(InputError, match=r"node 0 .* is a RigidBodyRotVecLG: allowed"):
-        System.of(mbs)
+        System.of_mbs(mbs)

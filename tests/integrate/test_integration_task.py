@@ -26,7 +26,7 @@ IDEAL = Scene(mechanism="slider_crank", joints={})
     ],
 )
 def test_the_first_step(scene, tolerance, changes, expected):
-    system = System.of(scene.build().mbs)
+    system = System.of_mbs(scene.build().mbs)
     task = Task(system, settings(2.0, **changes), tolerance, ErrorScales(), SolverTuning())
     assert task.largest == pytest.approx(0.02)
     assert task.first == pytest.approx(expected)
@@ -36,7 +36,7 @@ def test_the_first_step(scene, tolerance, changes, expected):
 def test_rounding_alternates_by_the_spectral_radius(radius, times):
     """By 1 / (1 - rho)^2, with rho up to 0.95."""
     chosen = settings(2.0, generalizedAlpha__spectralRadius=radius)
-    system = System.of(IDEAL.build().mbs)
+    system = System.of_mbs(IDEAL.build().mbs)
     task = Task(system, chosen, None, ErrorScales(), SolverTuning(rounding=1e-15))
     size = len(system.current.positions)
     task.scales.begin([[float(i == j) for i in range(size)] for j in range(size)])
@@ -46,7 +46,7 @@ def test_rounding_alternates_by_the_spectral_radius(radius, times):
 def test_settings_are_put_back_even_after_an_error():
     chosen = settings(2.0)
     before = chosen.GetDictionary()
-    task = Task(System.of(IDEAL.build().mbs), chosen, 1e-3, ErrorScales(), SolverTuning())
+    task = Task(System.of_mbs(IDEAL.build().mbs), chosen, 1e-3, ErrorScales(), SolverTuning())
     task.smallest = 1e-7
     with pytest.raises(ZeroDivisionError), prepared_settings(chosen, task):
         assert chosen.timeIntegration.minimumStepSize == 1e-7

@@ -91,7 +91,7 @@ def test_a_file_of_a_run_has_what_its_loads_remember(changes, tmp_path):
 def test_joints_remember_all_that_they_are_told(name):
     state = first_piece(name).info["state"]
     model = go_on_from(build(SCENES[name]), json.loads(json.dumps(state)))
-    told = json.dumps(System.of(model.mbs).joints.memory())
+    told = json.dumps(System.of_mbs(model.mbs).joints.memory())
     assert json.loads(told) == json.loads(json.dumps(state["joints"]))
     assert any(part for joint in state["joints"]["joints"] for part in joint)
 

@@ -45,16 +45,16 @@ class EccentricityError:
 
     def error(self, step: float) -> float:
         """Return the error of a step (s) that ends where the joint was last asked for its force."""
-        error = self._over(step, self._scales.roundoff)
+        error = self._relative_error(step, self._scales.roundoff)
         if error > 1.0:
             roundoff = self._filter.roundoff_of_constraints()
-            error = self._over(step, max(self._scales.roundoff, roundoff))
+            error = self._relative_error(step, max(self._scales.roundoff, roundoff))
         return error
 
     def accept(self) -> None:
         """Do nothing: the joint remembers its path itself."""
 
-    def _over(self, step: float, roundoff: float) -> float:
+    def _relative_error(self, step: float, roundoff: float) -> float:
         """Return the error of a step (s) where no error below a roundoff, m, counts as 1."""
         joint = self.joint
         eccentricity = joint.eccentricity

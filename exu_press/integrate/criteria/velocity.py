@@ -42,7 +42,7 @@ class VelocityError:
         error = self._of_change(change, step, 0.0)
         if error > 1.0:
             self._filter.refresh()
-            change = self._filter.filtered(change)
+            change = self._filter.filter_change(change)
             error = self._of_change(change, step, 0.0)
             if error > 1.0:
                 error = self._of_change(change, step, self._filter.roundoff_of_constraints())

@@ -28,7 +28,7 @@ class Filter:
     def refresh(self):
         pass
 
-    def filtered(self, change):
+    def filter_change(self, change):
         return [self.part * value for value in change]
 
     def begin_step(self):

@@ -14,13 +14,7 @@ if TYPE_CHECKING:
 
     from exu_press.errors import InputError
     from exu_press.exudyn_systems import solve_dynamic
-    from exu_press.integrate import (
-        ErrorScales,
-        Outcome,
-        SolverStatus,
-        SolverTuning,
-        follow_modes,
-    )
+    from exu_press.integrate import ErrorScales, Outcome, SolverStatus, SolverTuning, follow_modes
     from exu_press.joints import (
         FlexiblePoint,
         add_dry_revolute,

@@ -7,13 +7,7 @@ from typing import Any
 
 from fe_models.errors import DiskFullError, InputError
 
-__all__ = [
-    "DiskFullError",
-    "InputError",
-    "UnusedKeyError",
-    "prefixed",
-    "required_package",
-]
+__all__ = ["DiskFullError", "InputError", "UnusedKeyError", "prefixed", "required_package"]
 
 for error in (InputError, DiskFullError):
     error.__module__ = __name__  # as tracebacks and the reference name it

@@ -9,15 +9,7 @@ from exu_press.mechanism import Guide
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral, slopes
 from exu_press.quantities.acceleration import mean_peak_of, peak
-from exu_press.quantities.kind import (
-    DIFFERENCE,
-    ENERGY,
-    FLOW,
-    LOAD,
-    MOMENT,
-    MOTION,
-    RESULTANT,
-)
+from exu_press.quantities.kind import DIFFERENCE, ENERGY, FLOW, LOAD, MOMENT, MOTION, RESULTANT
 from exu_press.quantities.law_errors import guide_film_error
 from exu_press.quantities.quantity import Extreme, Owner, Quantity, always
 from exu_press.quantities.reading import Reading

@@ -27,9 +27,7 @@ def record(run: Recording) -> Record:
     )
     return Record(
         CHANNELS.record(
-            energy_input=supplied,
-            energy_stored=stored - stored[0],
-            energy_dissipated=dissipated,
+            energy_input=supplied, energy_stored=stored - stored[0], energy_dissipated=dissipated
         )
     )
 

@@ -7,13 +7,7 @@ import numpy as np
 from exu_press.mechanism import GROUND, Motion
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
-from exu_press.result.channel import (
-    UNBALANCED,
-    Channel,
-    Declaration,
-    Declarations,
-    guide_channel,
-)
+from exu_press.result.channel import UNBALANCED, Channel, Declaration, Declarations, guide_channel
 from exu_press.result.motion import point_acceleration
 from exu_press.result.recording import Record, Recording
 

@@ -17,7 +17,7 @@ CHANNELS = Declarations(
         "Pa",
         "{body}: von Mises stress where it is largest, with the sign of the mean stress",
         always=False,
-    ),
+    )
 )
 
 DEVIATOR = np.zeros((6, 6))  # of xx yy zz yz xz xy: its square is that of von Mises

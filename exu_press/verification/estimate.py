@@ -117,9 +117,4 @@ def extreme_over_parts(value: float, first: Error, second: Error, extreme: Extre
 
 
 def _about(value: float, error: float, *, determined: bool) -> Error:
-    return {
-        "error": error,
-        "determined": determined,
-        "low": value - error,
-        "high": value + error,
-    }
+    return {"error": error, "determined": determined, "low": value - error, "high": value + error}

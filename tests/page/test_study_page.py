@@ -30,9 +30,7 @@ def study(tmp_path_factory):
     cells = zip(CLEARANCE, KIND, FORCE, strict=True)
     rows = [[str(k), *map(str, row)] for k, row in enumerate(cells)]
     text = page(
-        "study",
-        "",
-        [("Points", live), ("Runs", table(["run", "c", "k", "F"], rows, name="runs"))],
+        "study", "", [("Points", live), ("Runs", table(["run", "c", "k", "F"], rows, name="runs"))]
     )
     path = tmp_path_factory.mktemp("study") / "page.html"
     path.write_text(text, encoding="utf-8")

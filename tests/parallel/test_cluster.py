@@ -54,11 +54,7 @@ def test_one_of_two_workers_killed_midway(two, tmp_path):
     killed = threading.Event()
     threading.Thread(target=kill, daemon=True).start()
     rows = run_batch(
-        batch_functions.slow_digits,
-        arguments,
-        tmp_path,
-        dask=two.scheduler_address,
-        quiet=True,
+        batch_functions.slow_digits, arguments, tmp_path, dask=two.scheduler_address, quiet=True
     )
     assert killed.is_set()
     here = [batch_functions.digits(each) for each in arguments]

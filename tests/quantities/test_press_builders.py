@@ -12,10 +12,7 @@ from exu_press.scene import mechanism_of
 
 def strokes(angle, depth, shift=0.3):
     """Position and velocity of a slider whose lowest point comes `shift` rad late."""
-    return (
-        depth * np.cos(angle - shift),
-        -depth * np.sin(angle - shift),
-    )
+    return (depth * np.cos(angle - shift), -depth * np.sin(angle - shift))
 
 
 def test_minimum_lies_between_the_samples():

@@ -23,12 +23,7 @@ def test_a_crank_that_a_motor_speeds_up_is_no_reverse_load():
             mechanism="slider_crank",
             joints={},
             revolutions=1.0,
-            drive={
-                "rated_torque": 1e3,
-                "slip": 0.2,
-                "no_load_speed_rpm": 300.0,
-                "inertia": 1.0,
-            },
+            drive={"rated_torque": 1e3, "slip": 0.2, "no_load_speed_rpm": 300.0, "inertia": 1.0},
             load={"part": SHEET},
             solver={"tolerance": 1e-4},
         )

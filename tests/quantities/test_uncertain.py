@@ -41,10 +41,7 @@ def test_units_scale_value_and_error():
 
 @pytest.mark.parametrize(
     ("value", "low", "high", "text"),
-    [
-        (900.0, 0.0, 1084.6, "0 to 1080, not determined"),
-        (5, 3, 7, "5 (3 to 7, not determined)"),
-    ],
+    [(900.0, 0.0, 1084.6, "0 to 1080, not determined"), (5, 3, 7, "5 (3 to 7, not determined)")],
 )
 def test_without_determination_there_are_bounds(value, low, high, text):
     stated = {"error": 1.0, "determined": False, "low": low, "high": high}

@@ -11,12 +11,7 @@ from exu_press.laws.film.side_flow import finite_flow
 from exu_press.scene import mechanism_of
 from exu_press.studies.attractor.orbit import Orbit
 
-OIL = {
-    "viscosity_cst": (68.0, 8.7),
-    "density": 870.0,
-    "supply_celsius": 40.0,
-    "conductance": 5.0,
-}
+OIL = {"viscosity_cst": (68.0, 8.7), "density": 870.0, "supply_celsius": 40.0, "conductance": 5.0}
 
 
 def scene_of(oil=None, **keys):

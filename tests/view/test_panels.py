@@ -5,12 +5,7 @@ from exu_press.mechanism import GROUND
 from exu_press.mechanism.shapes import transform_points
 from exu_press.scene import mechanism_of
 from exu_press.view import instants
-from exu_press.view.joint_panel import (
-    CLEARANCE,
-    RIM,
-    JointPanel,
-    drawn_clearance,
-)
+from exu_press.view.joint_panel import CLEARANCE, RIM, JointPanel, drawn_clearance
 from exu_press.view.mechanism_panel import MechanismPanel, poses
 
 

@@ -79,10 +79,7 @@ def test_a_failing_ffmpeg_is_told_and_an_old_file_is_kept(tmp_path, monkeypatch,
 
 @pytest.mark.parametrize(
     ("name", "message"),
-    [
-        ("a.avi", r"allowed is a name ending in \.mp4"),
-        ("no/a.gif", "there is no directory"),
-    ],
+    [("a.avi", r"allowed is a name ending in \.mp4"), ("no/a.gif", "there is no directory")],
 )
 def test_names_that_cannot_be_written(tmp_path, runs, animation, name, message):
     with pytest.raises(InputError, match=message):

@@ -28,10 +28,9 @@ from exu_press.result.checkpoint import (
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import assumed_line
 from exu_press.scene.warnings import scene_warnings
-from exu_press.verification.accuracy_report import accuracy_lines
 from exu_press.verification.refine import refinements
 from exu_press.verification.simulate import simulate
-from exu_press.verification.within import find_tolerance
+from exu_press.verification.within import accuracy_lines, find_tolerance
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 

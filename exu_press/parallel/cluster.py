@@ -23,10 +23,6 @@ class Cluster(AbstractContextManager["Cluster", None]):
     def __init__(self, address: str, time_limit: float | None) -> None:
         """Connect.
 
-        Args:
-            address: of the scheduler, as in tcp://host:8786.
-            time_limit: of a task, s.
-
         Raises:
             InputError: no address, no scheduler or no worker there, or distributed not installed.
         """

@@ -147,10 +147,6 @@ class Batch(ExitStack):
         Only as many runs as the pool's window are under way at a time, and another one begins when
         rows are stored: so many at most are lost with the caller.
 
-        Args:
-            chains: of arguments; a run that two of them ask for at once is done once.
-            total: number of runs, for the progress.
-
         Raises:
             DiskFullError: there is no room for a row or for what its run writes; no other run
                 begins then, and those under way come to their end.

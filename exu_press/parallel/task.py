@@ -132,10 +132,6 @@ def function_of(name: str) -> Function:
 def row_of_task(task: Task, only_imports: bool = False) -> Row:
     """Return a task's row, in a worker.
 
-    Args:
-        task: to be done.
-        only_imports: imports what the task needs, without running it.
-
     Raises:
         InputError: its function cannot be imported here, or the versions here are others.
     """

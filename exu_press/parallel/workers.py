@@ -23,12 +23,7 @@ class Workers(AbstractContextManager["Workers", None]):
     """
 
     def __init__(self, workers: int, time_limit: float | None) -> None:
-        """Prepare; a process starts with its first task.
-
-        Args:
-            workers: number of processes.
-            time_limit: of a task, s.
-        """
+        """Prepare; a process starts with its first task."""
         self.window = workers
         self._time_limit = time_limit
         self._threads = ThreadPoolExecutor(workers)
@@ -92,11 +87,6 @@ def worker(task: Task) -> Child:
 
 def perform(task: Task, child: Callable[[Task], Child], time_limit: float | None) -> Row:
     """Return a task's row; if its worker dies it is tried once more.
-
-    Args:
-        task: to be done.
-        child: returns a process that can do it, asked again for every attempt.
-        time_limit: of an attempt, s.
 
     Raises:
         InputError: the worker cannot import the task's function, or has other versions.

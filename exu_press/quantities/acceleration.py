@@ -61,11 +61,6 @@ def mean_peak_of(time: Array, values: Array, window: float = 1e-3) -> float | No
 
     Steps may be longer than the window.
 
-    Args:
-        time: (n,), s, increasing.
-        values: (n,), straight between.
-        window: s.
-
     Returns:
         None where the record is shorter than the window.
     """
@@ -107,15 +102,7 @@ def _mean_peak_of(time: Array, values: Array, window: float) -> float:
 
 
 def _means(ends: Array, window: float, time: Array, values: Array, sums: Array) -> Array:
-    """Return the means of values over windows, and where they are largest or least.
-
-    Args:
-        ends: ends of the windows that begin or end at a step, (m,), s.
-        window: s.
-        time: (n,), s.
-        values: (n,), straight between.
-        sums: their integral, (n,).
-    """
+    """Return the means of values (n,) over windows that end at (m,), s, and their extremes."""
     change = _change(ends, window, time, values)
     turns = np.flatnonzero(change[:-1] * change[1:] < 0.0)
     fraction = change[turns] / (change[turns] - change[turns + 1])

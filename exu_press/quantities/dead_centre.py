@@ -114,13 +114,7 @@ def lowest_of_strokes(
 
 
 def lowest(time: Array, position: Array, velocity: Array) -> tuple[float, float]:
-    """Return instant and position of the minimum, s and m, also between two steps.
-
-    Args:
-        time: (n,), s, increasing.
-        position: (n,), m; interpolated between steps by cubic Hermite polynomials.
-        velocity: (n,), m/s.
-    """
+    """Return instant, s, and value, m, of the least position, by cubics between steps (n,)."""
     at = int(np.argmin(position))
     candidates = [(float(position[at]), float(time[at]))]
     time, position, velocity = (

@@ -14,11 +14,7 @@ __all__ = ["IMPACTS", "JOINTS", "START", "contacts", "share_of_contact"]
 
 
 def contacts(depth: Array) -> int:
-    """Return how often surfaces begin to touch.
-
-    Args:
-        depth: (n,), m, of the penetration beyond the contact onset.
-    """
+    """Return how often surfaces begin to touch, by their penetration beyond the onset, (n,), m."""
     touching = depth > 0.0
     return int(np.count_nonzero(touching[1:] & ~touching[:-1])) + int(touching[0])
 

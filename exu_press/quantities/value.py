@@ -49,11 +49,6 @@ class Value:
 def value_of(result: Result, name: str, run: Reading | None = None) -> Value:
     """Return one quantity of a run by its full name.
 
-    Args:
-        result: of the run.
-        name: full.
-        run: its reading, where there is one already.
-
     Raises:
         InputError: the run's scene has no such quantity.
     """
@@ -62,12 +57,7 @@ def value_of(result: Result, name: str, run: Reading | None = None) -> Value:
 
 
 def values_of(result: Result, run: Reading | None = None) -> dict[str, Value]:
-    """Return every quantity of a run by its full name.
-
-    Args:
-        result: of the run.
-        run: its reading, where there is one already.
-    """
+    """Return every quantity of a run by its full name."""
     run = Reading(result) if run is None else run
     return {
         name: _value(result, placed, run) for name, placed in quantities_of(result.scene).items()

@@ -81,13 +81,7 @@ def block_by_block(
 
 
 def _needs_revolution(model: Model, scene: Scene, remaining: float) -> bool:
-    """Return whether revolutions of a scene are about to be read while films have not settled.
-
-    Args:
-        model: at the end of a revolution.
-        scene: whose settled part is read; one that has nothing to settle is read as it is.
-        remaining: revolutions that are left of it.
-    """
+    """Return whether revolutions of a scene are about to be read while films have not settled."""
     completed = scene.revolutions - remaining + _negligible_rest(scene)
     if not scene.settled or completed < scene.settled:
         return False

@@ -87,14 +87,7 @@ class MemmapChannels(_StoredChannels):
         count: int,
         checksums: Mapping[str, int],
     ) -> "MemmapChannels":
-        """Return the channels in a directory; each is checked when it is first read.
-
-        Args:
-            directory: in which they are.
-            headers: channels without a value.
-            count: number of instants; what lies behind them was never finished.
-            checksums: of the channels until there.
-        """
+        """Return the first `count` instants of channels in a directory, checked when first read."""
         channels = cls(directory)
         channels.headers, channels.count, channels.checksums = dict(headers), count, dict(checksums)
         channels._unchecked = set(headers)

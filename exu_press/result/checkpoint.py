@@ -113,14 +113,7 @@ def _refuse_others(directory: Path) -> None:
 def write_checkpoint(
     directory: Path, run: Contents, revolutions: float, channels: MemmapChannels
 ) -> None:
-    """Write the head that makes a run of the channels in a directory.
-
-    Args:
-        directory: in which they are.
-        run: its last block.
-        revolutions: that the run has made.
-        channels: of all blocks.
-    """
+    """Write last block and revolutions, which make a run of the channels in a directory."""
     settle = run.scene.settle
     if settle is not None and settle >= revolutions:
         settle = 0.0

@@ -24,11 +24,6 @@ def decimated_copy(run: Kind, samples: NDArray[np.intp], summary: Mapping[str, A
     The last step is one of them. Quantities, strokes and warnings of the summary are in
     `info["figures"]`; every channel at the samples, where there are any, in `sampled`.
 
-    Args:
-        run: whole.
-        samples: rows of the channels, (m,).
-        summary: of the run.
-
     Raises:
         InputError: [output] names a channel that the run does not have.
     """

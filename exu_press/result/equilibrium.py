@@ -14,7 +14,7 @@ from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result import ideal_joints
 from exu_press.result.channel import Channel
-from exu_press.result.guide_channels import guide_channels
+from exu_press.result.guides import guide_channels
 from exu_press.result.recording import Record, Recording
 
 if TYPE_CHECKING:

@@ -56,10 +56,6 @@ def _shaking_forces(model: Model, motions: Mapping[str, Motion]) -> dict[str, Ch
 
     Where the mechanism says which of its bodies are a counterweight, that of the others too: of the
     same press built without it, if it hangs on the crank and not on the slider's branch.
-
-    Args:
-        model: integrated.
-        motions: of every body's frame.
     """
     forces = {}
     for body in model.mechanism.bodies:

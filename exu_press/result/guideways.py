@@ -4,7 +4,7 @@ import numpy as np
 
 from exu_press.joints.history import history
 from exu_press.result.channel import Channel
-from exu_press.result.guide_channels import guide_channels
+from exu_press.result.guides import guide_channels
 from exu_press.result.joints import stored_and_lost
 from exu_press.result.recording import Record, Recording
 from exu_press.scene.wearing import wearing_guides

@@ -8,7 +8,7 @@ from exu_press.mechanism import GROUND, Motion
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import VECTOR, Channel, Declaration, Declarations
-from exu_press.result.guide_channels import guide_channels
+from exu_press.result.guides import guide_channels
 from exu_press.result.motion import sensor
 from exu_press.result.recording import Record, Recording
 

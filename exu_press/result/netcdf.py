@@ -43,13 +43,7 @@ SAMPLE, AT_SAMPLES = "sample", "_at_samples"
 
 
 def write(result: Contents, path: Path, **more: str) -> None:
-    """Write to a temporary name beside `path`, then rename: no half file is ever left there.
-
-    Args:
-        result: contents of the file.
-        path: of the file.
-        more: further texts by name, for `read_text`.
-    """
+    """Write to a temporary name beside `path`, then rename: no half file is ever left there."""
     from scipy.io import netcdf_file  # takes longer to load than a short run
 
     with replacing(path) as partial, netcdf_file(partial, "w", version=2) as file:

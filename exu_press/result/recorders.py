@@ -74,12 +74,7 @@ def _wearing(scene: Scene) -> list[str]:
 
 
 def expected_channels(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:
-    """Return the channels that a scene's runs may have -> their columns, and whether all have them.
-
-    Args:
-        scene: complete.
-        own_items: whether the model has items of the user's own.
-    """
+    """Return the channels of a scene's runs -> their columns, and whether every run has them."""
     mechanism = mechanism_of(scene)
     joints = [joint.name for joint in mechanism.joints]
     spherical = {joint.name for joint in mechanism.joints if joint.spherical}

@@ -42,10 +42,6 @@ def to_next_revolution(model: Model, remaining: float) -> tuple[Model, float]:
 def update_film_temperatures(model: Model, block: Result) -> Result:
     """Let the films of a model have the temperature that a revolution's heat asks for.
 
-    Args:
-        model: at the end of the revolution.
-        block: of the revolution; after a part of one films stay as they are.
-
     Returns:
         The revolution, with the temperatures with which the next one begins in its state. Where a
         film does not get rid of its heat, it is the last one of the run and says why.

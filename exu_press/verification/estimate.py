@@ -101,14 +101,7 @@ def prediction_interval(
 
 
 def extreme_over_parts(value: float, first: Error, second: Error, extreme: Extreme) -> Error:
-    """Return the error of an extreme over two parts of a motion.
-
-    Args:
-        value: extreme over both.
-        first: error of the extreme over the first part.
-        second: error of the extreme over the second part.
-        extreme: whether it is the largest or the least.
-    """
+    """Return the error of an extreme over two parts of a motion."""
     outer = max if extreme is Extreme.LARGEST else min
     low, high = outer(first["low"], second["low"]), outer(first["high"], second["high"])
     error = max(high - value, value - low)

@@ -19,7 +19,6 @@ from exu_press.result.run import run_once
 from exu_press.result.windows import at_instant, settled_part, up_to, window
 from exu_press.scene import Scene, mechanism_of
 from exu_press.verification.divergence import Divergence, divergence
-from exu_press.verification.drift import read_a_revolution_earlier, with_next_temperatures
 from exu_press.verification.estimate import (
     convergent_error,
     extreme_over_parts,
@@ -30,6 +29,8 @@ from exu_press.verification.reading import (
     add_start_overshoot,
     average_neighbours,
     enlarge_reversing_forces,
+    read_a_revolution_earlier,
+    with_next_temperatures,
 )
 from exu_press.verification.refinement import RefinementRuns, plan
 
@@ -104,13 +105,7 @@ def simulate_with_errors(
 
 
 def with_errors(result: Result, *, start: State | None = None, beside: bool = True) -> Result:
-    """Return a result with the errors of its figures, by refinement runs of its scene.
-
-    Args:
-        result: of a run.
-        start: state of another run from which it went on.
-        beside: the refinements run in a further process, else in this one.
-    """
+    """Return a result with the errors of its figures, by refinement runs of its scene."""
     if not result.completed:
         return _with_errors_of(result, ())
     if not beside:
@@ -311,14 +306,7 @@ def _least_error(
     sizes: Mapping[tuple[str, Extreme], float],
     arm: float,
 ) -> float:
-    """Return the least error of a quantity, in its unit.
-
-    Args:
-        quantity: as it is declared.
-        values: of it, in all runs; the run's own first.
-        sizes: the largest values of the run, by their units and extremes.
-        arm: size of the mechanism, m.
-    """
+    """Return the least error of a quantity, in its unit."""
     if not any(values):
         return 0.0
     kind, size = quantity.kind, abs(values[0])

@@ -56,12 +56,7 @@ class StatedError:
 
 
 def compare_errors(result: Result, reference: Result) -> Iterator[StatedError]:
-    """Yield stated and true error of every quantity that both runs have.
-
-    Args:
-        result: with its errors.
-        reference: run of the same scene, more accurate; it needs no errors.
-    """
+    """Yield stated and true error of every quantity that both runs have."""
     declared = quantities_of(result.scene)
     values, references = numbers_of(result, declared), numbers_of(reference, declared)
     transforms = average_neighbours, add_energy_residual

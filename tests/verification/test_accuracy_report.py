@@ -6,9 +6,8 @@ import math
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.verification.accuracy_report import accuracy_lines
 from exu_press.verification.distribution import Distribution
-from exu_press.verification.within import AchievedAccuracy
+from exu_press.verification.within import AchievedAccuracy, accuracy_lines
 
 NAME = "peak_acceleration.resolved"
 

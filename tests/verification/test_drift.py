@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.verification.drift import read_a_revolution_earlier, with_next_temperatures
+from exu_press.verification.reading import read_a_revolution_earlier, with_next_temperatures
 
 OIL = {"viscosity_cst": (68.0, 8.7), "density": 870.0, "supply_celsius": 40.0, "conductance": 5.0}
 FILM = {"oil": OIL, "at_contact": "mixed", "roughness": 4e-7}

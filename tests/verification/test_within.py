@@ -27,7 +27,7 @@ def test_the_tolerance_delivers_and_is_no_finer():
 
 @pytest.mark.long
 def test_where_no_tolerance_delivers_the_distribution_is_told(monkeypatch):
-    few = functools.partial(distributions, least=7, most=7)
+    few = functools.partial(distributions, minimum=7, maximum=7)
     monkeypatch.setattr(within, "distributions", few)
     monkeypatch.setattr(within, "FINEST", 1e-2)
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.05)

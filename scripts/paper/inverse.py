@@ -13,7 +13,7 @@ from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.parallel import Batch
 from exu_press.scene import Scene, flexible_press
-from exu_press.studies.optimise.several import searched
+from exu_press.studies.optimise.several import search_front
 from exu_press.studies.optimise.study import TPE
 from paper.open_keys import BESIDE, FOUND, OPEN, OURS, alternatives, as_read
 from paper.published import Number, published
@@ -285,7 +285,7 @@ def inverse(
         (ours,) = judge.of([OURS])
         judge.ask([OURS, FOUND])
         varying = {name: key for name, key in OPEN.items() if name != OBSERVED}
-        searched(judge.ask, varying, 1, trials, TPE, 0)  # of no trials: nothing
+        search_front(judge.ask, varying, 1, trials, TPE, 0)  # of no trials: nothing
         best = min(judge.trials, key=lambda one: one.distance)
         if best.ratios is None:
             raise InputError(f"no reading gives numbers: {judge.failures.most_common(2)}")

@@ -11,7 +11,7 @@ from exu_press.studies.base import Runs, Study
 from exu_press.studies.base.evaluation import with_errors_of
 from exu_press.studies.fit import Fit, FitReport
 from exu_press.studies.fit.problem import Problem
-from exu_press.studies.fit.run import fitted
+from exu_press.studies.fit.run import fit_problem
 from recovery.cases import CASES, Case
 
 __all__ = ["Recovered", "recover", "synthetic"]
@@ -77,7 +77,7 @@ def recover(
             study = Fit(scene=wrong, **given)
             problem = Problem(study, directory, runs.of)
             reports.append(
-                fitted(
+                fit_problem(
                     problem,
                     lambda x, p=problem: with_errors_of(base, directory, p.scenes(x), **how),
                 )

@@ -74,7 +74,7 @@ class Study(Table):
         self.check_keys()
 
     @classmethod
-    def located(cls, data: dict[str, Any], directory: Path) -> dict[str, Any]:
+    def locate_files(cls, data: dict[str, Any], directory: Path) -> dict[str, Any]:
         """Return a file's tables with paths of other files counted from its directory."""
         return data
 
@@ -148,4 +148,4 @@ def load_study(path: str | Path, kind: type[S], *, allow_code: bool = False) -> 
     if isinstance(data["scene"], str):
         data["scene"] = Scene.load(path.parent / data["scene"], allow_code=allow_code)
     with prefixed(f"{path}: "):
-        return table_from(kind, "", kind.located(data, path.parent))
+        return table_from(kind, "", kind.locate_files(data, path.parent))

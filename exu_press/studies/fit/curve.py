@@ -1,4 +1,4 @@
-"""A measured curve beside a computed one; the sensor's own parameters are fitted with it."""
+"""A measured curve beside a computed one, with fitted parameters of the sensor."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -14,15 +14,15 @@ from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import eno_cubic, evaluate
 from exu_press.schema.checks import Table, key
 from exu_press.studies.curve_file import CurveFile, factor_to, read_curve
-from exu_press.studies.fit.measured import under_of
+from exu_press.studies.fit.measured import dotted_keys
 
-__all__ = ["Curve", "Matched", "matched"]
+__all__ = ["Curve", "RecordedCurve", "fit_sensor"]
 
 PER_PERIOD = 20
-"""Samples of the computed curve in a period of a sensor's upper corner frequency."""
+"""Samples of the computed curve per period of a sensor's upper corner frequency."""
 
 ROUNDS = 3
-"""Rounds of fitting shift and corner frequencies one after the other."""
+"""Rounds of fitting shift and corner frequencies, each in turn."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Curve(Table):
     Attributes:
         low_cut, high_cut: corner frequencies of the sensor's band, Hz: a number, or two between
             which it is unknown; both filters are of second order (Butterworth).
-        under: keys of the scene that differ where it was measured -> their values.
+        under: key of the scene that differs in the measurement -> its value.
         measured: data of the file.
 
     Raises:
@@ -73,7 +73,7 @@ class Curve(Table):
             raise InputError(
                 f"curve.low_cut and high_cut: {self.file} has {self.read.over}; allowed is time"
             )
-        object.__setattr__(self, "under", under_of("curve", self.under))
+        object.__setattr__(self, "under", dotted_keys("curve", self.under))
 
     @property
     def read(self) -> CurveFile:
@@ -87,7 +87,7 @@ class Curve(Table):
     def nuisances(self) -> int:
         """Number of the sensor's parameters that are fitted."""
         unknown = [self.shift, self.low_cut, self.high_cut]
-        return int(self.offset) + sum(len(each) == 2 and each[0] < each[1] for each in unknown)
+        return int(self.offset) + sum(len(ends) == 2 and ends[0] < ends[1] for ends in unknown)
 
     @property
     def name(self) -> str:
@@ -101,7 +101,7 @@ class Curve(Table):
 
     @property
     def count(self) -> float:
-        """Independent numbers in it: samples closer than the correlation length are one."""
+        """Number of independent samples: those closer than the correlation length count once."""
         at = self.read.at
         if self.correlation == 0.0:
             return float(len(at))
@@ -109,12 +109,12 @@ class Curve(Table):
 
 
 @dataclasses.dataclass(frozen=True)
-class Matched:
+class RecordedCurve:
     """A computed curve as the sensor would have recorded it.
 
     Attributes:
-        values: at the measured places, (m,).
-        offset, shift, low_cut, high_cut: of the sensor; None of a filter that it has not.
+        values: at the measured samples, (m,).
+        offset, shift, low_cut, high_cut: of the sensor; None of a filter that it lacks.
         unit: SI, of the values.
     """
 
@@ -126,69 +126,74 @@ class Matched:
     unit: str = ""
 
     def plain(self) -> dict[str, float]:
-        """Return the sensor's parameters that there are."""
+        """Return name -> value of the sensor's parameters."""
         names = ("offset", "shift", "low_cut", "high_cut")
         return {n: getattr(self, n) for n in names if getattr(self, n) is not None}
 
 
-def matched(curve: Curve, wanted: Array, at: Array, polynomials: Array) -> Matched | None:
-    """Return the computed curve with the sensor's parameters that fit best; None if too short.
+def fit_sensor(
+    curve: Curve, measured: Array, at: Array, polynomials: Array
+) -> RecordedCurve | None:
+    """Return the computed curve with the best sensor parameters; None if it is too short.
 
     The parameters of the sensor are fitted inside of each evaluation of the keys (variable
     projection: G. Golub, V. Pereyra, Inverse Problems 19 (2003) R1-R26).
 
     Args:
         curve: measured data, and unknowns of the sensor.
-        wanted: measured values, SI, (m,).
-        at: where the run has values, (n,), increasing.
-        polynomials: their coefficients between these, (4, n - 1).
+        measured: values, SI, (m,).
+        at: times or angles of the run's values, (n,), increasing.
+        polynomials: coefficients of the computed curve between them, (4, n - 1).
     """
-    places = curve.read.at
-    if places[0] + curve.shift[0] < at[0] - 1e-9 or places[-1] + curve.shift[1] > at[-1] + 1e-9:
+    samples = curve.read.at
+    if samples[0] + curve.shift[0] < at[0] - 1e-9 or samples[-1] + curve.shift[1] > at[-1] + 1e-9:
         return None
     unknown = (curve.shift, curve.low_cut, curve.high_cut)
 
-    def recorded(shift: float, low: float | None, high: float | None) -> Matched:
-        t, between = at, polynomials
+    def record(shift: float, low: float | None, high: float | None) -> RecordedCurve:
+        t, coefficients = at, polynomials
         if low is not None or high is not None:
-            t, between = _filtered(at, polynomials, low, high)
-        found = evaluate(t, between, places + shift)
-        offset = float((wanted - found).mean()) if curve.offset else 0.0
-        return Matched(found + offset, offset, shift, low, high)
+            t, coefficients = _apply_band(at, polynomials, low, high)
+        computed = evaluate(t, coefficients, samples + shift)
+        offset = float((measured - computed).mean()) if curve.offset else 0.0
+        return RecordedCurve(computed + offset, offset, shift, low, high)
 
-    def misfit(parts: list[float | None]) -> float:
-        shift, low, high = parts
-        found = recorded(shift or 0.0, low, high)
-        return float(((wanted - found.values) ** 2).sum())
+    def misfit(parameters: list[float | None]) -> float:
+        shift, low, high = parameters
+        return float(((measured - record(shift or 0.0, low, high).values) ** 2).sum())
 
-    best: list[float | None] = [sum(each) / len(each) if each else None for each in unknown]
-    free = [n for n, each in enumerate(unknown) if len(each) == 2 and each[0] < each[1]]
+    best: list[float | None] = [sum(ends) / len(ends) if ends else None for ends in unknown]
+    free = [n for n, ends in enumerate(unknown) if len(ends) == 2 and ends[0] < ends[1]]
     for _ in range(ROUNDS if len(free) > 1 else len(free)):
         for n in free:
             low, high = unknown[n]
 
-            def along(value: float, n: int = n) -> float:
+            def misfit_at(value: float, n: int = n) -> float:
                 return misfit([*best[:n], value, *best[n + 1 :]])
 
             grid = np.linspace(low, high, 15)
-            place = int(np.argmin([along(float(v)) for v in grid]))
-            ends = grid[max(place - 1, 0)], grid[min(place + 1, len(grid) - 1)]
-            told = minimize_scalar(along, bounds=ends, method="bounded",
-                                   options={"xatol": 1e-6 * (high - low)})  # fmt: skip
-            best[n] = float(told.x)
-    return recorded(best[0] or 0.0, best[1], best[2])
+            nearest = int(np.argmin([misfit_at(float(v)) for v in grid]))
+            bounds = grid[max(nearest - 1, 0)], grid[min(nearest + 1, len(grid) - 1)]
+            options = {"xatol": 1e-6 * (high - low)}
+            best[n] = float(
+                minimize_scalar(misfit_at, bounds=bounds, method="bounded", options=options).x
+            )
+    return record(best[0] or 0.0, best[1], best[2])
 
 
-def _filtered(
+def _apply_band(
     at: Array, polynomials: Array, low: float | None, high: float | None
 ) -> tuple[Array, Array]:
-    """Return a curve through the sensor's band, at even times, from rest in its first value."""
+    """Return even times and coefficients of a curve filtered by the sensor's band.
+
+    The filter is at rest at the first value.
+    """
     fastest = max(f for f in (low, high) if f is not None)
     number = max(int((at[-1] - at[0]) * fastest * PER_PERIOD), len(at)) + 1
     even = np.linspace(at[0], at[-1], number)
-    found, rate = evaluate(at, polynomials, even), (number - 1) / (at[-1] - at[0])
+    values, rate = evaluate(at, polynomials, even), (number - 1) / (at[-1] - at[0])
     for corner, kind in ((low, "highpass"), (high, "lowpass")):
         if corner is not None:
             sections = butter(2, corner, kind, fs=rate, output="sos")
-            found = sosfilt(sections, found, zi=sosfilt_zi(sections) * found[0])[0]
-    return even, eno_cubic(even, found)
+            values = sosfilt(sections, values, zi=sosfilt_zi(sections) * values[0])[0]
+    return even, eno_cubic(even, values)

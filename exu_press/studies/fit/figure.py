@@ -12,7 +12,7 @@ from exu_press.plots.typesetting import plain, wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
-from exu_press.studies.fit.profile import between
+from exu_press.studies.fit.profile import interpolate_rise
 from exu_press.studies.fit.report import FitReport
 from exu_press.studies.measured_figure import curve_panel
 
@@ -34,7 +34,7 @@ def fit_figure(report: FitReport) -> Figure:
     axes = list(figure.subplots(panels, 1, squeeze=False, height_ratios=heights).flat)
     if number:
         first = axes.pop(0)
-        places = np.arange(number)[::-1]
+        rows = np.arange(number)[::-1]
         residuals = [
             (computed - (entry.value or 0.0)) / (entry.uncertainty or 1.0)
             for entry, computed in zip(study.measured, report.numbers, strict=True)
@@ -42,10 +42,10 @@ def fit_figure(report: FitReport) -> Figure:
         first.axvspan(-2.0, 2.0, color=SHADE, zorder=0)
         first.axvline(0.0, color="black", linewidth=0.8)
         first.errorbar(
-            residuals, places, xerr=report.errors[:number], fmt="o", color=COLOURS["blue"],
+            residuals, rows, xerr=report.errors[:number], fmt="o", color=COLOURS["blue"],
             markersize=5, elinewidth=1.2,
         )  # fmt: skip
-        first.set_yticks(places, [plain(entry.name) for entry in study.measured])
+        first.set_yticks(rows, [plain(entry.name) for entry in study.measured])
         first.set_ylim(-0.6, number - 0.4)
         most = max(3.0, 1.15 * max(map(abs, residuals)))
         first.set_xlim(-most, most)
@@ -59,7 +59,7 @@ def fit_figure(report: FitReport) -> Figure:
 
 @with_style
 def profiles_figure(report: FitReport) -> Figure:
-    """Return chi-square above the least over each key, the others fitted again at each value."""
+    """Return the rise of chi-square over each key, with the free keys fitted at each value."""
     names = list(report.values)
     across = min(MOST_ACROSS, len(names))
     down = -(-len(names) // across)
@@ -76,7 +76,7 @@ def profiles_figure(report: FitReport) -> Figure:
         values, unit = in_unit(name, points[:, 0])
         scale = values[-1] / points[-1, 0] if points[-1, 0] else 1.0
         best = report.values[name] * scale
-        dense, rises = between(points, report.values[name], 2.2 * rise)
+        dense, rises = interpolate_rise(points, report.values[name], 2.2 * rise)
         dense = dense * scale
         panel.plot(dense, rises, color=COLOURS["blue"])
         panel.plot(values, points[:, 1], "o", color=COLOURS["blue"], markersize=4)
@@ -88,8 +88,8 @@ def profiles_figure(report: FitReport) -> Figure:
         if isinstance(varied, Range) and varied.log and dense[-1] > 4.0 * dense[0]:
             log_axis(panel, "x", dense)
         else:
-            beside = 0.05 * (dense[-1] - dense[0])
-            panel.set_xlim(dense[0] - beside, dense[-1] + beside)
+            margin = 0.05 * (dense[-1] - dense[0])
+            panel.set_xlim(dense[0] - margin, dense[-1] + margin)
         panel.set_ylim(0.0, 2.2 * rise)
         panel.set_xlabel(plain(f"{name}{f', {unit}' if unit else ''}"))
         panel.set_title(wrap_text(words(name), 38))

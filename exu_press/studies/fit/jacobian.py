@@ -1,4 +1,4 @@
-"""Derivatives of residuals by finite differences that evaluations with errors allow."""
+"""Derivatives of residuals by finite differences, with steps that evaluations with errors allow."""
 
 from collections.abc import Callable
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["LARGEST", "STEP", "Evaluate", "Failed", "jacobian", "steps"]
+__all__ = ["LARGEST", "STEP", "Evaluate", "EvaluationError", "jacobian", "steps"]
 
 Evaluate = Callable[[Array], Array]
 """From points (m, keys), each key scaled to 0 to 1 over its range, to residuals (m, numbers) in
@@ -19,11 +19,11 @@ LARGEST = 0.25
 """Largest step over a key's range."""
 
 VISIBLE = 10.0
-"""Change of the residuals by a step over the part of evaluations' errors in them."""
+"""Change of the residuals by a step over their errors."""
 
 
-class Failed(Exception):  # noqa: N818  a start that leads nowhere, no fault of the user
-    """All runs on both sides of a point failed."""
+class EvaluationError(Exception):
+    """All runs on both sides of a point failed: a start without a minimum, no fault of the user."""
 
 
 def jacobian(evaluate: Evaluate, x: Array, residuals: Array, step: Array) -> Array:
@@ -39,7 +39,7 @@ def jacobian(evaluate: Evaluate, x: Array, residuals: Array, step: Array) -> Arr
         step: of each key, (keys,).
 
     Raises:
-        Failed: the runs on both sides failed.
+        EvaluationError: the runs on both sides failed.
     """
     points, signs = [], []
     for k, h in enumerate(step):
@@ -54,23 +54,23 @@ def jacobian(evaluate: Evaluate, x: Array, residuals: Array, step: Array) -> Arr
     columns = []
     for k in range(len(x)):
         (d1, d2), (r1, r2) = signs[2 * k : 2 * k + 2], values[2 * k : 2 * k + 2]
-        fine = [np.isfinite(r).all() for r in (r1, r2)]
-        if all(fine):  # the parabola through three points
+        is_finite = [np.isfinite(r).all() for r in (r1, r2)]
+        if all(is_finite):  # the parabola through three points
             slope = (d2**2 * (r1 - residuals) - d1**2 * (r2 - residuals)) / (d1 * d2 * (d2 - d1))
-        elif fine[0]:
+        elif is_finite[0]:
             slope = (r1 - residuals) / d1
-        elif fine[1]:
+        elif is_finite[1]:
             slope = (r2 - residuals) / d2
         else:
-            raise Failed
+            raise EvaluationError
         columns.append(slope)
     return np.column_stack(columns)
 
 
 def steps(evaluate: Evaluate, x: Array, residuals: Array, errors: Array) -> Array:
-    """Return for each key the step at which residuals change well beyond evaluations' errors.
+    """Return the step of each key at which residuals change well beyond their errors.
 
-    It is doubled from STEP until they do, up to LARGEST.
+    It is doubled from STEP on, up to LARGEST.
 
     Args:
         evaluate: see Evaluate.
@@ -78,18 +78,18 @@ def steps(evaluate: Evaluate, x: Array, residuals: Array, errors: Array) -> Arra
         residuals: there, (numbers,).
         errors: of evaluations, in the unit of residuals, (numbers,).
     """
-    found = np.full(len(x), STEP)
+    sizes = np.full(len(x), STEP)
     open_keys = list(range(len(x)))
     while open_keys:
         points = np.tile(x, (len(open_keys), 1))
         for row, k in enumerate(open_keys):
-            points[row, k] += found[k] if x[k] + found[k] <= 1.0 else -found[k]
+            points[row, k] += sizes[k] if x[k] + sizes[k] <= 1.0 else -sizes[k]
         changes = np.abs(evaluate(points) - residuals)
-        still = []
+        enlarged = []
         for k, change in zip(open_keys, changes, strict=True):
-            seen = np.linalg.norm(change) >= VISIBLE * np.linalg.norm(errors)
-            if not seen and np.isfinite(change).all() and 2.0 * found[k] <= LARGEST:
-                found[k] *= 2.0
-                still.append(k)
-        open_keys = still
-    return found
+            is_visible = np.linalg.norm(change) >= VISIBLE * np.linalg.norm(errors)
+            if not is_visible and np.isfinite(change).all() and 2.0 * sizes[k] <= LARGEST:
+                sizes[k] *= 2.0
+                enlarged.append(k)
+        open_keys = enlarged
+    return sizes

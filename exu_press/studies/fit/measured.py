@@ -8,16 +8,16 @@ from exu_press.errors import InputError
 from exu_press.schema.checks import Table, key
 from exu_press.schema.csv_table import flat
 
-__all__ = ["Measured", "under_of"]
+__all__ = ["MeasuredNumber", "dotted_keys"]
 
 
 @dataclasses.dataclass(frozen=True)
-class Measured(Table):
+class MeasuredNumber(Table):
     """A table [[measured]]: the reading of an instrument.
 
     Attributes:
         quantity: full name, with its kind of observation, as a peak averaged over 1 ms.
-        under: keys of the scene that differ where it was measured -> their values.
+        under: key of the scene that differs in the measurement -> its value.
 
     Raises:
         InputError: not allowed.
@@ -35,7 +35,7 @@ class Measured(Table):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        object.__setattr__(self, "under", under_of("measured", self.under))
+        object.__setattr__(self, "under", dotted_keys("measured", self.under))
 
     @property
     def name(self) -> str:
@@ -44,8 +44,8 @@ class Measured(Table):
                                        for k, v in self.under.items())  # fmt: skip
 
 
-def under_of(table: str, given: Any) -> dict[str, Any]:
-    """Return the keys of a file's table by dotted names: TOML's a.b is its "a.b"."""
-    if not isinstance(given, Mapping):
-        raise InputError(f"{table}.under = {given!r:.80}: allowed is a table of keys of the scene")
-    return flat(given)
+def dotted_keys(table: str, data: Any) -> dict[str, Any]:
+    """Return the keys of a nested table by dotted names: TOML's a.b is its "a.b"."""
+    if not isinstance(data, Mapping):
+        raise InputError(f"{table}.under = {data!r:.80}: allowed is a table of keys of the scene")
+    return flat(data)

@@ -7,29 +7,29 @@ from scipy.optimize import differential_evolution, least_squares
 from scipy.stats import qmc
 
 from exu_press.numerics.arrays import Array
-from exu_press.studies.fit.jacobian import Evaluate, Failed, jacobian
+from exu_press.studies.fit.jacobian import Evaluate, EvaluationError, jacobian
 
-__all__ = ["Minimum", "evolved", "screened", "searched"]
+__all__ = ["Minimum", "evolve", "search_minima", "select_starts"]
 
-ALIKE = 0.05
-"""Scaled distance below which two minima are one."""
+DISTINCT = 0.05
+"""Scaled distance above which two minima are distinct."""
 
 MOST_STEPS = 25
 CHANGE = 1e-4
-"""Change of the sum of squares below which a further step does not matter, relative."""
+"""Relative change of the sum of squares that ends a search."""
 
 SHIFT = 1e-5
-"""Shift over a key's range, likewise."""
+"""Shift over a key's range that ends a search."""
 
 
 @dataclass(frozen=True)
 class Minimum:
-    """The end of a search.
+    """The end of a search for the least sum of squares.
 
     Attributes:
         x: scaled keys, (keys,).
-        residuals: there, in units of their uncertainties, (numbers,).
-        times: how many starts ended there.
+        residuals: in units of their uncertainties, (numbers,).
+        times: number of starts that ended there.
     """
 
     x: Array
@@ -42,16 +42,16 @@ class Minimum:
         return float(self.residuals @ self.residuals)
 
 
-def screened(
-    evaluate: Evaluate, keys: int, wanted: int, seed: int, start: Array | None = None
+def select_starts(
+    evaluate: Evaluate, keys: int, count: int, seed: int, start: Array | None = None
 ) -> list[Minimum]:
-    """Return the best of points spread over the ranges, apart from each other, best first.
+    """Return the best distinct points of a sample over the ranges, best first.
 
     Args:
         evaluate: see Evaluate.
-        keys: number of them.
-        wanted: how many.
-        seed: of the spread points.
+        keys: number of keys.
+        count: largest number of points.
+        seed: of the sample.
         start: a point that is always among them, whatever its residuals.
     """
     number = 2 ** int(np.ceil(np.log2(4 * keys)))
@@ -59,44 +59,44 @@ def screened(
     first = np.full(keys, 0.5) if start is None else start
     points = np.concatenate([first[None], points])
     values = evaluate(points)
-    fine = [Minimum(x, r) for x, r in zip(points, values, strict=True) if np.isfinite(r).all()]
-    found = fine[:1] if start is not None and np.isfinite(values[0]).all() else []
-    for one in sorted(fine, key=lambda m: m.chi_square):
-        if len(found) < wanted and all(_apart(one, other, 4 * ALIKE) for other in found):
-            found.append(one)
-    return found
+    valid = [Minimum(x, r) for x, r in zip(points, values, strict=True) if np.isfinite(r).all()]
+    starts = valid[:1] if start is not None and np.isfinite(values[0]).all() else []
+    for candidate in sorted(valid, key=lambda m: m.chi_square):
+        if len(starts) < count and all(_distance(candidate, s) > 4 * DISTINCT for s in starts):
+            starts.append(candidate)
+    return starts
 
 
-def searched(
+def search_minima(
     evaluate: Evaluate, starts: list[Minimum], step: Array, most: int = MOST_STEPS
 ) -> tuple[list[Minimum], int]:
-    """Return the minima that starts lead to, best first, and how many starts led nowhere.
+    """Return the minima that starts lead to, best first, and the number of diverged starts.
 
     SciPy's least_squares with a trust region, within the ranges; a step to a run that fails makes
     the region smaller.
 
     Args:
         evaluate: see Evaluate.
-        starts: from where.
+        starts: of the searches.
         step: of the differences, (keys,).
         most: evaluations of one search, less those of differences.
     """
-    found: list[Minimum] = []
-    lost = 0
+    minima: list[Minimum] = []
+    diverged = 0
     for start in starts:
         try:
-            one = _search(evaluate, start, step, most)
-        except Failed:
-            lost += 1
+            minimum = _search(evaluate, start, step, most)
+        except EvaluationError:
+            diverged += 1
             continue
-        for place, other in enumerate(found):
-            if not _apart(one, other, ALIKE):
-                better = min(one, other, key=lambda m: m.chi_square)
-                found[place] = Minimum(better.x, better.residuals, other.times + 1)
+        for number, known in enumerate(minima):
+            if _distance(minimum, known) <= DISTINCT:
+                better = min(minimum, known, key=lambda m: m.chi_square)
+                minima[number] = Minimum(better.x, better.residuals, known.times + 1)
                 break
         else:
-            found.append(one)
-    return sorted(found, key=lambda m: m.chi_square), lost
+            minima.append(minimum)
+    return sorted(minima, key=lambda m: m.chi_square), diverged
 
 
 def _search(evaluate: Evaluate, start: Minimum, step: Array, most: int) -> Minimum:
@@ -109,7 +109,7 @@ def _search(evaluate: Evaluate, start: Minimum, step: Array, most: int) -> Minim
 
     inside = np.clip(start.x, 1e-6, 1.0 - 1e-6)
     if not np.isfinite(residuals(inside)).all():
-        raise Failed
+        raise EvaluationError
     result = least_squares(
         residuals,
         inside,
@@ -123,19 +123,19 @@ def _search(evaluate: Evaluate, start: Minimum, step: Array, most: int) -> Minim
     return Minimum(result.x, result.fun)
 
 
-def evolved(evaluate: Evaluate, keys: int, generations: int, seed: int) -> Minimum | None:
+def evolve(evaluate: Evaluate, keys: int, generations: int, seed: int) -> Minimum | None:
     """Return the best point of differential evolution; None where all runs failed.
 
-    For numbers that are so rough that differences say nothing. A failed run is worse than any.
+    For numbers too rough for differences. A failed run is worse than any other.
     """
     best: list[Minimum] = []
 
     def chi_squares(points: Array) -> Array:
         values = evaluate(points.T)
         sums = np.where(np.isfinite(values).all(axis=1), (values**2).sum(axis=1), np.inf)
-        place = int(sums.argmin())
-        if np.isfinite(sums[place]) and (not best or sums[place] < best[0].chi_square):
-            best[:] = [Minimum(points.T[place].copy(), values[place])]
+        least = int(sums.argmin())
+        if np.isfinite(sums[least]) and (not best or sums[least] < best[0].chi_square):
+            best[:] = [Minimum(points.T[least].copy(), values[least])]
         return np.asarray(sums)
 
     differential_evolution(
@@ -152,5 +152,5 @@ def evolved(evaluate: Evaluate, keys: int, generations: int, seed: int) -> Minim
     return best[0] if best else None
 
 
-def _apart(one: Minimum, other: Minimum, distance: float) -> bool:
-    return float(np.abs(one.x - other.x).max()) > distance
+def _distance(a: Minimum, b: Minimum) -> float:
+    return float(np.abs(a.x - b.x).max())

@@ -1,4 +1,4 @@
-"""Confidence intervals by profile likelihood: the other keys are fitted again at each value."""
+"""Confidence intervals by profile likelihood: all further keys are fitted at each value of one."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,28 +11,28 @@ from exu_press.numerics.arrays import Array
 from exu_press.studies.fit.jacobian import Evaluate
 from exu_press.studies.fit.minimum import Minimum
 
-__all__ = ["OPEN", "End", "Interval", "between", "profile"]
+__all__ = ["OPEN", "End", "Interval", "interpolate_rise", "profile"]
 
 OPEN, NOT_CONVERGED = "end of the range", "not converged"
 
 BRACKET = 0.05
-"""Distance between values inside and outside an interval, over the outer one's from the best."""
+"""Largest distance of the values that bracket an end, over the outer one's from the best."""
 
 GAIN = 0.02
-"""Fall of chi-square that a further fit of the other keys would have to promise."""
+"""Least expected fall of chi-square for a further fit of the free keys."""
 
 BETTER = 0.05
-"""By which a chi-square is below the minimum's where the search had not ended there."""
+"""Fall of chi-square below the minimum's, above which the search had not converged."""
 
 DENSE = 200
-"""Values of the key of a curve between the points of a profile."""
+"""Number of values of the key between the points of a profile."""
 
 MOST_ENDS = 12
-"""Values tried on one side before the end is bracketed, and as many after."""
+"""Most values on one side before the end is bracketed, and as many after."""
 
 MOST_FITS = 6
 REACH = 0.25
-"""Largest step of the other keys over their range."""
+"""Largest step of the free keys over their range."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Interval:
     Attributes:
         low, high: ends.
         points: value of the key and chi-square above the minimum's, increasing, (points, 2).
-        better: a point with a lower chi-square than the minimum's, if one was met.
+        better: a point with a lower chi-square than the minimum's, if there is one.
     """
 
     low: End
@@ -66,18 +66,18 @@ class Interval:
     better: Minimum | None = None
 
 
-def between(points: Array, best: float, most: float) -> tuple[Array, Array]:
-    """Return values of the key between a profile's points, (n,), and chi-square's rise there, (n,).
+def interpolate_rise(points: Array, best: float, most: float) -> tuple[Array, Array]:
+    """Return values of the key over a profile, (n,), and the rise of chi-square there, (n,).
 
     The rise is a parabola where the model is linear: its root is interpolated.
 
     Args:
         points: see Interval.
         best: value of the key at the minimum.
-        most: rise up to which they go.
+        most: largest rise.
 
     >>> points = np.array([[0.0, 36.0], [3.0, 0.0], [4.0, 4.0]])
-    >>> values, rises = between(points, 3.0, 16.0)
+    >>> values, rises = interpolate_rise(points, 3.0, 16.0)
     >>> [round(float(x), 3) for x in (values[0], values[-1], np.interp(2.5, values, rises))]
     [1.0, 4.0, 1.0]
     """
@@ -98,19 +98,19 @@ def profile(evaluate: Evaluate, best: Minimum, jacobian: Array, key: int, level:
         evaluate: see Evaluate.
         best: the minimum.
         jacobian: there, (numbers, keys).
-        key: its place.
-        level: as 0.95.
+        key: its number.
+        level: such as 0.95.
     """
     rise = float(np.sqrt(chi2.ppf(level, 1)))
     fits = [best]
 
     def root(value: float) -> float:
         """Return the root of chi-square's rise; infinite where runs fail."""
-        fitted = _conditional(evaluate, best, jacobian, key, value)
-        if fitted is None:
+        fit = _conditional(evaluate, best, jacobian, key, value)
+        if fit is None:
             return float("inf")
-        fits.append(fitted)
-        return float(np.sqrt(max(fitted.chi_square - best.chi_square, 0.0)))
+        fits.append(fit)
+        return float(np.sqrt(max(fit.chi_square - best.chi_square, 0.0)))
 
     free = [k for k in range(len(best.x)) if k != key]
     slope = _slope(jacobian, key, free)
@@ -131,7 +131,7 @@ def _end(
         root: of chi-square's rise at a value of the key.
         best: value of the key at the minimum.
         bound: end of the range on this side.
-        distance: from the best at which the end is expected.
+        distance: expected one of the end from the best.
         rise: root at the end.
     """
     room = abs(bound - best)
@@ -161,50 +161,50 @@ def _end(
     outer = min(d for d in roots if d > inner)
     if outer - inner > BRACKET * outer or np.isinf(roots[outer]):
         return End(float(best + sign * outer), NOT_CONVERGED)
-    between_them = np.interp(rise, [roots[inner], roots[outer]], [inner, outer])
-    return End(float(best + sign * between_them))
+    distance = float(np.interp(rise, [roots[inner], roots[outer]], [inner, outer]))
+    return End(float(best + sign * distance))
 
 
 def _slope(jacobian: Array, key: int, free: list[int]) -> float:
-    """Return by how much the root of chi-square rises with a key, the others fitted (linear)."""
-    column, others = jacobian[:, key], jacobian[:, free]
+    """Return the slope of chi-square's root over a key, the free keys fitted (linear)."""
+    column, columns = jacobian[:, key], jacobian[:, free]
     if free:
-        column = column - others @ np.linalg.lstsq(others, column, rcond=1e-10)[0]
+        column = column - columns @ np.linalg.lstsq(columns, column, rcond=1e-10)[0]
     return float(np.linalg.norm(column))
 
 
 def _conditional(
     evaluate: Evaluate, best: Minimum, jacobian: Array, key: int, value: float
 ) -> Minimum | None:
-    """Return the best point with one key held; None where its first run fails.
+    """Return the best point with one key fixed; None where its first run fails.
 
-    Gauss and Newton's steps within the ranges; the Jacobian is the minimum's, corrected by what
-    each run shows (C. G. Broyden, Mathematics of Computation 19 (1965) 577-593).
+    Gauss-Newton steps within the ranges; the Jacobian is the minimum's, updated after each run
+    (C. G. Broyden, Mathematics of Computation 19 (1965) 577-593).
     """
     free = [k for k in range(len(best.x)) if k != key]
-    x, moved = best.x.copy(), value - best.x[key]
+    x, change = best.x.copy(), value - best.x[key]
     x[key] = value
     derivative = jacobian.copy()
     if free:
-        x[free] += _step(derivative[:, free], best.residuals + derivative[:, key] * moved, x[free])
+        x[free] += _step(derivative[:, free], best.residuals + derivative[:, key] * change, x[free])
     residuals = evaluate(x[None])[0]
     if not np.isfinite(residuals).all():
         return None
-    derivative = _corrected(derivative, residuals - best.residuals, x - best.x)
+    derivative = _broyden_update(derivative, residuals - best.residuals, x - best.x)
     shrink = 1.0
     for _ in range(MOST_FITS if free else 0):
         step = np.zeros(len(x))
         step[free] = shrink * _step(derivative[:, free], residuals, x[free])
-        promised = residuals + derivative @ step
-        if residuals @ residuals - promised @ promised < GAIN:
+        expected = residuals + derivative @ step
+        if residuals @ residuals - expected @ expected < GAIN:
             break
-        tried = evaluate((x + step)[None])[0]
-        if not np.isfinite(tried).all():
+        trial = evaluate((x + step)[None])[0]
+        if not np.isfinite(trial).all():
             shrink *= 0.5
             continue
-        derivative = _corrected(derivative, tried - residuals, step)
-        if tried @ tried < residuals @ residuals:
-            x, residuals = x + step, tried
+        derivative = _broyden_update(derivative, trial - residuals, step)
+        if trial @ trial < residuals @ residuals:
+            x, residuals = x + step, trial
         else:
             shrink *= 0.5
     return Minimum(x, residuals)
@@ -214,12 +214,12 @@ def _step(derivative: Array, residuals: Array, x: Array) -> Array:
     """Return the step to the least sum of squares of the linear model, within the ranges."""
     low, high = np.maximum(-x, -REACH), np.minimum(1.0 - x, REACH)
     high = np.maximum(high, low + 1e-12)
-    found = lsq_linear(derivative, -residuals, bounds=(low, high), method="bvls")
-    step: Array = np.clip(found.x, -x, 1.0 - x)
+    solution = lsq_linear(derivative, -residuals, bounds=(low, high), method="bvls")
+    step: Array = np.clip(solution.x, -x, 1.0 - x)
     return step
 
 
-def _corrected(derivative: Array, change: Array, step: Array) -> Array:
+def _broyden_update(derivative: Array, change: Array, step: Array) -> Array:
     size = float(step @ step)
     if size < 1e-16:
         return derivative

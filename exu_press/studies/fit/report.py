@@ -15,10 +15,10 @@ from exu_press.quantities.units import shown_unit, with_unit
 from exu_press.scene import Scene
 from exu_press.studies.base import Range
 from exu_press.studies.base.report import Line, Panel, Picture, Report, Table
-from exu_press.studies.fit.curve import Curve, Matched
-from exu_press.studies.fit.determined import Determined, Direction
+from exu_press.studies.fit.curve import Curve, RecordedCurve
+from exu_press.studies.fit.identifiability import Direction, Identifiability
 from exu_press.studies.fit.minimum import Minimum
-from exu_press.studies.fit.profile import OPEN, between
+from exu_press.studies.fit.profile import OPEN, interpolate_rise
 from exu_press.studies.fit.study import Fit
 
 __all__ = ["FitReport"]
@@ -30,14 +30,14 @@ UNREACHED = (
     "no values of the keys within their ranges give the measured numbers: look at the largest "
     "residuals"
 )
-"""Told where even the true values would leave so large a chi-square less often than UNLIKELY: at
-them it is that of all numbers, and the minimum is not larger."""
+"""Line of a report where the minimum is larger than chi-square of the true values, of all numbers,
+is with the probability UNLIKELY."""
 
 EXACT = 0.3
-"""Largest error of evaluations over the uncertainty of a number."""
+"""Error of a run over the uncertainty of a number, above which a line warns."""
 
 NEARLY = 0.05
-"""Relative, between the two halves of an interval that is called symmetric."""
+"""Relative difference of the two halves of an interval that counts as symmetric."""
 
 
 @dataclass(frozen=True)
@@ -48,15 +48,15 @@ class FitReport(Report):
         study: whose report this is.
         values: key -> best value.
         low, high: key -> ends of its interval.
-        remarks: key -> what a reader has to know of the low and of the high end; mostly empty.
-        minima: other minima too, best first.
-        lost: starts that led nowhere.
-        determined: identifiability of the keys.
+        remarks: key -> remarks on the low and on the high end; mostly empty.
+        minima: best first.
+        diverged: number of starts that led to failing runs.
+        identifiability: of the keys.
         effect: change of all residuals over a key's whole range, (keys,).
         profiles: key -> its values and chi-square above the least, (points, 2).
         count: independent numbers less the sensors' parameters.
-        numbers: computed beside [[measured]].
-        curves: measured and computed beside [[curve]].
+        numbers: computed values of [[measured]].
+        curves: (measured, computed) of [[curve]].
         errors: of runs over the uncertainties, of numbers and of samples of curves, (numbers,).
         run_summary: how many runs gave numbers, in lines.
     """
@@ -70,13 +70,13 @@ class FitReport(Report):
     high: dict[str, float]
     remarks: dict[str, tuple[str, str]]
     minima: list[Minimum]
-    lost: int
-    determined: Determined
+    diverged: int
+    identifiability: Identifiability
     effect: Array
     profiles: dict[str, Array]
     count: float
     numbers: list[float]
-    curves: list[tuple[Array, Matched]]
+    curves: list[tuple[Array, RecordedCurve]]
     errors: Array
     run_summary: list[str]
 
@@ -93,7 +93,7 @@ class FitReport(Report):
     @property
     def freedom(self) -> float:
         """Numbers less the combinations of keys that they determine."""
-        return self.count - self.determined.rank
+        return self.count - self.identifiability.rank
 
     @property
     def probability(self) -> float | None:
@@ -119,7 +119,7 @@ class FitReport(Report):
     def tables(self) -> list[Table]:
         """Return best values with intervals, undetermined keys, the misfit and residuals."""
         level = f"{100 * self.study.fit.level:g} %"
-        open_keys = [self._not_determined(direction) for direction in self.determined.open]
+        open_keys = [self._not_determined(direction) for direction in self.identifiability.open]
         numbers = self._residual_rows()
         head = ("measured", "value", "uncertainty", "computed", "error of a run", "residual")
         return [
@@ -152,7 +152,7 @@ class FitReport(Report):
         panels = [
             Panel(
                 f"Curve {curve.name}",
-                _across(curve),
+                _axis_label(curve),
                 f"{curve.read.name}, {model.unit}",
                 [
                     Line("measured", curve.read.at.tolist(), measured.tolist(), points=True),
@@ -168,8 +168,8 @@ class FitReport(Report):
         if self.study.measured:
             residuals = np.array(
                 [
-                    (number - one.value) / one.uncertainty
-                    for one, number in zip(self.study.measured, self.numbers, strict=True)
+                    (number - entry.value) / entry.uncertainty
+                    for entry, number in zip(self.study.measured, self.numbers, strict=True)
                 ]
             )
             errors = self.errors[: len(residuals)]
@@ -179,7 +179,9 @@ class FitReport(Report):
             panels.append(Panel("Numbers", "place in the table", "in uncertainties", [line]))
         for name, points in self.profiles.items():
             at, risen = points.T
-            values, rises = between(points, self.values[name], float(points[:, 1].max()) or 1.0)
+            values, rises = interpolate_rise(
+                points, self.values[name], float(points[:, 1].max()) or 1.0
+            )
             line = Line("chi-square above its least", values.tolist(), rises.tolist())
             fits = Line("other keys fitted again", at.tolist(), risen.tolist(), points=True)
             title = f"How well {name} is determined"
@@ -199,7 +201,8 @@ class FitReport(Report):
             for name, value in self.values.items()
         }
         correlation = [
-            [None if np.isnan(x) else float(x) for x in row] for row in self.determined.correlation
+            [None if np.isnan(x) else float(x) for x in row]
+            for row in self.identifiability.correlation
         ]
         return {
             "keys": keys,
@@ -208,30 +211,30 @@ class FitReport(Report):
             "degrees_of_freedom": self.freedom,
             "probability": self.probability,
             "correlation": correlation,
-            "not_determined": [one.vector.tolist() for one in self.determined.open],
-            "singular_values": self.determined.singular.tolist(),
-            "minima": [[one.chi_square, one.times] for one in self.minima],
+            "not_determined": [d.vector.tolist() for d in self.identifiability.open],
+            "singular_values": self.identifiability.singular.tolist(),
+            "minima": [[m.chi_square, m.times] for m in self.minima],
             "measured": [
-                {"name": one.name, "value": one.value, "uncertainty": one.uncertainty,
+                {"name": entry.name, "value": entry.value, "uncertainty": entry.uncertainty,
                  "computed": number, "error_over_uncertainty": float(error)}
-                for one, number, error in zip(
+                for entry, number, error in zip(
                     self.study.measured, self.numbers, self.errors, strict=False
                 )
             ],
             "sensors": {
-                one.name: told.plain()
-                for one, (_, told) in zip(self.study.curve, self.curves, strict=True)
+                curve.name: model.plain()
+                for curve, (_, model) in zip(self.study.curve, self.curves, strict=True)
             },
             "curves": {
-                one.name: {
-                    "channel": one.read.name,
-                    "unit": told.unit,
-                    "across": _across(one),
-                    "at": one.read.at.tolist(),
-                    "measured": wanted.tolist(),
-                    "computed": told.values.tolist(),
+                curve.name: {
+                    "channel": curve.read.name,
+                    "unit": model.unit,
+                    "across": _axis_label(curve),
+                    "at": curve.read.at.tolist(),
+                    "measured": measured.tolist(),
+                    "computed": model.values.tolist(),
                 }
-                for one, (wanted, told) in zip(self.study.curve, self.curves, strict=True)
+                for curve, (measured, model) in zip(self.study.curve, self.curves, strict=True)
             },
             "profiles": {name: points.tolist() for name, points in self.profiles.items()},
             "largest_error_over_uncertainty": self.largest_error,
@@ -245,11 +248,11 @@ class FitReport(Report):
 
     def _searches(self) -> list[str]:
         minima = ", ".join(
-            f"{significant(one.chi_square, 3)} ({one.times} start{'s' * (one.times > 1)})"
-            for one in self.minima
+            f"{significant(m.chi_square, 3)} ({m.times} start{'s' * (m.times > 1)})"
+            for m in self.minima
         )
-        lost = f"; {self.lost} starts led to runs that fail" if self.lost else ""
-        return [f"chi-square of the minima found: {minima}{lost}"]
+        diverged = f"; {self.diverged} starts led to runs that fail" if self.diverged else ""
+        return [f"chi-square of the minima found: {minima}{diverged}"]
 
     def _key_rows(self) -> list[tuple[str, ...]]:
         """Return each key with its interval."""
@@ -270,29 +273,29 @@ class FitReport(Report):
             )
         return rows
 
-    def _not_determined(self, one: Direction) -> str:
+    def _not_determined(self, direction: Direction) -> str:
         """Return a key or a combination of keys that the measurement does not determine."""
         names = list(self.study.keys)
-        keys = [names[k] for k in one.keys]
+        keys = [names[k] for k in direction.keys]
         if len(keys) == 1:
-            effect = significant(float(self.effect[one.keys[0]]), 2)
+            effect = significant(float(self.effect[direction.keys[0]]), 2)
             return (
                 f"not determined: {keys[0]}; over its whole range the measured numbers change by "
                 f"{effect} of their uncertainties"
             )
         parts = []
-        for k, name in zip(one.keys, keys, strict=True):
-            each = self.study.keys[name]
-            assert isinstance(each, Range)
-            value = self.values[name]
-            width = math.log(each.high / each.low) if each.log else (each.high - each.low) / value
-            parts.append((name, float(one.vector[k]) * width))
+        for k, name in zip(direction.keys, keys, strict=True):
+            varied, value = self.study.keys[name], self.values[name]
+            assert isinstance(varied, Range)
+            low, high = varied.low, varied.high
+            width = math.log(high / low) if varied.log else (high - low) / value
+            parts.append((name, float(direction.vector[k]) * width))
         scale = 10.0 / parts[0][1]
         text = " and ".join(f"{name} {change * scale:+.1f} %" for name, change in parts)
         return f"not determined: {text} together leave every measured number where it is"
 
     def _correlation(self) -> list[str]:
-        names, table = list(self.study.keys), self.determined.correlation
+        names, table = list(self.study.keys), self.identifiability.correlation
         pairs = [
             (abs(table[i, j]), f"{names[i]} and {names[j]} {table[i, j]:+.2f}")
             for i in range(len(names))
@@ -325,18 +328,18 @@ class FitReport(Report):
         """Return each number with its residual."""
         rows: list[tuple[str, ...]] = []
         number = len(self.study.measured)
-        for one, computed, error in zip(
+        for entry, computed, error in zip(
             self.study.measured, self.numbers, self.errors[:number], strict=True
         ):
-            unit, scale = shown_unit(one.quantity, [one.value])
+            unit, scale = shown_unit(entry.quantity, [entry.value])
             rows.append(
                 (
-                    with_unit(one.name, unit),
-                    f"{scale * one.value:.6g}",
-                    significant(scale * one.uncertainty, 2),
+                    with_unit(entry.name, unit),
+                    f"{scale * entry.value:.6g}",
+                    significant(scale * entry.uncertainty, 2),
                     f"{scale * computed:.6g}",
-                    f"{scale * error * one.uncertainty / one.weight**0.5:.1g}",
-                    f"{(computed - one.value) / one.uncertainty:+.2f}",
+                    f"{scale * error * entry.uncertainty / entry.weight**0.5:.1g}",
+                    f"{(computed - entry.value) / entry.uncertainty:+.2f}",
                 )
             )
         return rows
@@ -355,7 +358,7 @@ class FitReport(Report):
 
 
 def _digits(best: float, low: float, high: float) -> int:
-    """Return the digits that show two of the interval's half."""
+    """Return the number of digits that shows two digits of the interval's half-width."""
     half = (high - low) / 2.0
     if half <= 0.0 or best == 0.0:
         return 3
@@ -363,7 +366,7 @@ def _digits(best: float, low: float, high: float) -> int:
 
 
 def _inexact(largest_error: float) -> list[str]:
-    """Return a line where errors of runs, the largest over its uncertainty, touch the fit."""
+    """Return a line where the largest error of runs over its uncertainty affects the fit."""
     if largest_error <= EXACT:
         return []
     return [
@@ -372,6 +375,6 @@ def _inexact(largest_error: float) -> list[str]:
     ]
 
 
-def _across(curve: Curve) -> str:
-    """Return the label of what a curve is over."""
+def _axis_label(curve: Curve) -> str:
+    """Return the label of a curve's axis."""
     return "time, s" if curve.read.over == "time" else "crank angle, deg"

@@ -1,4 +1,4 @@
-"""Find keys of a scene from a measurement: best values, intervals, keys left undetermined."""
+"""Fit of a scene's keys to a measurement: best values, intervals, undetermined keys."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -11,18 +11,18 @@ from exu_press.numerics.arrays import Array
 from exu_press.studies.base import Runs
 from exu_press.studies.base.command import StudyCommand
 from exu_press.studies.base.evaluation import with_errors_of
-from exu_press.studies.fit.determined import determined
-from exu_press.studies.fit.jacobian import Failed, jacobian, steps
-from exu_press.studies.fit.minimum import Minimum, evolved, screened, searched
+from exu_press.studies.fit.identifiability import identifiability
+from exu_press.studies.fit.jacobian import EvaluationError, jacobian, steps
+from exu_press.studies.fit.minimum import Minimum, evolve, search_minima, select_starts
 from exu_press.studies.fit.problem import Problem, file_of
 from exu_press.studies.fit.profile import Interval, profile
 from exu_press.studies.fit.report import FitReport
 from exu_press.studies.fit.study import EVOLUTION, Fit
 
-__all__ = ["FitCommand", "fit", "fitted"]
+__all__ = ["FitCommand", "fit", "fit_problem"]
 
-SEARCHES_AGAIN = 2
-"""At most, where an interval has met a better point."""
+REPEATED_SEARCHES = 2
+"""Most further searches, from better points of a profile."""
 
 
 def fit(study: Fit, directory: str | Path, **how: Any) -> FitReport:
@@ -47,95 +47,101 @@ def fit(study: Fit, directory: str | Path, **how: Any) -> FitReport:
 
         problem = Problem(study, directory, run)
 
-        def checked(x: Array) -> Any:
+        def run_with_errors(x: Array) -> Any:
             return with_errors_of(study, directory, problem.scenes(x), **how)
 
-        report = fitted(problem, checked)
+        report = fit_problem(problem, run_with_errors)
     report.save(directory)
     return report
 
 
-def fitted(problem: Problem, checked: Any) -> FitReport:
-    """Search, look for the intervals, and search again where these met a better point.
+def fit_problem(problem: Problem, run_with_errors: Any) -> FitReport:
+    """Search minima and intervals, and repeat the search from better points of the intervals.
 
     Args:
         problem: to be fitted.
-        checked: returns the rows with errors at a scaled point, one for each place of measuring.
+        run_with_errors: returns the rows with errors at a scaled point, one for each condition of
+            measurement.
 
     Raises:
         InputError: a curve is not in a run, or no run gives numbers.
     """
     study = problem.study
-    names, asked = list(study.keys), study.fit
+    names, settings = list(study.keys), study.fit
     start = np.full(len(names), 0.5)
-    for place, name in enumerate(names):
+    for number, name in enumerate(names):
         if name in study.start:
-            start[place] = problem.scaled(name, study.start[name])
+            start[number] = problem.scale(name, study.start[name])
     if study.curve:
         problem(start[None])
-        problem.check_curves(start, checked(start))
-    starts = screened(problem, len(names), asked.starts, asked.seed, start)
+        problem.check_curves(start, run_with_errors(start))
+    starts = select_starts(problem, len(names), settings.starts, settings.seed, start)
     if not starts:
         raise InputError(
             f"{'; '.join(problem.evaluation.told())}: no start; the cure is narrower ranges, or "
             "what the runs' reasons say"
         )
     first = starts[0]
-    problem.renew_errors(first.x, checked)
-    starts = _evaluated(problem, starts)
+    problem.renew_errors(first.x, run_with_errors)
+    starts = _reevaluate(problem, starts)
     step = steps(problem, first.x, starts[0].residuals, problem.errors)
-    lost = 0
-    if asked.method == EVOLUTION:
-        found = evolved(problem, len(names), asked.generations, asked.seed)
-        minima = [found] if found is not None else []
+    diverged = 0
+    if settings.method == EVOLUTION:
+        minimum = evolve(problem, len(names), settings.generations, settings.seed)
+        minima = [] if minimum is None else [minimum]
     else:
-        minima, lost = searched(problem, starts, step)
+        minima, diverged = search_minima(problem, starts, step)
     if not minima:
         raise InputError(
             f"{'; '.join(problem.evaluation.told())}: no search came to an end; the cure is "
             "narrower ranges, or what the runs' reasons say"
         )
-    for _ in range(SEARCHES_AGAIN + 1):
-        if problem.renew_errors(minima[0].x, checked):
-            minima, _ = searched(problem, _evaluated(problem, minima), step)
+    for _ in range(REPEATED_SEARCHES + 1):
+        if problem.renew_errors(minima[0].x, run_with_errors):
+            minima, _ = search_minima(problem, _reevaluate(problem, minima), step)
         best = minima[0]
         try:
             derivative = jacobian(problem, best.x, best.residuals, step)
-        except Failed:
+        except EvaluationError:
             raise InputError(
                 f"all runs beside the best point failed ({'; '.join(problem.evaluation.told())}); "
                 "the cure is narrower ranges"
             ) from None
-        intervals = [profile(problem, best, derivative, k, asked.level) for k in range(len(names))]
-        better = [one.better for one in intervals if one.better is not None]
+        intervals = [
+            profile(problem, best, derivative, k, settings.level) for k in range(len(names))
+        ]
+        better = [interval.better for interval in intervals if interval.better is not None]
         if not better:
             break
-        lower = min(better, key=lambda one: one.chi_square)
-        again, _ = searched(problem, [lower], step)
-        minima = sorted([*again, lower, *minima[1:]], key=lambda one: one.chi_square)
-    return _report(problem, minima, lost, derivative, intervals)
+        lower = min(better, key=lambda m: m.chi_square)
+        further, _ = search_minima(problem, [lower], step)
+        minima = sorted([*further, lower, *minima[1:]], key=lambda m: m.chi_square)
+    return _report(problem, minima, diverged, derivative, intervals)
 
 
-def _evaluated(problem: Problem, minima: list[Minimum]) -> list[Minimum]:
-    """Return points with their residuals as the runs' errors are known now, best first."""
-    residuals = problem(np.array([one.x for one in minima]))
-    new = [replace(one, residuals=row) for one, row in zip(minima, residuals, strict=True)]
-    return sorted(new, key=lambda one: one.chi_square)
+def _reevaluate(problem: Problem, minima: list[Minimum]) -> list[Minimum]:
+    """Return points with residuals by the present errors of runs, best first."""
+    residuals = problem(np.array([m.x for m in minima]))
+    new = [replace(m, residuals=row) for m, row in zip(minima, residuals, strict=True)]
+    return sorted(new, key=lambda m: m.chi_square)
 
 
 def _report(
-    problem: Problem, minima: list[Minimum], lost: int, derivative: Array,
+    problem: Problem,
+    minima: list[Minimum],
+    diverged: int,
+    derivative: Array,
     intervals: list[Interval],
-) -> FitReport:  # fmt: skip
+) -> FitReport:
     study, best = problem.study, minima[0]
     names = list(study.keys)
 
-    def value(place: int, share: float) -> float:
+    def value(number: int, share: float) -> float:
         x = best.x.copy()
-        x[place] = share
-        return problem.point(x)[names[place]]
+        x[number] = share
+        return problem.point(x)[names[number]]
 
-    numbers, curves = problem.computed(best.x)
+    numbers, curves = problem.compute(best.x)
     profiles = {}
     for n, name in enumerate(names):
         table = intervals[n].points
@@ -150,13 +156,13 @@ def _report(
             for name, interval in zip(names, intervals, strict=True)
         },
         minima=minima,
-        lost=lost,
-        determined=determined(derivative, study.fit.level),
+        diverged=diverged,
+        identifiability=identifiability(derivative, study.fit.level),
         effect=np.linalg.norm(derivative, axis=0),
         profiles=profiles,
         count=problem.count,
         numbers=numbers,
-        curves=[(wanted, told) for wanted, told in curves if told is not None],
+        curves=[(measured, model) for measured, model in curves if model is not None],
         errors=np.abs(problem.errors),
         run_summary=problem.evaluation.told(),
     )

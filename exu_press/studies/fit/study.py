@@ -13,7 +13,7 @@ from exu_press.schema.checks import Table, demand_known, key
 from exu_press.studies.base import Range, Study
 from exu_press.studies.base.evaluation import ranged
 from exu_press.studies.fit.curve import Curve
-from exu_press.studies.fit.measured import Measured, under_of
+from exu_press.studies.fit.measured import MeasuredNumber, dotted_keys
 
 __all__ = ["EVOLUTION", "LEAST_SQUARES", "Fit", "Search"]
 
@@ -44,16 +44,16 @@ class Fit(Study):
     Attributes:
         measured: numbers.
         curve: curves.
-        start: key -> value where one search begins; the middle of the ranges unless given.
-        fit: how it is searched.
+        start: key -> value where one search begins; by default the middle of the ranges.
+        fit: settings of the search.
 
     Raises:
         InputError: not allowed, no measurement, or more keys than numbers.
     """
 
-    tables = MappingProxyType({"fit": Search, "measured": Measured, "curve": Curve})
+    tables = MappingProxyType({"fit": Search, "measured": MeasuredNumber, "curve": Curve})
 
-    measured: tuple[Measured, ...] = ()
+    measured: tuple[MeasuredNumber, ...] = ()
     curve: tuple[Curve, ...] = ()
     start: Mapping[str, float] = dataclasses.field(default_factory=dict)
     fit: Search = Search()
@@ -65,11 +65,11 @@ class Fit(Study):
         for under in unders:
             if both := set(under) & set(names):
                 raise InputError(f"under {both.pop()}: is fitted; allowed are other keys")
-        for one in self.measured:
-            quantity_of(self.scene_at(one.under), one.quantity)
+        for entry in self.measured:
+            quantity_of(self.scene_at(entry.under), entry.quantity)
         if not self.measured and not self.curve:
             raise InputError("no measurement; allowed are [[measured]] and [[curve]]")
-        numbers = len(self.measured) + sum(one.count - one.nuisances for one in self.curve)
+        numbers = len(self.measured) + sum(curve.count - curve.nuisances for curve in self.curve)
         if numbers < len(names):
             raise InputError(
                 f"more keys ({len(names)}) than measured numbers ({numbers:g}): allowed are as "
@@ -78,36 +78,36 @@ class Fit(Study):
         self._check_start()
 
     @classmethod
-    def located(cls, data: dict[str, Any], directory: Path) -> dict[str, Any]:
-        """Return a file's tables with paths of curves counted from its directory."""
+    def locate_files(cls, data: dict[str, Any], directory: Path) -> dict[str, Any]:
+        """Return a file's tables with paths of curves relative to its directory."""
         curves = data.get("curve", [])
         if isinstance(curves, list):
             data["curve"] = [
-                {**one, "file": os.path.join(directory, one["file"])}  # noqa: PTH118
-                if isinstance(one, Mapping) and isinstance(one.get("file"), str)
-                else one
-                for one in curves
+                {**curve, "file": os.path.join(directory, curve["file"])}  # noqa: PTH118
+                if isinstance(curve, Mapping) and isinstance(curve.get("file"), str)
+                else curve
+                for curve in curves
             ]
         return data
 
     def _check_start(self) -> None:
-        given = {}
-        for name, value in under_of("start", self.start).items():
+        start = {}
+        for name, value in dotted_keys("start", self.start).items():
             demand_known(f"start.{name}: does not vary", name, self.keys)
-            each = self.keys[name]
-            assert isinstance(each, Range)
-            if not isinstance(value, int | float) or not each.low <= value <= each.high:
+            varied = self.keys[name]
+            assert isinstance(varied, Range)
+            if not isinstance(value, int | float) or not varied.low <= value <= varied.high:
                 raise InputError(
-                    f"start.{name} = {value!r}: allowed is {each.low:g} to {each.high:g}"
+                    f"start.{name} = {value!r}: allowed is {varied.low:g} to {varied.high:g}"
                 )
-            given[name] = float(value)
-        object.__setattr__(self, "start", given)
+            start[name] = float(value)
+        object.__setattr__(self, "start", start)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the data that tell this fit from others; a curve's samples are among them."""
+        """Return the data that identify this fit; a curve's samples are among them."""
         curves = []
-        for one in self.curve:
-            table = {f.name: getattr(one, f.name) for f in dataclasses.fields(one)}
+        for curve in self.curve:
+            table = {f.name: getattr(curve, f.name) for f in dataclasses.fields(curve)}
             read = table.pop("measured")
             if read is not None:
                 table["samples"] = [read.at.tolist(), read.values.tolist(), read.unit]

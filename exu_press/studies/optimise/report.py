@@ -38,8 +38,8 @@ class OptimiseReport(Report):
         method: of the search.
         why: it was taken.
         trials: all points, with their objectives and limited quantities.
-        places: of the front among them, by the first objective; of one objective the best point.
-        chosen: place of the chosen one among these.
+        places: numbers of the front's trials, by the first objective; of one objective the best.
+        chosen: position of the chosen one in the front.
         errors: quantity -> errors of the front's points, NaN where not looked for or unknown.
         finer: quantities of the chosen point at a tenth of the tolerance.
         run_summary: how many runs gave numbers, in lines.
@@ -61,12 +61,12 @@ class OptimiseReport(Report):
     @property
     def front(self) -> list[Scene]:
         """The scenes of the front."""
-        return [self.study.scene_at(self.trials.points[place]) for place in self.places]
+        return [self.study.scene_at(self.trials.points[trial]) for trial in self.places]
 
     def numbers(self, quantity: str) -> Array:
         """Return a quantity along the front, SI."""
-        place = self.study.quantities.index(quantity)
-        return self.trials.numbers[self.places, place]
+        column = self.study.quantities.index(quantity)
+        return self.trials.numbers[self.places, column]
 
     @property
     def at_ends(self) -> list[str]:
@@ -139,11 +139,11 @@ class OptimiseReport(Report):
     def points(self) -> Points:
         """Return the trials; one of the front opens with its scene."""
         names = list(dict.fromkeys(self.study.quantities))
-        places = [self._place(trial) for trial in range(len(self.trials.points))]
-        kinds = ["trial" if place is None else "front" for place in places]
+        positions = [self._position(trial) for trial in range(len(self.trials.points))]
+        kinds = ["trial" if position is None else "front" for position in positions]
         labels = [
             "a trial that others beat" if n is None else f"exu-press run front/{n + 1:02}.toml"
-            for n in places
+            for n in positions
         ]
         trials, keys = self._trial_columns(), list(self.study.keys)
         across, up = (names[0], names[1]) if len(names) > 1 else (keys[0], names[0])
@@ -162,7 +162,7 @@ class OptimiseReport(Report):
         names = dict.fromkeys(self.study.quantities)
         points = [
             {
-                "keys": dict(self.trials.points[place]),
+                "keys": dict(self.trials.points[trial]),
                 "quantities": {
                     name: {
                         "value": float(self.numbers(name)[n]),
@@ -171,7 +171,7 @@ class OptimiseReport(Report):
                     for name in names
                 },
             }
-            for n, place in enumerate(self.places)
+            for n, trial in enumerate(self.places)
         ]
         return {
             "method": self.method,
@@ -213,20 +213,20 @@ class OptimiseReport(Report):
         ]
         marks = []
         for trial in range(len(self.trials.points)):
-            place = self._place(trial)
-            name = "" if place is None else f"{place + 1:02}.toml"
-            marks.append(name + ", chosen" * (place == self.chosen))
+            position = self._position(trial)
+            name = "" if position is None else f"{position + 1:02}.toml"
+            marks.append(name + ", chosen" * (position == self.chosen))
         head = [*(with_unit(trial.name, trial.unit) for trial in trials), "front"]
         rows = list(zip(*cells, marks, strict=True))
         return Table("Trials", head, rows, of_points=True, on_terminal=False)
 
-    def _place(self, trial: int) -> int | None:
-        """Return a trial's place in the front; None of one that others beat."""
+    def _position(self, trial: int) -> int | None:
+        """Return a trial's position in the front; None outside of it."""
         return self.places.index(trial) if trial in self.places else None
 
-    def _number(self, name: str, place: int, scale: float) -> str:
+    def _number(self, name: str, position: int, scale: float) -> str:
         """Return a quantity of a point of the front with its error."""
-        value, error = float(self.numbers(name)[place]), float(self.errors[name][place])
+        value, error = float(self.numbers(name)[position]), float(self.errors[name][position])
         stated = None if np.isnan(error) else {"error": error, "determined": True}
         return uncertain(value, stated, scale, 5)
 

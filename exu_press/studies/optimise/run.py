@@ -1,4 +1,4 @@
-"""Find the keys that make a press best: one objective, or several against each other."""
+"""Optimisation of a scene's keys: one objective, or a front of several."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,23 +20,28 @@ from exu_press.studies.base.evaluation import (
     with_errors_of,
 )
 from exu_press.studies.optimise.report import OptimiseReport
-from exu_press.studies.optimise.several import advised, chosen, front, searched
-from exu_press.studies.optimise.single import evolved, judged, simplex, spread_points
+from exu_press.studies.optimise.several import (
+    advise_sampler,
+    choose_compromise,
+    front,
+    search_front,
+)
+from exu_press.studies.optimise.single import evolve, merit, simplex, spread_points
 from exu_press.studies.optimise.study import AUTO, EVOLUTION, NELDER_MEAD, NSGA, TPE, Optimise
 
 __all__ = ["OptimiseCommand", "optimise"]
 
 ROUGH = 0.01
-"""Error of runs over the objective's spread: with a larger one a simplex goes astray."""
+"""Largest error of runs over the objective's spread for a simplex."""
 
 MOST_CHECKED = 12
-"""Points of a front that get their errors: evenly along it, the chosen one always."""
+"""Number of points of a front with errors: evenly along it, and the chosen one."""
 
 FINER = 0.1
 """Tolerance, or step, of the chosen point's second run over the scene's."""
 
 SCREEN = 4
-"""Part of the trials of one objective that is spread over the ranges first, as 1 / SCREEN."""
+"""Trials over those that are spread over the ranges first, of one objective."""
 
 
 def optimise(study: Optimise, directory: str | Path, **how: Any) -> OptimiseReport:
@@ -58,24 +63,25 @@ def optimise(study: Optimise, directory: str | Path, **how: Any) -> OptimiseRepo
     with Runs(study, directory, report=OptimiseReport, **how) as runs:
         trials = Evaluation(study, study.quantities, runs.of)
 
-        def checked(points: Sequence[Point]) -> list[Row]:
+        def run_with_errors(points: Sequence[Point]) -> list[Row]:
             return with_errors_of(study, directory, [study.scene_at(p) for p in points], **how)
 
-        method, why = _search(study, trials, checked)
-        values, violations = _compared(study, trials.numbers)
+        method, why = _search(study, trials, run_with_errors)
+        values, violations = _rate(study, trials.numbers)
         places = list(map(int, front(values, violations)))
         if not places:
             raise InputError(_none_within(trials, violations))
-        best = chosen(values[places], [one.weight for one in study.objective])
+        weights = [objective.weight for objective in study.objective]
+        best = choose_compromise(values[places], weights)
         (row,) = runs.of([_finer(study.scene_at(trials.points[places[best]]))])
     names = list(dict.fromkeys(study.quantities))
     few = sorted({best, *np.linspace(0, len(places) - 1, MOST_CHECKED).astype(int).tolist()})
-    rows = checked([trials.points[places[n]] for n in few])
+    rows = run_with_errors([trials.points[places[n]] for n in few])
     errors = {name: np.full(len(places), np.nan) for name in names}
-    for n, each in zip(few, rows, strict=True):
+    for n, row_with_errors in zip(few, rows, strict=True):
         for name in names:
-            found = error_in(each, name)
-            errors[name][n] = np.nan if found is None else found
+            error = error_in(row_with_errors, name)
+            errors[name][n] = np.nan if error is None else error
     finer = dict(zip(names, numbers_in(row, names), strict=True))
     report = OptimiseReport(
         study, method, why, trials, places, best, errors,
@@ -85,39 +91,40 @@ def optimise(study: Optimise, directory: str | Path, **how: Any) -> OptimiseRepo
     return report
 
 
-def _compared(study: Optimise, numbers: Array) -> tuple[Array, Array]:
-    """Return objectives (m, s), less is better, and violations of limits (m,) of numbers."""
+def _rate(study: Optimise, numbers: Array) -> tuple[Array, Array]:
+    """Return objectives (m, s), less is better, and violations of limits (m,) by numbers."""
     count = len(study.objective)
-    signs = np.array([one.sign for one in study.objective])
-    beyond = [
+    signs = np.array([objective.sign for objective in study.objective])
+    violations = [
         sum(limit.violation(x) for limit, x in zip(study.limit, row[count:], strict=True))
         for row in numbers
     ]
-    return numbers[:, :count] * signs, np.array(beyond)
+    return numbers[:, :count] * signs, np.array(violations)
 
 
-def _search(study: Optimise, trials: Evaluation, checked: Any) -> tuple[str, str]:
-    """Ask for all trials; return the method, and why it was taken."""
-    asked, keys = study.optimise, study.keys
-    method, number = asked.method, len(study.objective)
+def _search(study: Optimise, trials: Evaluation, run_with_errors: Any) -> tuple[str, str]:
+    """Run all trials; return the method, and the reason for it."""
+    settings, keys = study.optimise, study.keys
+    method, number = settings.method, len(study.objective)
 
     def ask(points: Sequence[Point]) -> tuple[Array, Array]:
-        return _compared(study, trials(points))
+        return _rate(study, trials(points))
 
     if number > 1 or study.has_values or method in (TPE, NSGA):
         why = "asked for"
         if method == AUTO:
-            method, why = advised(asked.trials), f"advised for {asked.trials} trials"
-        searched(ask, keys, number, asked.trials, method, asked.seed)
+            method = advise_sampler(settings.trials)
+            why = f"advised for {settings.trials} trials"
+        search_front(ask, keys, number, settings.trials, method, settings.seed)
         _demand_movement(study, trials)
         return method, why
-    names, ranges = list(keys), [each for each in keys.values() if isinstance(each, Range)]
+    names, ranges = list(keys), [key for key in keys.values() if isinstance(key, Range)]
 
     def point(x: Array) -> dict[str, float]:
         shares = np.clip(x, 0.0, 1.0)
         return {n: float(r.at(s)) for n, r, s in zip(names, ranges, shares, strict=True)}
 
-    first = spread_points(len(names), asked.trials // SCREEN, asked.seed)
+    first = spread_points(len(names), settings.trials // SCREEN, settings.seed)
     values, violations = ask([point(x) for x in first])
     if not np.isfinite(values).any():
         return NELDER_MEAD if method == AUTO else method, "no run gave numbers"
@@ -125,44 +132,45 @@ def _search(study: Optimise, trials: Evaluation, checked: Any) -> tuple[str, str
     spread = float(np.nanmax(values) - np.nanmin(values))
 
     def judge(points: Array) -> Array:
-        found, beyond = ask([point(x) for x in points])
-        return judged(found[:, 0], beyond, spread)
+        objectives, excess = ask([point(x) for x in points])
+        return merit(objectives[:, 0], excess, spread)
 
     why = "asked for"
     if method == AUTO:
-        error = error_in(checked([point(first[0])])[0], study.objective[0].quantity)
-        part = np.inf if error is None else error / spread
-        method = EVOLUTION if part > ROUGH else NELDER_MEAD
-        why = f"a run's error is {100 * part:.2g} % of the objective's spread"
-    left = asked.trials - len(first)
+        error = error_in(run_with_errors([point(first[0])])[0], study.objective[0].quantity)
+        share = np.inf if error is None else error / spread
+        method = EVOLUTION if share > ROUGH else NELDER_MEAD
+        why = f"a run's error is {100 * share:.2g} % of the objective's spread"
+    remaining = settings.trials - len(first)
     if method == EVOLUTION:
-        evolved(judge, len(names), left, asked.seed)
+        evolve(judge, len(names), remaining, settings.seed)
     else:
-        simplex(judge, first[int(judged(values[:, 0], violations, spread).argmin())], left)
+        start = first[int(merit(values[:, 0], violations, spread).argmin())]
+        simplex(judge, start, remaining)
     return method, why
 
 
 def _demand_movement(study: Optimise, trials: Evaluation) -> None:
     """Raise InputError for an objective that is the same in all runs."""
-    for place, one in enumerate(study.objective):
-        found = trials.numbers[:, place]
-        found = found[np.isfinite(found)]
-        if len(found) > 1 and np.ptp(found) <= 1e-9 * np.abs(found).max():
+    for number, objective in enumerate(study.objective):
+        values = trials.numbers[:, number]
+        values = values[np.isfinite(values)]
+        if len(values) > 1 and np.ptp(values) <= 1e-9 * np.abs(values).max():
             raise InputError(
-                f"objective {one.quantity}: is {found[0]:g} in each of {len(found)} runs; allowed "
-                "is a quantity that the keys change"
+                f"objective {objective.quantity}: is {values[0]:g} in each of {len(values)} runs; "
+                "allowed is a quantity that the keys change"
             )
 
 
 def _none_within(trials: Evaluation, violations: Array) -> str:
-    """Say that no run keeps the limits, and which comes nearest."""
-    told = "; ".join(line.strip() for line in trials.told())
+    """Return the message that no run keeps the limits, with the nearest one."""
+    summary = "; ".join(line.strip() for line in trials.told())
     if not np.isfinite(trials.numbers).all(axis=1).any():
-        return f"{told}: nothing to choose from"
+        return f"{summary}: nothing to choose from"
     nearest = int(np.nanargmin(violations))
     where = ", ".join(f"{name} = {value!r}" for name, value in trials.points[nearest].items())
     return (
-        f"no run keeps the limits ({told}); the nearest one, with {where}, violates them by "
+        f"no run keeps the limits ({summary}); the nearest one, with {where}, violates them by "
         f"{100 * violations[nearest]:.2g} %; the cure is wider limits or ranges"
     )
 

@@ -1,4 +1,4 @@
-"""Several objectives, or keys with values to choose from: optuna's samplers, and the front."""
+"""Optimisation of several objectives, or of keys with discrete values: samplers and the front."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -11,9 +11,9 @@ from exu_press.numerics.arrays import Array
 from exu_press.studies.base import Key, Range, Values
 from exu_press.studies.optimise.study import NSGA, TPE
 
-__all__ = ["FEW", "Asked", "advised", "chosen", "front", "searched"]
+__all__ = ["FEW", "Ask", "advise_sampler", "choose_compromise", "front", "search_front"]
 
-Asked = Callable[[Sequence[Mapping[str, Any]]], tuple[Array, Array]]
+Ask = Callable[[Sequence[Mapping[str, Any]]], tuple[Array, Array]]
 """From points to objectives (m, s), less is better, NaN without, and violations of limits (m,)."""
 
 FEW = 1000
@@ -21,26 +21,26 @@ FEW = 1000
 samplers: 100 to 1000 for TPE, 100 to 10000 for NSGA-II)."""
 
 SIDE_BY_SIDE = 8
-"""Points asked for at a time, whatever the number of workers: it decides what comes next."""
+"""Points evaluated together, whatever the number of workers, as the next ones depend on it."""
 
 GENERATIONS = 15
-"""About so many has NSGA-II."""
+"""Approximate number of generations of NSGA-II."""
 
 
-def advised(trials: int) -> str:
+def advise_sampler(trials: int) -> str:
     """Return the sampler for a number of trials."""
     return TPE if trials <= FEW else NSGA
 
 
-def searched(
-    ask: Asked, keys: Mapping[str, Key], objectives: int, trials: int, method: str, seed: int
+def search_front(
+    ask: Ask, keys: Mapping[str, Key], objectives: int, trials: int, method: str, seed: int
 ) -> None:
     """Search a front.
 
     Args:
-        ask: evaluates points, and remembers them.
-        keys: how they vary.
-        objectives: number of them.
+        ask: evaluates points, and stores them.
+        keys: name -> its variation.
+        objectives: number of objectives.
         trials: at most.
         method: TPE or NSGA.
         seed: of the random numbers.
@@ -66,61 +66,61 @@ def searched(
     study = optuna.create_study(directions=["minimize"] * objectives, sampler=sampler)
     done = 0
     while done < trials:
-        each = [study.ask() for _ in range(min(SIDE_BY_SIDE, trials - done))]
-        values, violations = ask([_point(trial, keys) for trial in each])
-        for trial, found, violation in zip(each, values, violations, strict=True):
-            if np.isfinite(found).all():
+        batch = [study.ask() for _ in range(min(SIDE_BY_SIDE, trials - done))]
+        values, violations = ask([_point(trial, keys) for trial in batch])
+        for trial, objective, violation in zip(batch, values, violations, strict=True):
+            if np.isfinite(objective).all():
                 trial.set_constraint("limits", float(violation))
-                study.tell(trial, found.tolist())
+                study.tell(trial, objective.tolist())
             else:
                 study.tell(trial, state=optuna.trial.TrialState.FAIL)
-        done += len(each)
+        done += len(batch)
 
 
 def _point(trial: Any, keys: Mapping[str, Key]) -> dict[str, Any]:
     """Return the point that a trial proposes."""
     point: dict[str, Any] = {}
-    for name, each in keys.items():
-        if isinstance(each, Values):
-            place = trial.suggest_categorical(name, list(range(len(each.values))))
-            point[name] = each.values[place]
+    for name, key in keys.items():
+        if isinstance(key, Values):
+            number = trial.suggest_categorical(name, list(range(len(key.values))))
+            point[name] = key.values[number]
         else:
-            assert isinstance(each, Range)
-            point[name] = float(trial.suggest_float(name, each.low, each.high, log=each.log))
+            assert isinstance(key, Range)
+            point[name] = float(trial.suggest_float(name, key.low, key.high, log=key.log))
     return point
 
 
 def front(values: Array, violations: Array) -> NDArray[np.intp]:
-    """Return the places of points that no other one dominates, by their first objective.
+    """Return the numbers of points that no point dominates, by their first objective.
 
-    A point dominates another one if it is not worse in any objective and better in one.
+    A point dominates another if it is not worse in any objective and better in one.
 
     Args:
-        values: (points, objectives), less is better; NaN of a point that has none.
-        violations: (points,), of limits; points with any are left out.
+        values: (points, objectives), less is better; NaN of a point without values.
+        violations: of limits, (points,); points with any are excluded.
 
     >>> front(np.array([[1.0, 3.0], [2.0, 2.0], [3.0, 3.0]]), np.zeros(3)).tolist()
     [0, 1]
     """
-    fine = np.flatnonzero(np.isfinite(values).all(axis=1) & (violations <= 0.0))
-    kept: list[int] = []
-    seen: set[bytes] = set()
-    for place in fine:
-        one, others = values[place], values[fine]
-        worse = (others <= one).all(axis=1) & (others < one).any(axis=1)
-        if not worse.any() and one.tobytes() not in seen:
-            kept.append(int(place))
-            seen.add(one.tobytes())
-    kept.sort(key=lambda place: float(values[place, 0]))
-    return np.array(kept, dtype=np.intp)
+    valid = np.flatnonzero(np.isfinite(values).all(axis=1) & (violations <= 0.0))
+    numbers: list[int] = []
+    known: set[bytes] = set()
+    for number in valid:
+        point, points = values[number], values[valid]
+        dominates = (points <= point).all(axis=1) & (points < point).any(axis=1)
+        if not dominates.any() and point.tobytes() not in known:
+            numbers.append(int(number))
+            known.add(point.tobytes())
+    numbers.sort(key=lambda number: float(values[number, 0]))
+    return np.array(numbers, dtype=np.intp)
 
 
-def chosen(values: Array, weights: Sequence[float]) -> int:
-    """Return the point of a front that is nearest to the best of each objective.
+def choose_compromise(values: Array, weights: Sequence[float]) -> int:
+    """Return the number of the point of a front nearest to the best of each objective.
 
-    Objectives are scaled to 0 to 1 over the front; a weight stretches its own.
+    Objectives are scaled to 0 to 1 over the front, and multiplied by their weights.
 
-    >>> chosen(np.array([[0.0, 1.0], [0.2, 0.2], [1.0, 0.0]]), [1.0, 1.0])
+    >>> choose_compromise(np.array([[0.0, 1.0], [0.2, 0.2], [1.0, 0.0]]), [1.0, 1.0])
     1
     """
     span = np.ptp(values, axis=0)

@@ -1,4 +1,4 @@
-"""One objective: SciPy's solvers, within limits."""
+"""Optimisation of one objective within limits, by SciPy's solvers."""
 
 from collections.abc import Callable
 
@@ -8,11 +8,11 @@ from scipy.stats import qmc
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["Judge", "evolved", "simplex", "spread_points"]
+__all__ = ["Judge", "evolve", "merit", "simplex", "spread_points"]
 
 Judge = Callable[[Array], Array]
-"""From scaled points (m, keys) to one number each, less is better: the objective of points within
-limits; beyond any of these their violation, and above that points without numbers."""
+"""From scaled points (m, keys) to their merits (m,), less is better: the objective within limits;
+above all of these violations of limits, and infinity without numbers."""
 
 BEYOND = 1e9
 """Penalty over the objective's scale: added to a violation, so that every point within limits is
@@ -31,30 +31,30 @@ def spread_points(keys: int, number: int, seed: int) -> Array:
     return np.concatenate([np.full((1, keys), 0.5), qmc.Sobol(keys, rng=seed).random(2**power)])
 
 
-def judged(values: Array, violations: Array, scale: float) -> Array:
-    """Return the numbers that a solver compares, (points,).
+def merit(values: Array, violations: Array, scale: float) -> Array:
+    """Return the numbers that a solver compares, (points,): the objective with its penalty.
 
     Args:
-        values: objective, less is better; NaN without.
+        values: of the objective, less is better; NaN without a number.
         violations: of limits, 0 within.
         scale: of the objective.
     """
-    found = np.where(violations > 0.0, BEYOND * (1.0 + violations), values / scale)
-    return np.where(np.isfinite(values), found, np.inf)
+    penalized = np.where(violations > 0.0, BEYOND * (1.0 + violations), values / scale)
+    return np.where(np.isfinite(values), penalized, np.inf)
 
 
 def simplex(judge: Judge, start: Array, trials: int) -> None:
-    """Search downhill from a point by Nelder and Mead's simplex: smooth objectives.
+    """Search downhill from a point by the simplex of Nelder and Mead, for smooth objectives.
 
     Args:
-        judge: see Judge; it remembers its points.
-        start: scaled, within the limits if any such is known.
+        judge: see Judge; it stores its points.
+        start: scaled, within the limits if such a point is known.
         trials: at most.
     """
     corners = np.tile(start, (len(start) + 1, 1))
-    for place in range(len(start)):
-        corners[place + 1, place] += 0.15 if start[place] < 0.5 else -0.15
-    judge(corners)  # side by side, where the solver would ask for one after the other
+    for key in range(len(start)):
+        corners[key + 1, key] += 0.15 if start[key] < 0.5 else -0.15
+    judge(corners)  # together, where the solver would evaluate one by one
     minimize(
         lambda x: float(judge(x[None])[0]),
         start,
@@ -64,13 +64,13 @@ def simplex(judge: Judge, start: Array, trials: int) -> None:
     )
 
 
-def evolved(judge: Judge, keys: int, trials: int, seed: int) -> None:
-    """Search by differential evolution: rough objectives.
+def evolve(judge: Judge, keys: int, trials: int, seed: int) -> None:
+    """Search by differential evolution, for rough objectives.
 
     Args:
-        judge: see Judge; it remembers its points.
-        keys: number of them.
-        trials: at most, about.
+        judge: see Judge; it stores its points.
+        keys: number of keys.
+        trials: approximate limit.
         seed: of the random numbers.
     """
     size = max(POPULATION * keys, 5)

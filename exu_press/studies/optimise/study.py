@@ -39,7 +39,7 @@ class Limit(Table):
     """A table [[limit]]: a quantity that must stay below or above a number, or between two.
 
     Raises:
-        InputError: neither is given, or above is not less than below.
+        InputError: both are missing, or above is not less than below.
     """
 
     table = "limit"
@@ -59,7 +59,7 @@ class Limit(Table):
             )
 
     def violation(self, value: float) -> float:
-        """Return by how much a value is beyond its limit, over the limit; 0 within."""
+        """Return the excess of a value over its limit, relative to the limit; 0 within."""
         over = 0.0 if self.below is None else (value - self.below) / (abs(self.below) or 1.0)
         under = 0.0 if self.above is None else (self.above - value) / (abs(self.above) or 1.0)
         return max(over, under, 0.0)
@@ -87,11 +87,10 @@ class Optimise(Study):
     Attributes:
         objective: quantities to be made small or large.
         limit: limits of quantities.
-        optimise: how it is searched.
+        optimise: settings of the search.
 
     Raises:
-        InputError: not allowed, no objective, or a method that these keys and objectives do not
-            have.
+        InputError: not allowed, no objective, or a method that does not suit keys and objectives.
     """
 
     tables = MappingProxyType({"optimise": Search, "objective": Objective, "limit": Limit})
@@ -107,7 +106,7 @@ class Optimise(Study):
         ranged(self, "optimise", (Range, Values))
         for quantity in self.quantities:
             quantity_of(self.scene, quantity)
-        names = [one.quantity for one in self.objective]
+        names = [objective.quantity for objective in self.objective]
         if len(set(names)) < len(names):
             raise InputError("objective: two are of one quantity; allowed are different ones")
         scipy = self.optimise.method in (NELDER_MEAD, EVOLUTION)
@@ -120,13 +119,10 @@ class Optimise(Study):
 
     @property
     def has_values(self) -> bool:
-        """Return whether a key has values to choose from."""
-        return any(isinstance(each, Values) for each in self.keys.values())
+        """Whether a key has discrete values."""
+        return any(isinstance(key, Values) for key in self.keys.values())
 
     @property
     def quantities(self) -> tuple[str, ...]:
         """Objectives, then limits."""
-        return (
-            *(one.quantity for one in self.objective),
-            *(one.quantity for one in self.limit),
-        )
+        return *(o.quantity for o in self.objective), *(limit.quantity for limit in self.limit)

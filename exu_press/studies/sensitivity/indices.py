@@ -12,7 +12,7 @@ from exu_press.numerics.arrays import Array
 __all__ = ["MOST_DRAWN", "Indices", "Sample", "indices", "sample"]
 
 MOST_DRAWN = 2
-"""Times the samples wanted: so many are drawn at most where runs fail."""
+"""Largest number of drawn samples over that of valid ones, where runs fail."""
 
 RESAMPLES = 999
 
@@ -25,7 +25,7 @@ class Sample:
         shares: of the two independent samples, (2, n, k), each between 0 and 1.
         a, b: values there, (s, n).
         ab: values with one key of a from b, (k, s, n).
-        drawn: base samples drawn; more than n where runs failed.
+        drawn: number of drawn base samples; more than n where runs failed.
     """
 
     shares: Array
@@ -45,10 +45,10 @@ class Indices:
     """Shares of one quantity's variance by key, (k,), each with the bounds of its interval (k, 2).
 
     Attributes:
-        first: share that a key explains alone.
-        first_bounds: of it.
-        total: share that it explains with all its interactions.
-        total_bounds: of it.
+        first: share of a key alone.
+        first_bounds: of that share.
+        total: share of a key with all its interactions.
+        total_bounds: of that share.
     """
 
     first: Array
@@ -64,8 +64,7 @@ ALONE = Indices(np.ones(1), np.ones((1, 2)), np.ones(1), np.ones((1, 2)))
 def sample(evaluate: Callable[[Array], Array], keys: int, n: int, seed: int) -> Sample | None:
     """Return the values at n base samples; None where too few of twice as many give numbers.
 
-    A base sample one of whose keys + 2 runs fails is left out, and the next one of the sequence is
-    drawn for it.
+    The next base sample of the sequence replaces one with a failed run.
 
     Args:
         evaluate: from shares (m, keys) to values (m, s); NaN in all of a row that failed.
@@ -76,22 +75,22 @@ def sample(evaluate: Callable[[Array], Array], keys: int, n: int, seed: int) -> 
     Source: A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270.
     """
     sequence = qmc.Sobol(2 * keys, rng=seed)
-    kept: list[Array] = []
+    valid: list[Array] = []
     points: list[Array] = []
     drawn = 0
-    while len(kept) < n and drawn < MOST_DRAWN * n:
-        wanted = n if drawn == 0 else min(n - len(kept), MOST_DRAWN * n - drawn)
-        both = sequence.random(wanted).reshape(wanted, 2, keys)
-        drawn += wanted
-        design = np.array([_design(one[0], one[1]) for one in both])  # (wanted, keys + 2, keys)
-        values = evaluate(design.reshape(-1, keys)).reshape(wanted, keys + 2, -1)
-        whole = np.isfinite(values).all(axis=(1, 2))
-        kept += list(values[whole])
-        points += list(both[whole])
-    if len(kept) < n:
+    while len(valid) < n and drawn < MOST_DRAWN * n:
+        count = n if drawn == 0 else min(n - len(valid), MOST_DRAWN * n - drawn)
+        pairs = sequence.random(count).reshape(count, 2, keys)
+        drawn += count
+        design = np.array([_design(a, b) for a, b in pairs])  # (count, keys + 2, keys)
+        values = evaluate(design.reshape(-1, keys)).reshape(count, keys + 2, -1)
+        is_valid = np.isfinite(values).all(axis=(1, 2))
+        valid += list(values[is_valid])
+        points += list(pairs[is_valid])
+    if len(valid) < n:
         return None
-    found = np.array(kept).transpose(1, 2, 0)
-    return Sample(np.array(points).swapaxes(0, 1), found[0], found[1], found[2:], drawn)
+    a, b, *ab = np.array(valid).transpose(1, 2, 0)
+    return Sample(np.array(points).swapaxes(0, 1), a, b, np.array(ab), drawn)
 
 
 def _design(a: Array, b: Array) -> Array:
@@ -100,43 +99,43 @@ def _design(a: Array, b: Array) -> Array:
     return np.concatenate([a[None], b[None], mixed])
 
 
-def indices(found: Sample, level: float = 0.95) -> list[Indices | None]:
-    """Return the indices of each quantity; None of one that does not move."""
-    every: list[Indices | None] = []
-    for place, (a, b) in enumerate(zip(found.a, found.b, strict=True)):
+def indices(values: Sample, level: float = 0.95) -> list[Indices | None]:
+    """Return the indices of each quantity; None of a constant one."""
+    by_quantity: list[Indices | None] = []
+    for a, b, ab in zip(values.a, values.b, values.ab.swapaxes(0, 1), strict=True):
         both = np.concatenate([a, b])
         if np.ptp(both) <= 1e-12 * np.abs(both).max():
-            every.append(None)
+            by_quantity.append(None)
             continue
-        ab = found.ab[:, place]
         if len(ab) == 1:
-            every.append(ALONE)
+            by_quantity.append(ALONE)
             continue
-        parts = a - both.mean(), b - both.mean(), ab - both.mean()
+        centred = a - both.mean(), b - both.mean(), ab - both.mean()
         with warnings.catch_warnings(), np.errstate(invalid="ignore"):
             warnings.simplefilter("ignore", DegenerateDataWarning)
-            told = bootstrap(
+            resampled = bootstrap(
                 [np.arange(len(a))],
-                lambda kept, parts=parts: _estimates(*(part[..., kept] for part in parts)),
+                lambda n, centred=centred: _estimates(*(values[..., n] for values in centred)),
                 confidence_level=level, n_resamples=RESAMPLES, vectorized=False, rng=0,
             )  # fmt: skip
-        first, total = _estimates(*parts)
-        bounds = np.stack(told.confidence_interval, axis=-1)
+        first, total = _estimates(*centred)
+        bounds = np.stack(resampled.confidence_interval, axis=-1)
         ends = np.array([0.5 - 0.5 * level, 0.5 + 0.5 * level])
-        uncorrected = np.moveaxis(np.quantile(told.bootstrap_distribution, ends, axis=-1), 0, -1)
+        quantiles = np.quantile(resampled.bootstrap_distribution, ends, axis=-1)
+        uncorrected = np.moveaxis(quantiles, 0, -1)
         bounds = np.where(np.isnan(bounds), uncorrected, bounds)  # of a key without any effect
-        every.append(Indices(first, bounds[0], total, bounds[1]))
-    return every
+        by_quantity.append(Indices(first, bounds[0], total, bounds[1]))
+    return by_quantity
 
 
 def _estimates(a: Array, b: Array, ab: Array) -> Array:
     """Return first and total indices, (2, k), from values (n,), (n,), (k, n) about their mean.
 
-    These are those of `scipy.stats.sobol_indices`, whose own bootstrap takes no seed.
+    As `scipy.stats.sobol_indices`, whose own bootstrap takes no seed.
 
     Source: A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270, table 2.
     """
     first = np.mean(b * (ab - a), axis=-1)
     total = 0.5 * np.mean((a - ab) ** 2, axis=-1)
-    variance = np.var([a, b])  # 0 where a resample leaves out what moves
+    variance = np.var([a, b])  # 0 where a resample is constant
     return np.asarray(np.array([first, total]) / variance) if variance else np.zeros((2, len(ab)))

@@ -28,10 +28,10 @@ from exu_press.studies.sensitivity.study import Sensitivity
 __all__ = ["SensitivityReport", "to_resolution"]
 
 NO_EFFECT = 0.01
-"""Part of the variance: a key whose total index surely lies below has no effect."""
+"""Upper bound of the total index of a key without effect."""
 
 NOISE = 0.1
-"""Error of the runs over the deviation: a larger one is part of the result."""
+"""Error of the runs over the deviation, above which it affects the result."""
 
 
 @dataclass(frozen=True)
@@ -171,11 +171,11 @@ class SensitivityReport(Report):
         ]
         error = self.errors[index]
         if error is not None:
-            part = error / spread.deviation
+            ratio = error / spread.deviation
             text = f"  a run's own error is {significant(error * scale, 2)}{unit}"
             lines.append(
-                f"{text}: {significant(100 * part, 2)} % of the deviation"
-                + (", and is part of it; the cure is a lower solver.tolerance" * (part > NOISE))
+                f"{text}: {significant(100 * ratio, 2)} % of the deviation"
+                + (", and is part of it; the cure is a lower solver.tolerance" * (ratio > NOISE))
             )
         rows = []
         for n in np.argsort(-shares.total):

@@ -1,4 +1,4 @@
-"""Find out which tolerances decide: Sobol indices, a tornado, and the spread of presses."""
+"""Influence of tolerances: Sobol indices, a tornado, and the spread of presses."""
 
 from pathlib import Path
 from typing import Any
@@ -32,30 +32,30 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Sensit
         InputError: the directory cannot be used or belongs to another study, no scheduler answers,
             or so many runs fail that no sample is left.
     """
-    asked, keys = study.sensitivity, study.keys
+    settings, keys = study.sensitivity, study.keys
     with Runs(study, directory, report=SensitivityReport, **how) as runs:
-        evaluation = Evaluation(study, asked.quantities, runs.of)
+        evaluation = Evaluation(study, settings.quantities, runs.of)
 
         def evaluate(shares: Array) -> Array:
             return evaluation([study.point_at(share) for share in shares])
 
         middle, bars = tornado(evaluate, len(keys))
-        found = sample(evaluate, len(keys), asked.samples, asked.seed)
-        if found is None:
+        values = sample(evaluate, len(keys), settings.samples, settings.seed)
+        if values is None:
             raise InputError(
-                f"{'; '.join(evaluation.told())}: too few for {asked.samples} samples; the cure is "
-                "narrower distributions, or what the runs' reasons say"
+                f"{'; '.join(evaluation.told())}: too few for {settings.samples} samples; the cure "
+                "is narrower distributions, or what the runs' reasons say"
             )
     medians = study.scene_at(study.point_at(np.full(len(keys), 0.5)))
     (checked,) = with_errors_of(study, directory, [medians], **how)
     report = SensitivityReport(
         study,
-        found,
-        indices(found),
-        [spread(values, asked.share) for values in found.values],
+        values,
+        indices(values),
+        [spread(quantity, settings.share) for quantity in values.values],
         middle,
         bars,
-        [error_in(checked, name) for name in asked.quantities],
+        [error_in(checked, name) for name in settings.quantities],
         evaluation.told(),
     )
     report.save(Path(directory))

@@ -22,10 +22,10 @@ class Spread:
 
     Attributes:
         low, middle, high: 5, 50 and 95 % lie below.
-        mean: of all.
+        mean: of the sample.
         deviation: standard deviation.
-        half: no more than that from the median lies the share asked for.
-        half_error: standard error of that, by resampling.
+        half: distance from the median within which the share lies.
+        half_error: its standard error, by resampling.
     """
 
     low: float
@@ -44,7 +44,7 @@ def spread(values: Array, share: float) -> Spread:
     0.95
     """
     low, middle, high = np.percentile(values, [5.0, 50.0, 95.0])
-    told = bootstrap(
+    resampled = bootstrap(
         [values], lambda x, axis: _half(x, share, axis), n_resamples=RESAMPLES,
         method="percentile", vectorized=True, rng=0,
     )  # fmt: skip
@@ -55,14 +55,14 @@ def spread(values: Array, share: float) -> Spread:
         float(values.mean()),
         float(values.std(ddof=1)),
         round(float(_half(values, share, -1)), 15),
-        float(told.standard_error),
+        float(resampled.standard_error),
     )
 
 
 def _half(values: Array, share: float, axis: int) -> Array:
-    """Return how far from the median this share of values lies at most."""
-    off = np.abs(values - np.median(values, axis=axis, keepdims=True))
-    return np.asarray(np.quantile(off, share, axis=axis))
+    """Return the distance from the median within which a share of the values lies."""
+    distance = np.abs(values - np.median(values, axis=axis, keepdims=True))
+    return np.asarray(np.quantile(distance, share, axis=axis))
 
 
 def tornado(evaluate: Callable[[Array], Array], keys: int) -> tuple[Array, Array]:
@@ -70,13 +70,13 @@ def tornado(evaluate: Callable[[Array], Array], keys: int) -> tuple[Array, Array
 
     Args:
         evaluate: from shares (m, keys) to values (m, s); NaN where a run failed.
-        keys: number of them.
+        keys: number of keys.
 
     Returns:
         (s,) and (keys, 2, s).
     """
     points = np.full((1 + 2 * keys, keys), 0.5)
-    for place in range(keys):
-        points[1 + 2 * place : 3 + 2 * place, place] = TORNADO
+    for key in range(keys):
+        points[1 + 2 * key : 3 + 2 * key, key] = TORNADO
     values = evaluate(points)
     return values[0], values[1:].reshape(keys, 2, -1)

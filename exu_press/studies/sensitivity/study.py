@@ -12,11 +12,11 @@ from exu_press.studies.base import Normal, Range, Study, Values
 from exu_press.studies.base.evaluation import ranged
 from exu_press.studies.base.study import names_in
 
-__all__ = ["Asked", "Sensitivity"]
+__all__ = ["Sensitivity", "SensitivitySettings"]
 
 
 @dataclasses.dataclass(frozen=True)
-class Asked(Table):
+class SensitivitySettings(Table):
     """The table [sensitivity].
 
     Attributes:
@@ -51,9 +51,9 @@ class Sensitivity(Study):
         sensitivity: its settings.
     """
 
-    tables = MappingProxyType({"sensitivity": Asked})
+    tables = MappingProxyType({"sensitivity": SensitivitySettings})
 
-    sensitivity: Asked = dataclasses.field(default=cast(Any, None))
+    sensitivity: SensitivitySettings = dataclasses.field(default=cast(Any, None))
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -63,8 +63,8 @@ class Sensitivity(Study):
 
     def point_at(self, shares: Array) -> dict[str, float]:
         """Return the keys' quantiles at these shares of their distributions, (keys,)."""
-        found = {}
-        for (name, each), share in zip(self.keys.items(), shares, strict=True):
-            assert not isinstance(each, Values)
-            found[name] = float(each.at(share))
-        return found
+        point = {}
+        for (name, varied), share in zip(self.keys.items(), shares, strict=True):
+            assert not isinstance(varied, Values)
+            point[name] = float(varied.at(share))
+        return point

@@ -35,10 +35,10 @@ class Point:
 
     Attributes:
         strokes: since the start.
-        jump: that led here, strokes.
-        error: sum of the differences of jumps and their halves, m; the largest of all joints.
-        depths: joint -> worn off since the joint was new.
-        ways: guided body -> worn off its ways so far, m.
+        jump: length of the last jump, strokes.
+        error: sum of the errors of jumps, m; the largest of all joints.
+        depths: joint -> its worn depths.
+        ways: guided body -> worn depth of its guideways, m.
         row: of the run with these depths.
     """
 

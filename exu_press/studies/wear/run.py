@@ -1,4 +1,4 @@
-"""Wear a press over many strokes: clearances grow, their shapes follow, the runs are repeated."""
+"""Wear of a press over many strokes: clearances and their shapes grow, and runs are repeated."""
 
 import math
 from collections.abc import Mapping
@@ -13,48 +13,47 @@ from exu_press.parallel.task import COMPLETED
 from exu_press.studies.base import Row, Runs, arguments_of, row_of, scene_from
 from exu_press.studies.base.command import StudyCommand
 from exu_press.studies.wear.report import Point, WearReport
-from exu_press.studies.wear.shape import Depths, begun, worn_scene
+from exu_press.studies.wear.shape import Depths, initial_depths, worn_scene
 from exu_press.studies.wear.study import WearStudy
 
 __all__ = ["WearCommand", "run_worn", "wear"]
 
 LONGEST, SHORTEST = 4.0, 0.2
-"""Times the last jump that the next one may be."""
+"""Largest and smallest ratio of a jump to the previous one."""
 
 CAUTION = 0.8
-"""Jump over the one that just meets the tolerance."""
+"""Safety factor of a jump's length."""
 
 FIRST = 2.0
-"""Tolerances that the first jump wears at most."""
+"""Largest wear of the first jump, in tolerances."""
 
 TRIES = 8
-"""Shorter and shorter jumps after one whose run failed."""
+"""Most shortened jumps after a failed run."""
 
 
 def wear(study: WearStudy, directory: str | Path, **how: Any) -> WearReport:
-    """Run the study, going on where its directory was left; write wear.json and worn.toml.
+    """Run the study, from the state of its directory on; write wear.json and worn.toml.
 
-    A jump takes the depths on by the midpoint rule: a run at the start of the jump tells what a
-    stroke wears, half the jump is taken with it, and what a stroke wears there holds for the whole
-    jump. Where the first run's wear would have held all along, the end would be another one: by so
-    much a jump and its two halves differ. The difference, over the clearance, is kept below the
-    tolerance; the next jump follows from it.
+    A jump extrapolates the depths by the midpoint rule: with the wear per stroke of a run at its
+    start to its middle, and with that of a run there over the whole jump. Its error is the
+    difference from the jump with the first run's wear in the first half. This error over the
+    clearance is kept below the tolerance, and decides the length of the next jump.
 
     Args:
         study: to be run.
         directory: of this study alone.
-        how: workers, dask, quiet of `exu_press.studies.base.Runs`; a run needs the one before, so
-            that more workers than one are idle.
+        how: workers, dask, quiet of `exu_press.studies.base.Runs`; a run needs the previous one, so
+            that further workers are idle.
     """
     points: list[Point] = []
-    ended: list[str] = []
+    reasons: list[str] = []
     if how.get("dask") is None:
         how["workers"] = how.get("workers") or 1
     with Runs(
         study, directory, report=WearReport, label="wear, at most", function=run_worn, **how
     ) as runs:
-        runs.follow([_course(study, points, ended)], 2 * study.wear.most_jumps + 1)
-    report = WearReport(study, points, "".join(ended))
+        runs.follow([_course(study, points, reasons)], 2 * study.wear.most_jumps + 1)
+    report = WearReport(study, points, "".join(reasons))
     report.save(Path(directory))
     return report
 
@@ -73,27 +72,28 @@ def run_worn(arguments: dict[str, Any]) -> dict[str, Any]:
     return row | (wear_of_a_revolution(result) if row["status"] == COMPLETED else {})
 
 
-def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
+def _course(study: WearStudy, points: list[Point], reasons: list[str]) -> Chain:
     """Yield the arguments of one run after another, and add the points."""
     scene, own = study.scene, study.wear
     clearance = {name: float(scene.joints[name].clearance) for name in study.joints}
-    depths = {name: begun(scene, name) for name in study.joints}
+    depths = {name: initial_depths(scene, name) for name in study.joints}
 
-    def arguments(worn: Mapping[str, Depths]) -> dict[str, Any]:
-        return arguments_of(worn_scene(scene, worn))
+    def arguments(by_joint: Mapping[str, Depths]) -> dict[str, Any]:
+        return arguments_of(worn_scene(scene, by_joint))
 
-    def failed(row: Row) -> str:
+    def failure(row: Row) -> str:
         return f"run {row['status']}: {row['reason']}" if row["status"] != COMPLETED else ""
 
     row = yield arguments(depths)
     ways = dict.fromkeys(row.get("guideways", {}), 0.0)
     points.append(Point(0.0, 0.0, 0.0, depths, ways, row))
-    if why := failed(row):
-        ended.append(f"the first {why}")
+    if why := failure(row):
+        reasons.append(f"the first {why}")
         return
     rate = _rates(row, study)
     fastest = max(
-        (depths[n].after(1.0, clearance[n], rate[n]).deepest - depths[n].deepest) / clearance[n]
+        (depths[n].add_strokes(1.0, clearance[n], rate[n]).deepest - depths[n].deepest)
+        / clearance[n]
         for n in study.joints
     )
     jump = FIRST * own.tolerance / fastest if fastest > 0.0 else math.inf
@@ -101,44 +101,44 @@ def _course(study: WearStudy, points: list[Point], ended: list[str]) -> Chain:
     tries = jumps = 0
     while done < own.strokes:
         if jumps == own.most_jumps:
-            ended.append(f"{jumps} jumps were not enough (wear.most_jumps)")
+            reasons.append(f"{jumps} jumps were not enough (wear.most_jumps)")
             return
         jump = min(jump, own.strokes - done)
-        half = {n: depths[n].after(0.5 * jump, clearance[n], rate[n]) for n in depths}
+        half = {n: depths[n].add_strokes(0.5 * jump, clearance[n], rate[n]) for n in depths}
         row = yield arguments(half)
-        if not (why := failed(row)):
+        if not (why := failure(row)):
             middle = _rates(row, study)
-            after = {n: depths[n].after(jump, clearance[n], middle[n]) for n in depths}
-            apart = {
+            worn = {n: depths[n].add_strokes(jump, clearance[n], middle[n]) for n in depths}
+            errors = {
                 n: depths[n]
-                .after(jump, clearance[n], rate[n])
-                .differ(half[n].after(0.5 * jump, clearance[n], middle[n]))
+                .add_strokes(jump, clearance[n], rate[n])
+                .difference(half[n].add_strokes(0.5 * jump, clearance[n], middle[n]))
                 for n in depths
             }
-            off = max(apart[n] / clearance[n] for n in apart) / own.tolerance
-            longer = min(LONGEST, max(SHORTEST, CAUTION / math.sqrt(max(off, 1e-12))))
-            if off > 1.0:
-                jump *= longer
+            ratio = max(errors[n] / clearance[n] for n in errors) / own.tolerance
+            factor = min(LONGEST, max(SHORTEST, CAUTION / math.sqrt(max(ratio, 1e-12))))
+            if ratio > 1.0:
+                jump *= factor
                 continue
             worn_ways = {body: ways[body] + jump * row["guideways"][body] for body in ways}
-            row = yield arguments(after)
-            why = failed(row)
+            row = yield arguments(worn)
+            why = failure(row)
         if why and tries < TRIES:
             tries += 1
             jump *= SHORTEST
             continue
         if why:
-            ended.append(f"after {done:.4g} strokes a {why}")
+            reasons.append(f"after {done:.4g} strokes a {why}")
             return
-        tries, jumps, done, depths, ways = 0, jumps + 1, done + jump, after, worn_ways
-        error += max(apart.values())
+        tries, jumps, done, depths, ways = 0, jumps + 1, done + jump, worn, worn_ways
+        error += max(errors.values())
         rate = _rates(row, study)
         points.append(Point(done, jump, error, depths, ways, row))
-        jump *= longer
+        jump *= factor
 
 
 def _rates(row: Row, study: WearStudy) -> dict[str, Contacts]:
-    """Return where every joint rubs in a stroke."""
+    """Return joint -> the contacts of a stroke, which wear it."""
     rates = {}
     for joint in study.joints:
         stored = dict(row["contacts"][joint])

@@ -11,18 +11,18 @@ from exu_press.numerics.arrays import Array
 from exu_press.quantities.wear import SECTORS
 from exu_press.scene import DryJoint, LubricatedJoint, Scene
 
-__all__ = ["ANGLES", "Depths", "begun", "worn_scene"]
+__all__ = ["ANGLES", "Depths", "initial_depths", "worn_scene"]
 
 ANGLES = 2.0 * np.pi * (np.arange(SECTORS) + 0.5) / SECTORS
 """Middles of the sectors, rad."""
 
 LEAST = 1e-15
-"""m: a smaller depth is rounding of the smoothing, and none."""
+"""m: a smaller depth is rounding of the smoothing."""
 
 
 @dataclass(frozen=True)
 class Depths:
-    """Depths worn off journal and bearing, as they are in the sectors, (72,) each, m."""
+    """Worn depths of journal and bearing by sectors, (72,) each, m."""
 
     journal: Array
     bearing: Array
@@ -32,32 +32,28 @@ class Depths:
         """Return equal depths of the bearing all around, m."""
         return cls(np.zeros(SECTORS), np.full(SECTORS, depth))
 
-    def after(self, strokes: float, clearance: float, contacts: Contacts) -> "Depths":
-        """Return the depths after strokes with these contacts; the clearance is without wear."""
+    def add_strokes(self, strokes: float, clearance: float, contacts: Contacts) -> "Depths":
+        """Return the depths after strokes with some contacts, for an unworn clearance, m."""
         return Depths(*worn_after(self.journal, self.bearing, clearance, contacts, strokes))
 
-    def reached(self, clearance: float) -> "Depths":
-        """Return depths that the journal can follow; half the clearance bounds its own shape."""
+    def accessible(self, clearance: float) -> "Depths":
+        """Return the depths that are in reach of the mating surface, for an unworn clearance, m."""
         journal = accessible_depths(self.journal, 0.5 * clearance)
         sharpest = profile(ANGLES.tolist(), journal.tolist()).sharpest
         return Depths(journal, accessible_depths(self.bearing, clearance + min(0.0, sharpest)))
 
     @property
     def deepest(self) -> float:
-        """The largest clearance that they add, m."""
+        """Largest clearance that they add, m."""
         return float(self.journal.max() + self.bearing.max())
 
-    def differ(self, other: "Depths") -> float:
-        """Return by how much two shapes differ at most, m."""
-        return float(
-            max(
-                np.abs(self.journal - other.journal).max(),
-                np.abs(self.bearing - other.bearing).max(),
-            )
-        )
+    def difference(self, depths: "Depths") -> float:
+        """Return the largest difference from other depths, m."""
+        journal, bearing = self.journal - depths.journal, self.bearing - depths.bearing
+        return float(max(np.abs(journal).max(), np.abs(bearing).max()))
 
 
-def begun(scene: Scene, joint: str) -> Depths:
+def initial_depths(scene: Scene, joint: str) -> Depths:
     """Return the wear of a scene's joint at the start."""
     worn = _rubbing(scene, joint).worn
     if worn is None:
@@ -66,12 +62,12 @@ def begun(scene: Scene, joint: str) -> Depths:
 
 
 def worn_scene(scene: Scene, worn: Mapping[str, Depths]) -> Scene:
-    """Return a scene whose joints are worn so, as far as their journals can follow."""
+    """Return a scene with worn joints, as far as depths are accessible."""
     changes = {}
     for name, depths in worn.items():
         if not (depths.journal.any() or depths.bearing.any()):
             continue
-        shape = depths.reached(_rubbing(scene, name).clearance)
+        shape = depths.accessible(_rubbing(scene, name).clearance)
         changes[f"joints.{name}.worn"] = {
             "angle_deg": np.degrees(ANGLES).round(9).tolist(),
             "bearing_depth": np.where(shape.bearing < LEAST, 0.0, shape.bearing).tolist(),

@@ -23,7 +23,7 @@ class Strokes(Table):
     """The table [wear] of a study file.
 
     Attributes:
-        quantities: full names of those followed; dead centre and joint forces unless given.
+        quantities: full names; by default dead centre and joint forces.
     """
 
     table = "wear"

@@ -8,7 +8,7 @@ import pytest
 from exu_press import InputError, Scene, simulate
 from exu_press.numerics.piecewise import eno_cubic, evaluate
 from exu_press.studies.curve_file import CurveFile, computed, factor_to, read_curve
-from exu_press.studies.fit.curve import Curve, matched
+from exu_press.studies.fit.curve import Curve, fit_sensor
 
 AT = np.linspace(0.0, 2.0, 4001)
 PLACES = np.linspace(1.0, 1.9, 120)
@@ -29,25 +29,25 @@ COMPUTED = eno_cubic(AT, np.sin(2.0 * np.pi * FREQUENCY * AT))
 
 def test_a_known_band():
     """At its corner a filter of second order passes 1 / sqrt(2) and turns by 90 degrees."""
-    found = matched(curve(high_cut=[FREQUENCY]), sine(), AT, COMPUTED)
+    found = fit_sensor(curve(high_cut=[FREQUENCY]), sine(), AT, COMPUTED)
     assert found.values == pytest.approx(sine(np.sqrt(0.5), np.pi / 2.0), abs=0.01)
-    found = matched(curve(low_cut=[FREQUENCY]), sine(), AT, COMPUTED)
+    found = fit_sensor(curve(low_cut=[FREQUENCY]), sine(), AT, COMPUTED)
     assert found.values == pytest.approx(sine(np.sqrt(0.5), -np.pi / 2.0), abs=0.01)
 
 
 def test_unknown_zero_clock_and_corner_are_found():
-    wanted = 0.3 + matched(curve(high_cut=[17.0]), sine(), AT, COMPUTED).values
+    wanted = 0.3 + fit_sensor(curve(high_cut=[17.0]), sine(), AT, COMPUTED).values
     one = curve(offset=True, high_cut=[5.0, 40.0])
-    found = matched(one, wanted, AT, COMPUTED)
+    found = fit_sensor(one, wanted, AT, COMPUTED)
     assert (one.nuisances, found.offset) == (2, pytest.approx(0.3, abs=1e-3))
     assert found.high_cut == pytest.approx(17.0, rel=0.01)
     shifted = curve(shift=[-0.02, 0.02])
-    found = matched(shifted, sine(lag=-2.0 * np.pi * FREQUENCY * 0.013), AT, COMPUTED)
+    found = fit_sensor(shifted, sine(lag=-2.0 * np.pi * FREQUENCY * 0.013), AT, COMPUTED)
     assert found.shift == pytest.approx(0.013, abs=1e-5)
 
 
 def test_a_curve_that_is_longer_than_the_run_has_no_values():
-    assert matched(curve(), sine(), AT[AT < 1.5], COMPUTED[..., AT[1:] < 1.5]) is None
+    assert fit_sensor(curve(), sine(), AT[AT < 1.5], COMPUTED[..., AT[1:] < 1.5]) is None
 
 
 def test_samples_that_are_not_independent_count_less():

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from exu_press.studies.fit.determined import determined
+from exu_press.studies.fit.identifiability import identifiability
 from exu_press.studies.fit.jacobian import LARGEST, STEP, jacobian, steps
-from exu_press.studies.fit.minimum import Minimum, evolved, screened, searched
+from exu_press.studies.fit.minimum import Minimum, evolve, search_minima, select_starts
 from exu_press.studies.fit.profile import BRACKET, NOT_CONVERGED, OPEN, End, profile
 
 AT = np.linspace(0.0, 3.0, 8)
@@ -27,7 +27,7 @@ def against(measured, model=decay):
 
 def fitted(evaluate, keys=2):
     step = np.full(keys, STEP)
-    found, lost = searched(evaluate, screened(evaluate, keys, 3, 0), step)
+    found, lost = search_minima(evaluate, select_starts(evaluate, keys, 3, 0), step)
     assert lost == 0
     return found, jacobian(evaluate, found[0].x, found[0].residuals, step)
 
@@ -36,7 +36,7 @@ def test_exact_numbers_give_the_true_keys():
     found, derivative = fitted(against(decay(TRUE)))
     assert found[0].x == pytest.approx(TRUE, abs=1e-3)
     assert found[0].times == 3
-    told = determined(derivative, 0.95)
+    told = identifiability(derivative, 0.95)
     exact = np.column_stack([decay(TRUE) / TRUE[0], -2.0 * AT * decay(TRUE)]) / UNCERTAINTY
     assert derivative == pytest.approx(exact, rel=5e-3, abs=0.1)
     assert told.deviation == pytest.approx(
@@ -102,7 +102,7 @@ def test_a_key_without_effect_and_two_that_act_as_one_are_named():
 
     measured = model([0.5, 0.3, 0.5, 0.5])
     found, derivative = fitted(against(measured, model), 4)
-    told = determined(derivative, 0.95)
+    told = identifiability(derivative, 0.95)
     assert told.rank == 2
     assert sorted(tuple(sorted(one.keys)) for one in told.open) == [(0, 2), (3,)]
     assert np.isfinite(told.deviation).tolist() == [False, True, False, False]
@@ -141,17 +141,17 @@ def test_differential_evolution_finds_the_least_of_many_minima():
         ripple = np.sin(40.0 * points)
         return np.column_stack([10.0 * (points - 0.62) + 2.0 * ripple, 3.0 * ripple])
 
-    best = evolved(evaluate, 1, 30, 0)
+    best = evolve(evaluate, 1, 30, 0)
     grid = np.linspace(0.0, 1.0, 20001)[:, None]
     least = (evaluate(grid) ** 2).sum(axis=1).min()
     assert best.chi_square == pytest.approx(least, abs=0.02)
-    assert evolved(lambda points: np.full((len(points), 2), np.nan), 1, 2, 0) is None
+    assert evolve(lambda points: np.full((len(points), 2), np.nan), 1, 2, 0) is None
 
 
 def test_a_start_of_one_s_own_is_among_the_starts():
     evaluate = against(decay(TRUE))
     own = np.array([0.99, 0.99])
-    assert any(np.array_equal(one.x, own) for one in screened(evaluate, 2, 1, 0, own))
+    assert any(np.array_equal(one.x, own) for one in select_starts(evaluate, 2, 1, 0, own))
 
 
 def test_a_point_that_is_better_than_the_minimum_is_reported():

@@ -7,8 +7,13 @@ import pytest
 
 from exu_press import InputError
 from exu_press.studies.base import Range, Values
-from exu_press.studies.optimise.several import advised, chosen, front, searched
-from exu_press.studies.optimise.single import evolved, judged, simplex, spread_points
+from exu_press.studies.optimise.several import (
+    advise_sampler,
+    choose_compromise,
+    front,
+    search_front,
+)
+from exu_press.studies.optimise.single import evolve, merit, simplex, spread_points
 from exu_press.studies.optimise.study import NSGA, TPE, Limit
 
 KEYS = {f"x{n}": Range(low=0.0, high=1.0) for n in range(4)}
@@ -48,7 +53,7 @@ class Zdt1:
 )
 def test_zdt1(method, trials, wide, off):
     problem = Zdt1()
-    searched(problem, KEYS, 2, trials, method, 1)
+    search_front(problem, KEYS, 2, trials, method, 1)
     found = problem.front
     assert len(found) >= 8
     assert np.ptp(found[:, 0]) > wide
@@ -59,7 +64,7 @@ def test_zdt1(method, trials, wide, off):
 
 def test_failed_points_and_limits():
     problem = Zdt1(failing=True, limit=0.5)
-    searched(problem, KEYS, 2, 96, TPE, 1)
+    search_front(problem, KEYS, 2, 96, TPE, 1)
     assert any(np.isnan(value).all() for value in problem.values)
     assert np.isfinite(problem.front).all()
     assert problem.front[:, 0].max() <= 0.5
@@ -69,7 +74,7 @@ def test_failed_points_and_limits():
 def test_the_same_seed_asks_for_the_same_points():
     one, other = Zdt1(), Zdt1()
     for problem in (one, other):
-        searched(problem, KEYS, 2, 32, TPE, 3)
+        search_front(problem, KEYS, 2, 32, TPE, 3)
     assert one.points == other.points
 
 
@@ -82,7 +87,7 @@ def test_keys_with_values_to_choose_from():
         return np.array(best)[:, None], np.zeros(len(points))
 
     keys = {"x": Range(low=0.0, high=1.0), "law": Values(("short", "finite", "pinkus"))}
-    searched(ask, keys, 1, 64, advised(64), 0)
+    search_front(ask, keys, 1, 64, advise_sampler(64), 0)
     best = min(asked, key=lambda p: abs(p["x"] - 0.3) + (p["law"] != "finite"))
     assert best["law"] == "finite"
     assert best["x"] == pytest.approx(0.3, abs=0.05)
@@ -93,8 +98,8 @@ def test_front_and_choice():
     violations = np.array([0.0, 0.0, 0.0, 0.0, 0.1, 0.0])
     assert front(values, violations).tolist() == [0, 1, 3]
     assert front(values[:1], np.array([1.0])).tolist() == []
-    assert chosen(values[[0, 1, 3]], [1.0, 1.0]) == 1
-    assert chosen(values[[0, 1, 3]], [10.0, 1.0]) == 0
+    assert choose_compromise(values[[0, 1, 3]], [1.0, 1.0]) == 1
+    assert choose_compromise(values[[0, 1, 3]], [10.0, 1.0]) == 0
 
 
 class Bowl:
@@ -112,7 +117,7 @@ class Bowl:
         for x, value, over in zip(points, values, beyond, strict=True):
             if over == 0.0 and value < self.best[0]:
                 self.best = value, x
-        return judged(values, beyond, 1.0)
+        return merit(values, beyond, 1.0)
 
 
 LEAST = 0.8 * 0.1**2
@@ -129,19 +134,19 @@ def test_a_simplex_within_limits():
 
 def test_differential_evolution_within_limits():
     bowl = Bowl()
-    evolved(bowl, 2, 600, 0)
+    evolve(bowl, 2, 600, 0)
     assert bowl.best[0] == pytest.approx(LEAST, abs=2e-3)
 
 
 def test_points_without_numbers_are_worse_than_any_other():
-    found = judged(np.array([1.0, np.nan, 2.0]), np.array([0.0, 0.0, 0.5]), 1.0)
+    found = merit(np.array([1.0, np.nan, 2.0]), np.array([0.0, 0.0, 0.5]), 1.0)
     assert found.argsort().tolist() == [0, 2, 1]
 
 
 def test_without_optuna_the_cure_is_told(monkeypatch):
     monkeypatch.setitem(sys.modules, "optuna", None)
     with pytest.raises(InputError, match=r"pip install 'exu-press\[optimise\]'"):
-        searched(Zdt1(), KEYS, 2, 8, TPE, 0)
+        search_front(Zdt1(), KEYS, 2, 8, TPE, 0)
 
 
 def test_limits_of_different_size_are_missed_by_their_parts():

@@ -51,7 +51,7 @@ def test_what_is_worn_off_is_archards_volume(coarse):
     assert last.strokes == STROKES
     for depths in (last.depths["shaft"].journal, last.depths["shaft"].bearing):
         assert depths.mean() * area == pytest.approx(by_hand, rel=2e-3)
-    shape = last.depths["shaft"].reached(5e-5)
+    shape = last.depths["shaft"].accessible(5e-5)
     assert shape.bearing.mean() * area == pytest.approx(by_hand, rel=0.02)  # smooth, none lost
 
 

@@ -1,4 +1,4 @@
-"""Identifiability: covariance, and keys or combinations that a measurement does not determine."""
+"""Identifiability of keys: covariance, and combinations that a measurement does not determine."""
 
 from dataclasses import dataclass
 
@@ -7,13 +7,13 @@ from scipy.stats import norm
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["Determined", "Direction", "determined"]
+__all__ = ["Direction", "Identifiability", "identifiability"]
 
 HALF_RANGE = 0.5
-"""An interval that reaches further to each side, of a key's range, tells nothing."""
+"""Half-width of an interval over the key's range, above which the key is not determined."""
 
-PART = 0.2
-"""A key has a part in a direction where its component is larger."""
+LEAST_COMPONENT = 0.2
+"""Component of a key in a direction, above which the key belongs to it."""
 
 
 @dataclass(frozen=True)
@@ -30,20 +30,23 @@ class Direction:
 
     @property
     def keys(self) -> list[int]:
-        """Return the keys that have a part in it, the largest first."""
-        return [int(k) for k in np.argsort(-np.abs(self.vector)) if abs(self.vector[k]) > PART]
+        """Numbers of the keys that belong to it, the largest component first."""
+        return [
+            int(k)
+            for k in np.argsort(-np.abs(self.vector))
+            if abs(self.vector[k]) > LEAST_COMPONENT
+        ]
 
 
 @dataclass(frozen=True)
-class Determined:
-    """Identifiability by the scaled Jacobian at the best point.
+class Identifiability:
+    """Identifiability of keys by the scaled Jacobian at the best point.
 
     Attributes:
         singular: its singular values, (keys,).
         open: directions that the measurement does not determine.
-        deviation: standard deviation of each scaled key, (keys,); infinite with a part in an
-            open direction.
-        correlation: of keys, (keys, keys); NaN where one has a part in an open direction.
+        deviation: standard deviation of each scaled key, (keys,); infinite in an open direction.
+        correlation: of keys, (keys, keys); NaN with a key in an open direction.
     """
 
     singular: Array
@@ -57,20 +60,24 @@ class Determined:
         return len(self.singular) - len(self.open)
 
 
-def determined(jacobian: Array, level: float) -> Determined:
-    """Return the identifiability by a Jacobian (numbers, keys), over uncertainties and ranges."""
+def identifiability(jacobian: Array, level: float) -> Identifiability:
+    """Return the identifiability by a Jacobian (numbers, keys) over uncertainties and ranges."""
     keys = jacobian.shape[1]
     _, singular, vectors = np.linalg.svd(jacobian)
     singular = np.concatenate([singular, np.zeros(keys - len(singular))])
     least = norm.ppf((1.0 + level) / 2.0) / HALF_RANGE
-    shut = singular > least
-    open_ = [Direction(v, float(s)) for v, s in zip(vectors[~shut], singular[~shut], strict=True)]
-    covariance = (vectors[shut].T / singular[shut] ** 2) @ vectors[shut]
+    is_open = singular <= least
+    open_directions = [
+        Direction(vector, float(value))
+        for vector, value in zip(vectors[is_open], singular[is_open], strict=True)
+    ]
+    closed = vectors[~is_open]
+    covariance = (closed.T / singular[~is_open] ** 2) @ closed
     deviation = np.sqrt(np.diag(covariance))
-    for direction in open_:
+    for direction in open_directions:
         deviation[direction.keys] = np.inf
     with np.errstate(divide="ignore", invalid="ignore"):
         correlation = covariance / np.outer(deviation, deviation)
     known = np.isfinite(deviation)
     correlation[~np.outer(known, known)] = np.nan
-    return Determined(singular, open_, deviation, correlation)
+    return Identifiability(singular, open_directions, deviation, correlation)

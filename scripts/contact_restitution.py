@@ -10,8 +10,8 @@ from exu_press.laws.contact import DAMPING_LAWS, delivered_restitution, hertz, s
 
 argparse.ArgumentParser(description=__doc__).parse_args()
 contact = Scene().contact
-assert contact is not None and contact.stiffness and contact.damping_max and contact.damping_depth
-stiffness = hertz(contact.stiffness, contact.exponent)
+assert contact is not None
+stiffness = hertz(contact["stiffness"], contact["exponent"])
 mass = 1347.0  # slider, kg
 speeds = (0.01, 0.1, 1.0)  # m/s
 
@@ -22,9 +22,9 @@ def row(name, law):
 
 
 print(f"{'restitution of the slider at':44}" + "".join(f"{v:>7} m/s" for v in speeds))
-default = contact.damping_max
+default = contact["damping_max"]
 for damping in (default, default / 100, default / 1000, default / 1e4, 0.01):
-    law = step_damping(stiffness, damping, contact.damping_depth)
+    law = step_damping(stiffness, damping, contact["damping_depth"])
     name = f"step, damping_max = {damping:.4g} N s/m"
     row(name + (" (Table 2)" if damping == default else ""), law)
 for name in ("hunt_crossley", "lankarani_nikravesh", "flores", "gonthier", "hu_guo"):

@@ -4,7 +4,6 @@ import dataclasses
 import os
 import subprocess
 import sys
-from types import SimpleNamespace
 from typing import Any
 
 from docutils import nodes
@@ -15,11 +14,12 @@ from exu_press.quantities import CATALOGUE
 from exu_press.result.channel import AXES, OWNERS, VECTOR, Declaration
 from exu_press.result.recorders import declared_channels
 from exu_press.scene import DryJoint, Flexible
-from exu_press.scene.joint import LAW_TABLES
 from exu_press.scene.load import LOAD_KINDS
 from exu_press.scene.oil import Oil
-from exu_press.scene.usage import TABLES
+from exu_press.scene.usage import TABLES, table_keys
 from exu_press.scene.worn import Worn
+from exu_press.schema.registry import Choice
+from exu_press.schema.table import Table, declared_keys
 
 
 def setup(app: Any) -> dict[str, Any]:
@@ -48,17 +48,17 @@ class SceneKeys(Directive):
             told = (kind.__doc__ or "").splitlines()[0]
             if kind is not Scene:
                 section += nodes.paragraph(told, told)
-            keys = [field for field in dataclasses.fields(kind) if "meaning" in field.metadata]
+            fields = table_keys(name) if name in TABLES else declared_keys(kind)
             rows = [("key", "default", "meaning", "allowed")]
-            usual = _usual(name, kind)
             rows += [
                 (
-                    key.name,
-                    _default(getattr(usual, key.name)),
-                    _meaning(key) + _used_with(kind, key.name),
-                    _allowed(key),
+                    key,
+                    _default(_usual(kind, field)),
+                    _meaning(field) + _used_with(kind, key),
+                    _allowed(field),
                 )
-                for key in keys
+                for key, field in fields.items()
+                if "meaning" in field.metadata
             ]
             section += table_of(rows)
             found.append(section)
@@ -151,18 +151,11 @@ def table_of(rows: list[tuple[str, ...]]) -> nodes.table:
     return table
 
 
-def _usual(name: str, kind: Any) -> Any:
-    """Return a table as a scene has it that gives nothing but what makes it use the table."""
-    scenes = (Scene(), Scene(mechanism="slider_crank"))
+def _usual(kind: Any, field: Any) -> Any:
+    """Return the value that a key has in a scene that does not give it."""
     if kind is Scene:
-        return scenes[0]
-    if name in LAW_TABLES:  # the scenes above have their mechanisms' own
-        return kind()
-    if kind is Flexible:
-        return Flexible("linkage")
-    found = (getattr(scene, name, None) for scene in scenes)
-    declared = {field.name: field.default for field in dataclasses.fields(kind)}
-    return next((table for table in found if table is not None), SimpleNamespace(**declared))
+        return getattr(Scene(), field.name)
+    return 20 if kind is Flexible and field.name == "modes" else field.default
 
 
 def _default(value: Any) -> str:
@@ -173,14 +166,17 @@ def _default(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else str(value)
 
 
-def _used_with(kind: Any, name: str) -> str:
+def _used_with(kind: type[Table], name: str) -> str:
     """Return in words which choices of its table use a key, or nothing."""
-    told = []
-    for choice, by_chosen in getattr(kind, "uses", {}).items():
-        users = [chosen for chosen, used in by_chosen.items() if name in used]
-        if users and len(users) < len(by_chosen):
-            told.append(f"{choice} = {' or '.join(_default(user) for user in users)}")
-    return f" (with {'; '.join(told)})" if told else ""
+    conditions = []
+    for field in dataclasses.fields(kind):
+        part = field.metadata.get("part")
+        if not isinstance(part, Choice):
+            continue
+        users = [chosen.strip("'") for chosen, k in part.classes() if name in declared_keys(k)]
+        if users and len(users) < len(part.kinds):
+            conditions.append(f"{field.name} = {' or '.join(users)}")
+    return f" (with {'; '.join(conditions)})" if conditions else ""
 
 
 def _meaning(key: Any) -> str:

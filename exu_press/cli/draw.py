@@ -34,7 +34,8 @@ from exu_press.mechanism.drawing_warnings import drawing_warnings
 from exu_press.mechanism.examine import Examination, examine
 from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.scene.file import parse_assignment
-from exu_press.schema.checks import demand_known, table_from
+from exu_press.schema.checks import demand_known
+from exu_press.schema.table import table_from
 from exu_press.schema.toml import read_toml
 from exu_press.terminal.columns import columns
 

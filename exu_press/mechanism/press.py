@@ -9,7 +9,10 @@ from exu_press.errors import InputError
 from exu_press.mechanism.draw import meet, middle, onto
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point, steel_cube
-from exu_press.schema.checks import Table, Uses, key
+from exu_press.schema.checks import key
+from exu_press.schema.kinds import CustomKind
+from exu_press.schema.registry import Registry, choice
+from exu_press.schema.table import Table
 
 __all__ = ["PAPER_LAWS", "TABLE_2", "Press", "press"]
 
@@ -46,13 +49,32 @@ TABLE_2: dict[str, Any] = {
 SIDES = {"right": 1, "left": -1}
 
 
-OF_THE_COUNTERWEIGHT = (
-    "counter_eccentricity",
-    "counter_linkage_length",
-    "counter_linkage_mass",
-    "counterweight_mass",
-    "counterweight_inertia",
+COUNTERWEIGHTS = Registry(
+    {True: "mechanism.press:Counterweight", False: "mechanism.press:NoCounterweight"}
 )
+
+
+@dataclass(frozen=True)
+class Counterweight(CustomKind, Table):
+    """Linkage (11) and counterweight (12)."""
+
+    registered_name: ClassVar[Any] = True
+    table: ClassVar[str] = "press"
+    counter_eccentricity: float = key(0.016, "eccentric opposite the pin (A-3)", "m", above=0)
+    counter_linkage_length: float = key(0.275, "linkage (11)", "m", above=0)
+    counter_linkage_mass: float = key(22.58, "linkage (11)", "kg", above=0)
+    counterweight_mass: float = key(1847.2, "counterweight (12)", "kg", above=0)
+    counterweight_inertia: float | None = key(
+        None, "counterweight (12), as slide_inertia", "kg m^2", above=0
+    )
+
+
+@dataclass(frozen=True)
+class NoCounterweight(CustomKind, Table):
+    """None."""
+
+    registered_name: ClassVar[Any] = False
+    table: ClassVar[str] = "press"
 
 
 @dataclass(frozen=True)
@@ -60,7 +82,6 @@ class Press(Table):
     """Lengths and masses of the press (Table 2); links 5-8 per side (A-7)."""
 
     table: ClassVar[str] = "press"
-    uses: ClassVar[Uses] = {"counterweight": {True: OF_THE_COUNTERWEIGHT, False: ()}}
 
     crank_radius: float = key(0.03, "eccentricity of the crank pin (2)", "m", above=0)
     linkage_length: float = key(0.383, "linkage (3)", "m", above=0)
@@ -69,9 +90,9 @@ class Press(Table):
     link_7_length: float = key(0.164, "knuckle to plunger", "m", above=0)
     plunger_length: float = key(0.55, "plunger (8), upper pin to ball centre", "m", above=0)
     pivot_distance: float = key(0.1655, "frame pivots and plungers from x = 0 (A-2)", "m", above=0)
-    counterweight: bool = key(True, "whether there are linkage (11) and counterweight (12)")
-    counter_eccentricity: float = key(0.016, "eccentric opposite the pin (A-3)", "m", above=0)
-    counter_linkage_length: float = key(0.275, "linkage (11)", "m", above=0)
+    counterweight: Counterweight | NoCounterweight = choice(
+        True, "whether there are linkage (11) and counterweight (12)", COUNTERWEIGHTS
+    )
     bottom_dead_centre: float = key(0.47, "slider position at ideal bottom dead centre (A-8)", "m")
     crank_mass: float = key(217.6, "crank shaft (2)", "kg", above=0)
     crank_mass_offset: float = key(0.015, "centre of mass, from shaft to pin (A-6)", "m")
@@ -88,8 +109,6 @@ class Press(Table):
     link_7_mass: float = key(15.5, "link (7)", "kg", above=0)
     plunger_mass: float = key(155.3, "plunger (8) with ball (9) (A-5)", "kg", above=0)
     slider_mass: float = key(1347.0, "main slider (10)", "kg", above=0)
-    counter_linkage_mass: float = key(22.58, "linkage (11)", "kg", above=0)
-    counterweight_mass: float = key(1847.2, "counterweight (12)", "kg", above=0)
     slide_inertia: float | None = key(
         None,
         "slide (4), which tilts in an elastic guide; a steel cube's unless given",
@@ -97,9 +116,6 @@ class Press(Table):
         above=0,
     )
     slider_inertia: float | None = key(None, "slider (10), likewise", "kg m^2", above=0)
-    counterweight_inertia: float | None = key(
-        None, "counterweight (12), likewise", "kg m^2", above=0
-    )
 
 
 @lru_cache(maxsize=64)
@@ -183,14 +199,18 @@ def press(size: Press) -> Mechanism:
         "pivots": ("pivot_left", "pivot_right"),
         "plunger_pins": ("plunger_pin_left", "plunger_pin_right"),
     }
-    if size.counterweight:
-        name, length = "press.counter_linkage_length", size.counter_linkage_length
-        counter_pin = (0.0, -size.counter_eccentricity)
+    weight = size.counterweight
+    if isinstance(weight, Counterweight):
+        name, length = "press.counter_linkage_length", weight.counter_linkage_length
+        counter_pin = (0.0, -weight.counter_eccentricity)
         counterweight = onto(name, counter_pin, length, 0.0, +1)
         bodies += [
-            _rod("counter_linkage", size.counter_linkage_mass, counter_pin, counterweight),
+            _rod("counter_linkage", weight.counter_linkage_mass, counter_pin, counterweight),
             _block(
-                "counterweight", size.counterweight_mass, size.counterweight_inertia, counterweight
+                "counterweight",
+                weight.counterweight_mass,
+                weight.counterweight_inertia,
+                counterweight,
             ),
         ]
         joints += [
@@ -206,7 +226,9 @@ def press(size: Press) -> Mechanism:
         crank="crank",
         output=Output("slider", origin=(0.0, slider_bottom - size.bottom_dead_centre)),
         groups=groups,
-        counterweight=("counter_linkage", "counterweight") if size.counterweight else (),
+        counterweight=("counter_linkage", "counterweight")
+        if isinstance(weight, Counterweight)
+        else (),
         defaults=TABLE_2,
     )
 

@@ -8,7 +8,8 @@ from typing import Any, ClassVar
 from exu_press.mechanism.draw import middle, onto
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, steel_cube
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import key
+from exu_press.schema.table import Table
 
 __all__ = ["SliderCrank", "slider_crank"]
 

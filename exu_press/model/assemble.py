@@ -97,7 +97,7 @@ def _assemble(
     friction = _guide_friction(system, guides)
     start_stop: StartStop | None = None
     motor = system.scene.drive
-    if motor is not None and motor.clutch_torque is not None:
+    if motor is not None and motor.clutch is not None:
         from exu_press.model.start_stop import add_flywheel, add_start_stop
 
         add_flywheel(system)
@@ -210,7 +210,7 @@ def _states(
 def _stall(scene: Scene) -> Stall:
     """Return the detection of a press that stalls."""
     motor, speed = scene.drive, scene.angular_speed
-    slower = speed if motor is None else min(speed, motor.fastest(scene.speed_rpm))
+    slower = speed if motor is None else min(speed, motor.torque.fastest(scene.speed_rpm))
     return Stall(slower, 60.0 / scene.speed_rpm)
 
 

@@ -8,10 +8,11 @@ from exu_press.joints.joint import ClearanceJoint
 from exu_press.laws.friction import no_friction
 from exu_press.mechanism import GROUND, Joint, Point
 from exu_press.model.system import System
-from exu_press.scene import DryJoint, LubricatedJoint, Scene
+from exu_press.scene import LubricatedJoint, Scene
 from exu_press.scene.custom import CustomJoint
-from exu_press.scene.joint import LooseJoint, unworn
-from exu_press.scene.laws import ball_film, contact_law, film_law, film_scale_of, friction_law
+from exu_press.scene.film import BallFilm
+from exu_press.scene.joint import Joint as SceneJoint
+from exu_press.scene.joint import TouchingJoint, unworn
 
 if TYPE_CHECKING:
     from exu_press.joints.worn import WornSurfaces
@@ -19,54 +20,52 @@ if TYPE_CHECKING:
 __all__ = ["add_clearance_joint", "interfaces_of"]
 
 
-def add_clearance_joint(system: System, joint: Joint, kind: LooseJoint) -> ClearanceJoint:
+def add_clearance_joint(system: System, joint: Joint, kind: SceneJoint) -> ClearanceJoint:
     """Add a joint with clearance."""
     journal, bearing = (_end(system, joint, *end) for end in system.mechanism.ends(joint))
-    if not joint.spherical or isinstance(kind, CustomJoint):
-        worn = None if isinstance(kind, CustomJoint) else _worn(system, joint, kind)
+    if not joint.spherical or not isinstance(kind, TouchingJoint):
+        worn = _worn(system, joint, kind)
         interfaces = interfaces_of(joint, kind, system.scene)
         return add_revolute(system.mbs, journal, bearing, interfaces, worn=worn)
     speed = system.scene.angular_speed
     surfaces: dict[str, Any] = {
         "radius": kind.radius,
         "clearance": kind.clearance,
-        "contact": None
-        if kind.contact is None
-        else contact_law(kind, revolute=False, crank_speed=speed),
-        "friction": no_friction() if kind.friction is None else friction_law(kind.friction),
+        "contact": kind.normal_contact(speed),
+        "friction": no_friction() if kind.friction is None else kind.friction.friction(),
     }
     if not isinstance(kind, LubricatedJoint):
         return add_dry_spherical(system.mbs, journal, bearing, **surfaces)
+    assert isinstance(kind.film, BallFilm)
     return add_lubricated_spherical(
         system.mbs,
         journal,
         bearing,
         viscosity=kind.film.cold_viscosity,
-        film=ball_film(kind.film, kind.clearance),
+        film=kind.film.ball_film(kind.clearance),
         asperity_onset=kind.onset or 0.0,
         **surfaces,
     )
 
 
-def interfaces_of(joint: Joint, kind: LooseJoint, scene: Scene) -> list[InterfaceLaw]:
+def interfaces_of(joint: Joint, kind: SceneJoint, scene: Scene) -> list[InterfaceLaw]:
     """Return the surfaces of a joint with clearance of a scene, in its plane."""
     if isinstance(kind, CustomJoint):
         return list(kind.interfaces())
+    assert isinstance(kind, TouchingJoint)
     kind = unworn(kind)
     interfaces: list[InterfaceLaw] = []
     if isinstance(kind, LubricatedJoint):
-        law = film_law(kind.film, kind.radius, kind.clearance)
-        interfaces.append(FilmInterface(law, film_scale_of(kind), kind.clearance))
-    if kind.contact is not None:
-        speed = scene.angular_speed
-        contact = contact_law(kind, revolute=not joint.spherical, crank_speed=speed)
-        friction = no_friction() if kind.friction is None else friction_law(kind.friction)
+        interfaces.append(FilmInterface(kind.film_law(), kind.film_scale, kind.clearance))
+    contact = kind.normal_contact(scene.angular_speed)
+    if contact is not None:
+        friction = no_friction() if kind.friction is None else kind.friction.friction()
         reach = kind.clearance - (kind.onset or 0.0)
         interfaces.append(DryInterface(contact, friction, kind.radius, reach))
     return interfaces
 
 
-def _worn(system: System, joint: Joint, kind: DryJoint | LubricatedJoint) -> "WornSurfaces | None":
+def _worn(system: System, joint: Joint, kind: SceneJoint) -> "WornSurfaces | None":
     """Return the wear of a joint's surfaces beyond an even clearance, or None."""
     profiles = None if kind.worn is None else kind.worn.profiles()
     if profiles is None:

@@ -28,7 +28,7 @@ def add_drive(system: System) -> int:
     scene, turned = system.scene, turned_body(system)
     if scene.drive is None:
         return system.hold(turned, "angle", velocityLevel=True, offset=scene.angular_speed)
-    law = scene.drive.law(scene.speed_rpm)
+    law = scene.drive.torque.law(scene.speed_rpm)
 
     def negative_torque(
         mbs: Any, t: float, item: int, angle: float, speed: float, k: float, d: float, zero: float

@@ -7,7 +7,6 @@ import numpy as np
 from exu_press.joints.guide_friction import GuideFriction, HeldSide, SideForce, SpringSide
 from exu_press.mechanism import Guide
 from exu_press.model.system import System
-from exu_press.scene.laws import guide_friction_law
 
 __all__ = ["add_guide_friction"]
 
@@ -39,5 +38,5 @@ def add_guide_friction(system: System, guide: Guide, numbers: Mapping[str, int])
         normal, spring = np.array(guide.normal), guide.lateral
         relaxed = float(normal @ offset[:2])
         side = SpringSide(spring.stiffness, spring.damping, normal @ rows[:2], relaxed)
-    law = guide_friction_law(table, system.scene.friction)
+    law = table.friction_table(system.scene.friction or {}).friction()
     return GuideFriction(mbs, nodes, np.array(guide.direction) @ rows[:2], side, law)

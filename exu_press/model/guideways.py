@@ -6,25 +6,28 @@ import numpy as np
 
 from exu_press.joints.add import add_guideway_contact, add_guideway_film
 from exu_press.joints.joint import ClearanceJoint
+from exu_press.laws.contact import hertz
 from exu_press.mechanism import Guide, Guideway, Point
 from exu_press.model.system import System
-from exu_press.scene.laws import guide_contact_law, guide_friction_law
 
 __all__ = ["add_guideways"]
 
 
 def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[ClearanceJoint, ...]:
     """Add the contacts of both ends of a body with its guideways, and the film if there is one."""
-    table, contact = system.scene.guide, system.scene.contact
-    assert table is not None
+    scene = system.scene
+    assert scene.guide is not None
+    contact, oil = scene.guide.contact(scene.contact or {}), scene.guide.oil
     assert contact is not None
+    friction = scene.guide.friction_table(scene.friction or {})
     body = system.mechanism.body(guide.body)
     along = np.array(guide.direction)
     points = (
         np.array(body.centre_of_mass) + 0.5 * side * guideway.length * along for side in (-1.0, 1.0)
     )
     ends = [_end(system, guide.body, body.local((float(x), float(y)))) for x, y in points]
-    onset = 0.0 if table.contact_gap is None else table.contact_gap
+    onset = 0.0 if oil is None else oil.contact_gap
+    elastic = hertz(guideway.stiffness, 1.0)
     contacts = [
         add_guideway_contact(
             system.mbs,
@@ -32,17 +35,14 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
             middle=body.centre_of_mass,
             direction=guide.direction,
             clearance=guideway.clearance - onset,
-            contact=guide_contact_law(
-                contact, guideway.stiffness, guideway.clearance, system.scene.angular_speed
-            ),
-            friction=guide_friction_law(table, system.scene.friction),
+            contact=contact.damped(elastic, guideway.clearance, scene.angular_speed),
+            friction=friction.friction(),
             half_width=guideway.half_width,
         )
         for end in ends
     ]
-    if table.viscosity is None:
+    if oil is None:
         return tuple(contacts)
-    assert table.face_width is not None
     film = add_guideway_film(
         system.mbs,
         *ends,
@@ -50,8 +50,8 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
         direction=guide.direction,
         clearance=guideway.clearance,
         length=guideway.length,
-        face_width=table.face_width,
-        viscosity=table.viscosity,
+        face_width=oil.face_width,
+        viscosity=oil.viscosity,
         asperity_onset=onset,
         half_width=guideway.half_width,
     )

@@ -158,9 +158,9 @@ class Model(SolvableModel):
         forces = {name: load.force_at_rest(time) for name, load in self.loads.items()}
         needed = holding_torque(self.mechanism, self.scene, forces, angle)
         slips = start_stop is not None and start_stop.slips
-        available = motor.law(self.scene.speed_rpm)(speed)[0]
-        if slips and motor.clutch_torque is not None:
-            available = motor.clutch_torque
+        available = motor.torque.law(self.scene.speed_rpm)(speed)[0]
+        if slips and motor.clutch is not None:
+            available = motor.clutch.clutch_torque
         return stall_message(time, angle, needed, available, slips=slips)
 
 

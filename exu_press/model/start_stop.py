@@ -234,20 +234,26 @@ def add_start_stop(system: System, turned: str, crank: CrankAngle) -> StartStop:
     """
     motor = system.scene.drive
     assert motor is not None
-    assert motor.clutch_torque is not None
-    schedule = motor.schedule()
+    assert motor.clutch is not None
+    clutch, brake = motor.clutch, motor.clutch.brake
+    schedule = clutch.schedule(not motor.stands)
     start_stop = StartStop(schedule, crank, system.scene.angular_speed, motor.ends_after)
     inertia = _crank_inertia(system.mechanism)
     reduced_inertia = 1.0 / (1.0 / inertia + 1.0 / motor.inertia)
     wheel, shaft = system.coordinate(FLYWHEEL, "angle"), system.coordinate(turned, "angle")
     elements = {
-        "clutch": (motor.clutch_torque, reduced_inertia, schedule.clutch, [shaft, wheel]),
-        "brake": (motor.brake_torque, inertia, schedule.brake, [system.still, shaft]),
+        "clutch": (clutch.clutch_torque, reduced_inertia, schedule.clutch, [shaft, wheel]),
+        "brake": (
+            None if brake is None else brake.brake_torque,
+            inertia,
+            schedule.brake,
+            [system.still, shaft],
+        ),
     }
     for name, (torque, moving, engagement, markers) in elements.items():
         if torque is None:
             continue
-        stiffness = torque / math.radians(motor.windup_deg)
+        stiffness = torque / math.radians(clutch.windup_deg)
         coupling = Coupling(stiffness, 2.0 * DAMPING_RATIO * math.sqrt(stiffness * moving))
         element = ClutchElement(system.mbs, coupling, torque, engagement, crank, markers)
         kind = exu.OutputVariableType.Force

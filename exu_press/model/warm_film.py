@@ -9,12 +9,12 @@ import numpy as np
 from exu_press.joints.history import JointHistory
 from exu_press.joints.interface import FilmInterface, InterfaceJoint
 from exu_press.joints.joint import ClearanceJoint
-from exu_press.laws.catalogue import FILM_LAWS
 from exu_press.laws.film.contract import film_scale
 from exu_press.laws.film.oil import HOTTEST, STEADY, film_temperature
 from exu_press.laws.film.side_flow import SideFlow
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.scene import LubricatedJoint
+from exu_press.scene.film import JournalFilm
 from exu_press.scene.joint import Joint, unworn
 
 __all__ = ["Heat", "WarmFilm", "warm_films"]
@@ -72,9 +72,10 @@ class WarmFilm:
     def __post_init__(self) -> None:
         """Find the side flow."""
         film, joint = self.joint.film, self.joint
-        assert film.oil is not None and film.length is not None  # no ball
+        assert isinstance(film, JournalFilm)
+        assert film.oil is not None and film.length is not None
         self.oil, self._length = film.oil, film.length
-        self._flow: SideFlow = FILM_LAWS[film.law].side_flow(film.length / (2.0 * joint.radius))
+        self._flow: SideFlow = film.side_flow(joint.radius)
 
     @property
     def viscosity(self) -> float:

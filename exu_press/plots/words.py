@@ -4,10 +4,11 @@ import math
 import textwrap
 from collections.abc import Collection, Iterable, Mapping
 
+from exu_press.mechanism.press import NoCounterweight
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
-from exu_press.scene.tables import ElasticGuide
+from exu_press.scene.guide import ElasticGuide
 
 __all__ = ["ONE_LINE", "describe", "early_stops", "joint_in_words"]
 
@@ -78,11 +79,11 @@ def _parts(scene: Scene, joints: Collection[str], *, grouped: bool) -> dict[str,
     parts |= _of_loads(scene)
     if scene.drive is not None:
         motor = scene.drive
-        torque = motor.rated_torque if motor.table_torque is None else max(motor.table_torque)
+        torque = motor.torque.shown_torque
         parts["drive"] = f"motor of {torque:g} N m, flywheel {motor.inertia:g} kg m²"
     if scene.guide is not None:
         parts["guides"] = _of_guides(scene.guide)
-    if scene.press is not None and not scene.press.counterweight:
+    if scene.press is not None and isinstance(scene.press.counterweight, NoCounterweight):
         parts["counterweight"] = "no counterweight"
     return parts
 
@@ -91,10 +92,10 @@ def _of_guides(guide: ElasticGuide) -> str:
     words = []
     if guide.clearance is not None:
         words.append(f"clearance {guide.clearance * 1e3:g} mm")
-    if guide.viscosity is not None:
-        words.append(f"oil of {guide.viscosity:g} Pa s")
+    if guide.oil is not None:
+        words.append(f"oil of {guide.oil.viscosity:g} Pa s")
     if guide.rubs:
-        words.append(f"{guide.friction} friction")
+        words.append(f"{guide.friction.kind} friction")
     kinds = ["elastic"] if guide.soft and guide.clearance is None else []
     kinds += [f"with {' and '.join(words)}"] if words else []
     return f"guides {', '.join(kinds)}"

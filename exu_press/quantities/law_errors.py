@@ -6,8 +6,8 @@ and a slider-crank with viscosities 1 % apart; tests/quantities/test_law_errors.
 them all.
 """
 
-from exu_press.laws.catalogue import BALL_ERROR, FILM_LAWS, PAD_ERROR
-from exu_press.scene import LubricatedJoint, Scene
+from exu_press.laws.catalogue import PAD_ERROR
+from exu_press.scene import Scene
 from exu_press.scene.joint import oil_of
 
 __all__ = [
@@ -23,10 +23,8 @@ __all__ = [
 
 def _relative_film_error(scene: Scene, joint: str) -> float:
     """Return the relative error of a joint's film, 0.0 without one, or of a closed form."""
-    kind = scene.joints[joint]
-    if not isinstance(kind, LubricatedJoint):
-        return 0.0
-    return BALL_ERROR if kind.film.length is None else FILM_LAWS[kind.film.law].error
+    film = scene.joints[joint].film
+    return 0.0 if film is None else film.error
 
 
 def film_error(scene: Scene, joint: str, value: float) -> float:
@@ -48,13 +46,13 @@ def dissipation_error(scene: Scene, _: str, value: float) -> float:
 
 def guide_film_error(scene: Scene, _: str, value: float) -> float:
     """Return the error of the thickness of the films between bodies and their guideways."""
-    oiled = scene.guide is not None and scene.guide.viscosity is not None
+    oiled = scene.guide is not None and scene.guide.oil is not None
     return PAD_ERROR * abs(value) if oiled else 0.0
 
 
 def _relative_flow_error(scene: Scene, joint: str) -> float:
-    kind = scene.joints[joint]
-    return FILM_LAWS[kind.film.law].flow_error if isinstance(kind, LubricatedJoint) else 0.0
+    film = scene.joints[joint].film
+    return 0.0 if film is None else film.flow_error
 
 
 def side_flow_error(scene: Scene, joint: str, value: float) -> float:

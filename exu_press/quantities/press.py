@@ -86,7 +86,7 @@ def _guide_loss(run: Reading, body: str) -> Array:
 
 
 def _has_oiled_guides(scene: Scene, _: str) -> bool:
-    return scene.guide is not None and scene.guide.viscosity is not None
+    return scene.guide is not None and scene.guide.oil is not None
 
 
 def _thinnest(run: Reading, body: str) -> float | None:

@@ -9,6 +9,7 @@ from exu_press.quantities.kind import DIFFERENCE, ENERGY, MOTION
 from exu_press.quantities.quantity import Extreme, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.scene import Scene
+from exu_press.scene.start_stop import Clutch
 
 __all__ = ["START_STOP", "still_turns"]
 
@@ -20,37 +21,44 @@ STILL = 1e-3
 
 
 def _clutch(scene: Scene, _: str) -> bool:
-    return scene.drive is not None and scene.drive.clutch_torque is not None
+    return scene.drive is not None and scene.drive.clutch is not None
 
 
 def _stops(scene: Scene, _: str) -> bool:
-    return _clutch(scene, "") and scene.drive is not None and scene.drive.stops
+    return scene.drive is not None and scene.drive.stops
 
 
 def _starts(scene: Scene, _: str) -> bool:
-    return _clutch(scene, "") and scene.drive is not None and bool(scene.drive.start_time)
+    return scene.drive is not None and scene.drive.starts
 
 
 def _brakes(scene: Scene, _: str) -> bool:
-    return _clutch(scene, "") and scene.drive is not None and scene.drive.brake_torque is not None
+    clutch = None if scene.drive is None else scene.drive.clutch
+    return clutch is not None and clutch.brake is not None
+
+
+def _clutch_of(run: Reading) -> Clutch:
+    motor = run.result.scene.drive
+    assert motor is not None and motor.clutch is not None
+    return motor.clutch
 
 
 def _starts_of(run: Reading) -> tuple[float, ...]:
-    assert run.result.scene.drive is not None
-    return run.result.scene.drive.start_time or ()
+    clutch = _clutch_of(run)
+    return () if clutch.start is None else clutch.start.start_time
 
 
 def _stops_of(run: Reading) -> list[float]:
     """Return the instants of commands to stop, s, as far as the run got."""
-    motor, time = run.result.scene.drive, run.time
-    assert motor is not None
-    commands = list(motor.stop_time or ())
-    if motor.stop_angle_deg is not None:
-        reached = np.flatnonzero(run["crank_angle"] >= np.radians(motor.stop_angle_deg))
+    stop, time = _clutch_of(run).stop, run.time
+    assert stop is not None
+    commands = list(stop.stop_time or ())
+    if stop.stop_angle_deg is not None:
+        reached = np.flatnonzero(run["crank_angle"] >= np.radians(stop.stop_angle_deg))
         if reached.size and reached[0]:
             pair = slice(reached[0] - 1, reached[0] + 1)
             angles = run["crank_angle"][pair]
-            commands = [float(np.interp(np.radians(motor.stop_angle_deg), angles, time[pair]))]
+            commands = [float(np.interp(np.radians(stop.stop_angle_deg), angles, time[pair]))]
     return [at for at in commands if time[0] <= at <= time[-1]]
 
 

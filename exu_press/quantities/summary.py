@@ -133,9 +133,8 @@ def _penetration_warnings(name: str, joint: JointRecord, described: Joint) -> It
             f"{100.0 * depth / radius:.3g} % of its radius; contact laws are those of small "
             "deformations: are the modulus or the stiffness of [contact], and the loads, meant so?"
         )
-    hertz = joint.spherical or described.contact.shape == "point"
     wide = math.sqrt(depth * radius * (radius + clearance) / clearance)
-    if hertz and described.contact.stiffness is None and wide > WIDE * radius:
+    if described.contact.is_hertzian and wide > WIDE * radius:
         yield (
             f"{label}: pressed in by up to {1e6 * depth:.3g} um, so that the contact's radius is "
             f"{wide / radius:.2g} times the ball's; Hertz's contact is small against it, and its "

@@ -1,6 +1,5 @@
 """Units and meanings of a table's columns."""
 
-import dataclasses
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -9,8 +8,8 @@ from exu_press.quantities.catalogue import find_quantity
 from exu_press.scene import DryJoint, Flexible, Scene
 from exu_press.scene.load import LOAD_KINDS
 from exu_press.scene.oil import Oil
-from exu_press.scene.usage import TABLES
-from exu_press.schema.checks import Table
+from exu_press.scene.usage import TABLES, table_keys
+from exu_press.schema.table import declared_keys
 
 __all__ = ["meaning_of", "shown_unit", "unit_of", "with_unit"]
 
@@ -74,17 +73,20 @@ def _metadata(name: str) -> Mapping[str, Any] | None:
     if path.startswith("mechanism."):
         return {"unit": unit_in_mechanism(path), "meaning": ""}
     table, _, inner = path.rpartition(".")
-    kind: type[Table] = TABLES.get(table, Scene)
+    law = table.rpartition(".")[2] if table.startswith("joints.") else table
     if table == "film.oil" or table.endswith(".film.oil"):
-        kind = Oil
-    elif table.startswith("joints."):  # joints.NAME.key or joints.NAME.law.key
-        kind = TABLES.get(table.rpartition(".")[2], DryJoint)
+        fields = declared_keys(Oil)
+    elif law in TABLES:  # also joints.NAME.law.key
+        fields = table_keys(law)
+    elif table.startswith("joints."):
+        fields = declared_keys(DryJoint)
     elif table.startswith("load."):
-        kind = next((k for k in LOAD_KINDS.values() if inner in k.__dataclass_fields__), Scene)
+        fields = {name: f for k in LOAD_KINDS.values() for name, f in declared_keys(k).items()}
     elif table.startswith("bodies."):
-        kind = Flexible
-    elif table and table not in TABLES:
+        fields = declared_keys(Flexible)
+    elif table:
         return None
-    fields = {field.name: field for field in dataclasses.fields(kind)}
+    else:
+        fields = declared_keys(Scene)
     field = fields.get(inner)
     return field.metadata if field is not None and "meaning" in field.metadata else None

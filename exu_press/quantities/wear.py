@@ -284,9 +284,10 @@ def _pressure_velocity(run: Reading, joint: str) -> Array:
 
 def _guide_pressure_velocity(run: Reading, body: str) -> Array:
     result = run.result
-    guide = result.scene.guide
-    assert guide is not None
-    area = guide.length * wear_of(result.scene, "guides", body).length
+    assert result.scene.guide is not None
+    guideways = result.scene.guide.guideways
+    assert guideways is not None
+    area = guideways.length * wear_of(result.scene, "guides", body).length
     return np.asarray(sum(end.power for end in _ends(result, body)) / area)
 
 

@@ -90,12 +90,12 @@ def expected_channels(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, 
         "body": [body.name for body in mechanism.bodies],
         "pivoted": joints,
     }
-    motor = scene.drive
+    clutch = None if scene.drive is None else scene.drive.clutch
     missing = {
         OWN: own_items,
         UNBALANCED: not mechanism.counterweight,
-        NO_CLUTCH: motor is None or motor.clutch_torque is None,
-        NO_BRAKE: motor is None or motor.brake_torque is None,
+        NO_CLUTCH: clutch is None,
+        NO_BRAKE: clutch is None or clutch.brake is None,
     }
     return {
         declared.name_of(owner): (

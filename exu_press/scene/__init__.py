@@ -7,26 +7,30 @@ from exu_press.schema.checks import key
 
 if TYPE_CHECKING:
     from exu_press.scene.bodies import Face, Flexible, flexible_press
+    from exu_press.scene.contact import ContactDamping
     from exu_press.scene.custom import CustomJoint
     from exu_press.scene.file import parse_assignment
+    from exu_press.scene.film import FilmLaw
+    from exu_press.scene.friction import FrictionLaw
+    from exu_press.scene.guide import ElasticGuide
     from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
     from exu_press.scene.joints import Joints
     from exu_press.scene.load import BlankingLoad, CustomLoad, SheetLoad, SpringLoad, TableLoad
     from exu_press.scene.motor import Motor
     from exu_press.scene.scene import Scene, mechanism_of
-    from exu_press.scene.tables import Contact, ElasticGuide, Film, Friction, Solver
+    from exu_press.scene.solver import Solver
 
 __all__ = [
     "BlankingLoad",
-    "Contact",
+    "ContactDamping",
     "CustomJoint",
     "CustomLoad",
     "DryJoint",
     "ElasticGuide",
     "Face",
-    "Film",
+    "FilmLaw",
     "Flexible",
-    "Friction",
+    "FrictionLaw",
     "IdealJoint",
     "Joints",
     "LubricatedJoint",
@@ -46,13 +50,17 @@ __getattr__ = lazy_names(
     __name__,
     {
         "bodies": "Face Flexible flexible_press",
+        "contact": "ContactDamping",
         "custom": "CustomJoint",
         "file": "parse_assignment",
+        "film": "FilmLaw",
+        "friction": "FrictionLaw",
+        "guide": "ElasticGuide",
         "joint": "DryJoint IdealJoint LubricatedJoint",
         "joints": "Joints",
         "load": "BlankingLoad CustomLoad SheetLoad SpringLoad TableLoad",
         "motor": "Motor",
         "scene": "Scene mechanism_of",
-        "tables": "Contact ElasticGuide Film Friction Solver",
+        "solver": "Solver",
     },
 )

@@ -1,7 +1,7 @@
 """Assumptions of a scene: its defaults, and those of them that decide its results.
 
 The assumptions A-1 to A-14, which fill the paper's gaps, are listed here once;
-meanings, defaults and their sources are in tables.py.
+meanings, defaults and their sources are in the modules of the tables.
 """
 
 import dataclasses
@@ -12,13 +12,11 @@ from typing import Any
 
 from exu_press.mechanism import Mechanism
 from exu_press.scene.changes import named
-from exu_press.scene.joint import LAW_TABLES, SIZES, DryJoint, Joint, LubricatedJoint
-from exu_press.scene.laws import slowest_impact
-from exu_press.scene.oil import Oil
+from exu_press.scene.joint import SIZES, Joint
+from exu_press.scene.law_keys import LawKeys
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
-from exu_press.scene.tables import DEFAULT_TOLERANCE, USUAL_STIFFNESS
-from exu_press.scene.usage import TABLES
-from exu_press.schema.checks import Table
+from exu_press.scene.usage import LAWS, TABLES
+from exu_press.schema.table import Table, key_values
 
 __all__ = [
     "ASSUMPTIONS",
@@ -130,11 +128,9 @@ class Key:
 
 def keys_of(scene: Scene) -> dict[str, Key]:
     """Return every key that a scene uses, by name, with the default it would have."""
-    defaults = _law_defaults(scene)
-    defaults |= {"film.at_contact": "stop", "solver.tolerance": DEFAULT_TOLERANCE}
-    if scene.guide is not None and scene.guide.clearance is not None:
-        defaults["guide.lateral_stiffness"] = USUAL_STIFFNESS
-    defaults["start"] = mechanism_of(scene).defaults.get("start", STARTS[0])
+    own = mechanism_of(scene).defaults
+    defaults = {f"{law}.{key}": value for law in LAWS for key, value in own.get(law, {}).items()}
+    defaults["start"] = own.get("start", STARTS[0])
     found = {}
     for name, (value, field) in _flat(scene):
         default = defaults.get(name, field.default)
@@ -184,19 +180,15 @@ def engineering_values(scene: Scene) -> list[Key]:
 
 def _slowest_impacts(scene: Scene) -> list[Key]:
     """Return the key of the speed as which slow contacts are damped, where clearances give it."""
-    touching = [
+    touching: list[tuple[Any, float]] = [
         (joint.contact, joint.clearance)
         for joint in scene.joints.with_clearance.values()
-        if isinstance(joint, DryJoint | LubricatedJoint) and joint.contact is not None
+        if joint.contact is not None
     ]
     if scene.guide is not None and scene.guide.clearance is not None:
-        assert scene.contact is not None
-        touching.append((scene.contact, scene.guide.clearance))
-    speeds = sorted(
-        slowest_impact(contact, clearance, scene.angular_speed)
-        for contact, clearance in touching
-        if contact.damping != "step" and contact.slowest_impact is None
-    )
+        touching.append((scene.guide.contact(scene.contact or {}), scene.guide.clearance))
+    usual = [(table.damping, scene.angular_speed * clearance) for table, clearance in touching]
+    speeds = sorted(filter(None, (law.assumed_slowest_impact(speed) for law, speed in usual)))
     if not speeds:
         return []
     value = speeds[0] if speeds[0] == speeds[-1] else f"{speeds[0]:g} to {speeds[-1]:g}"
@@ -213,22 +205,15 @@ def _decisive(scene: Scene) -> dict[str, Key]:
 def _shared(scene: Scene, key: Key) -> bool:
     """Return whether a key is none of a law, or the law's for some joint or guide."""
     law, _, name = key.name.partition(".")
-    if law not in LAW_TABLES:
+    if law not in LAWS:
         return True
-    guide = scene.guide
-    if guide is not None and (
-        (law == "contact" and guide.clearance is not None)
-        or (law == "friction" and guide.friction != "none")
-    ):
+    if scene.guide is not None and name in scene.guide.law_keys(law, LawKeys(scene.laws, {})):
         return True
     given = dict.fromkeys(scene.asked)
     for place, joint in scene.joints.with_clearance.items():
         if named(f"joints.{place}.{key.name}", scene.joints.groups, given):
             continue
-        table = getattr(joint, law, None)
-        for part in name.split("."):
-            table = getattr(table, part, None)
-        if table == key.value:
+        if _nested_value(getattr(joint, law), name) == key.value:
             return True
     return False
 
@@ -253,18 +238,16 @@ def assumed_line(scene: Scene) -> str:
 def _own_laws(scene: Scene) -> set[str]:
     """Return the keys of laws and start that the scene's mechanism has values of its own for."""
     own = mechanism_of(scene).defaults
-    laws = {f"{law}.{key}" for law in LAW_TABLES for key in own.get(law, {})}
+    laws = {f"{law}.{key}" for law in LAWS for key in own.get(law, {})}
     return laws | ({"start"} & own.keys())
 
 
-def _law_defaults(scene: Scene) -> dict[str, Any]:
-    own = mechanism_of(scene).defaults
-    found: dict[str, Any] = {
-        f"{law}.{field.name}": own.get(law, {}).get(field.name, field.default)
-        for law, table in LAW_TABLES.items()
-        for field in dataclasses.fields(table)
-    }
-    return found | {f"film.oil.{field.name}": field.default for field in dataclasses.fields(Oil)}
+def _nested_value(table: Table | None, name: str) -> Any:
+    """Return the value of a dotted key of a table, None where it has none."""
+    values = {} if table is None else {key: value for key, value, _ in key_values(table)}
+    first, _, rest = name.partition(".")
+    value = values.get(first)
+    return _nested_value(value, rest) if rest else value
 
 
 def _joint_keys(scene: Scene) -> dict[str, Key]:
@@ -284,7 +267,7 @@ def _joint_keys(scene: Scene) -> dict[str, Key]:
         for field in dataclasses.fields(joint):
             own, law = getattr(joint, field.name), scene.laws.get(field.name)
             if own is not None and law is not None:
-                keys = _keys_in(f"{place}.{field.name}", own, dataclasses.asdict(law))
+                keys = _keys_in(f"{place}.{field.name}", own, law)
                 found += (key for key in keys.values() if key.changed)
     return {key.name: key for key in found}
 
@@ -292,16 +275,19 @@ def _joint_keys(scene: Scene) -> dict[str, Key]:
 def _keys_in(place: str, table: Table, defaults: Mapping[str, Any]) -> dict[str, Key]:
     """Return the keys of one table that are given, with other defaults than the declared ones."""
     found: dict[str, Key] = {}
-    for field in dataclasses.fields(table):
-        value, meta = getattr(table, field.name), field.metadata
-        if "inner" in meta and value is not None:
-            usual = defaults.get(field.name) or {}
-            found |= _keys_in(f"{place}.{field.name}", value, usual)
-        elif meta and value is not None:
-            default = defaults.get(field.name, field.default)
-            name = f"{place}.{field.name}"
+    for key, value, field in key_values(table):
+        name, meta = f"{place}.{key}", field.metadata
+        if isinstance(value, Table) and "nested" in meta:
+            usual = defaults.get(key)
+            found |= _keys_in(name, value, {} if usual is None else _values(usual))
+        elif "meaning" in meta and value is not None:
+            default = defaults.get(key, field.default)
             found[name] = Key(name, value, default, meta["unit"], meta["meaning"])
     return found
+
+
+def _values(table: Table) -> dict[str, Any]:
+    return {name: value for name, value, _ in key_values(table)}
 
 
 def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]]]]:
@@ -313,13 +299,31 @@ def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]
                 yield field.name, (getattr(scene, field.name), field)
             continue
         table = getattr(scene, field.name)
-        yield from _inside(field.name, table) if table is not None else ()
+        if field.name in LAWS:
+            yield from _law_keys(scene, field.name)
+        elif table is not None:
+            yield from _inside(field.name, table)
 
 
-def _inside(place: str, table: Table) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]]]]:
+Declared = tuple[str, tuple[Any, dataclasses.Field[Any]]]
+
+
+def _law_keys(scene: Scene, law: str) -> Iterator[Declared]:
+    """Yield the same of [contact], [friction] or [film]."""
+    laws = LawKeys(scene.laws, {})
+    of_guides = {} if scene.guide is None else scene.guide.law_keys(law, laws)
+    fields = {**scene.joints.law_keys(law), **of_guides}
+    for name, value in (scene.laws[law] or {}).items():
+        if isinstance(value, Table):
+            yield from _inside(f"{law}.{name}", value)
+        else:
+            yield f"{law}.{name}", (value, fields[name])
+
+
+def _inside(place: str, table: Table) -> Iterator[Declared]:
     """Yield the same of one table, and of the tables within it."""
-    for field in dataclasses.fields(table):
-        name, value = f"{place}.{field.name}", getattr(table, field.name)
+    for key, value, field in key_values(table):
+        name = f"{place}.{key}"
         if isinstance(value, Table):
             yield from _inside(name, value)
         elif value is not None:

@@ -8,15 +8,8 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from exu_press.errors import InputError, UnusedKeyError, prefixed, required_package
-from exu_press.schema.checks import (
-    Table,
-    changed_table,
-    demand_known,
-    key,
-    plain,
-    refuse_unknown,
-    table_from,
-)
+from exu_press.schema.checks import demand_known, key, refuse_unknown
+from exu_press.schema.table import Table, changed_table, plain, table_from
 
 __all__ = [
     "DRIVE_FACE",
@@ -101,7 +94,7 @@ class Flexible(Table):
     """A flexible body: a shipped part or a STEP file, its material, mesh and modes."""
 
     required: ClassVar[tuple[str, ...]] = ("flexible",)
-    instead: ClassVar[Mapping[str, str]] = {
+    exclusive_with: ClassVar[Mapping[str, str]] = {
         "flexibility_error": "modes",
         "modes": "flexibility_error",
     }

@@ -16,7 +16,8 @@ from exu_press.mechanism import (
 from exu_press.scene.bodies import changed_bodies
 from exu_press.scene.joint_changes import changed_joints
 from exu_press.scene.usage import TABLES
-from exu_press.schema.checks import RENAMED, changed_table, given_in, nearest
+from exu_press.schema.checks import nearest
+from exu_press.schema.table import RENAMED, changed_table, given_keys
 
 __all__ = ["asked_mechanism", "changed_keys", "drop", "named"]
 
@@ -128,12 +129,12 @@ def drop(data: dict[str, Any], name: str) -> None:
     if not rest:
         data.pop(first, None)
         return
-    data[first] = given_in(data[first])
+    data[first] = given_keys(data[first])
     drop(data[first], rest)
 
 
 def _has(value: Any, name: str) -> bool:
     """Return whether a table that is given has a key."""
     first, _, rest = name.partition(".")
-    keys = given_in(value)
+    keys = given_keys(value)
     return first in keys and (not rest or _has(keys[first], rest))

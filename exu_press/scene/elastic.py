@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from exu_press.mechanism import Guide, Guideway, Mechanism, Spring
-from exu_press.scene.tables import ElasticGuide
+from exu_press.scene.guide import ElasticGuide, ElasticSupport, GuidewaySupport
 
 __all__ = ["with_elastic_guides"]
 
@@ -22,33 +22,31 @@ def with_elastic_guides(
         elastic: [guide] of the scene; without it, or without stiffness, guides stay ideal.
         solids: body -> mass, kg, and inertia, kg m^2, where these are not the drawn ones.
     """
-    if elastic is None or elastic.lateral_stiffness is None:
+    if elastic is None or elastic.support is None:
         return drawn
     drawn_ones = {guide.body: drawn.body(guide.body) for guide in drawn.guides}
     inertias = {name: (body.mass, body.inertia) for name, body in drawn_ones.items()}
     inertias |= solids or {}
-    guides = (
-        _elastic(guide, inertias[guide.body], elastic, elastic.lateral_stiffness)
-        for guide in drawn.guides
-    )
+    guides = (_elastic(guide, inertias[guide.body], elastic.support) for guide in drawn.guides)
     return replace(drawn, guides=tuple(guides))
 
 
 def _elastic(
-    guide: Guide, inertia: tuple[float, float], elastic: ElasticGuide, lateral: float
+    guide: Guide, inertia: tuple[float, float], support: ElasticSupport | GuidewaySupport
 ) -> Guide:
     """Return a guide of springs, or of guideways with clearance, in place of an ideal one."""
-    if elastic.clearance is not None:
-        half_width = 0.5 * elastic.width
-        guideway = Guideway(elastic.clearance, elastic.length, half_width, 0.5 * lateral)
+    lateral = support.lateral_stiffness
+    if isinstance(support, GuidewaySupport):
+        half_width = 0.5 * support.width
+        guideway = Guideway(support.clearance, support.length, half_width, 0.5 * lateral)
         return replace(guide, guideway=guideway)
     mass, about_centre = inertia
-    tilting = elastic.tilting_stiffness or lateral * elastic.length**2 / 12
-    ratio = elastic.damping_ratio
+    tilting = support.tilting_stiffness or lateral * support.length**2 / 12
+    ratio = support.damping_ratio
     return replace(
         guide,
-        lateral=_spring(lateral, elastic.lateral_damping, ratio, mass),
-        tilting=_spring(tilting, elastic.tilting_damping, ratio, about_centre),
+        lateral=_spring(lateral, support.lateral_damping, ratio, mass),
+        tilting=_spring(tilting, support.tilting_damping, ratio, about_centre),
     )
 
 

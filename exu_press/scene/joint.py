@@ -3,189 +3,219 @@
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, cast
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, cast
 
 from exu_press.errors import InputError
-from exu_press.scene.custom import CustomJoint, UnresolvedJoint, custom_class
-from exu_press.scene.tables import Contact, Film, Friction, asperity_onset
-from exu_press.schema.checks import Table, demand_keys, key, plain
+from exu_press.schema.checks import key
+from exu_press.schema.kinds import CustomKind
+from exu_press.schema.registry import Registry
+from exu_press.schema.table import Table, demand_keys, key_values, plain
 
 if TYPE_CHECKING:
+    from exu_press.laws.contact_damping import NormalContact
+    from exu_press.laws.film.contract import FilmLaw
+    from exu_press.scene.contact import BallContact, JournalContact
+    from exu_press.scene.film import BallFilm, JournalFilm
+    from exu_press.scene.friction import Friction
     from exu_press.scene.oil import Oil
     from exu_press.scene.worn import Worn
 
 __all__ = [
     "JOINT_KINDS",
-    "LAW_TABLES",
     "SIZES",
     "DryJoint",
     "IdealJoint",
     "Joint",
-    "LooseJoint",
     "LubricatedJoint",
-    "joint_dict",
-    "keys_used",
+    "TouchingJoint",
     "oil_of",
-    "refuse_missing",
-    "refuse_missing_damping",
     "unworn",
 ]
 
 SIZES = ("clearance", "radius")
 """Keys that a joint with clearance needs; a mechanism may have them for all joints."""
 
+JOINT_KINDS = Registry(
+    {
+        "ideal": "scene.joint:IdealJoint",
+        "dry": "scene.joint:DryJoint",
+        "lubricated": "scene.joint:LubricatedJoint",
+    },
+    base="scene.custom:CustomJoint",
+)
+
+
+class Joint(CustomKind, Table):
+    """A joint of a scene; what not every kind has is None."""
+
+    clearance: float = 0.0
+    contact: "JournalContact | BallContact | None" = None
+    friction: "Friction | None" = None
+    film: "JournalFilm | BallFilm | None" = None
+    worn: "Worn | None" = None
+    onset: float | None = None
+    """Gap at which the surfaces begin to touch, m; None where they never do."""
+
+    def demand_keys(self, place: str) -> None:
+        """Raise InputError for the first missing key that decides its behaviour.
+
+        Args:
+            place: dotted name of the joint.
+        """
+
+    def check_laws(self) -> None:
+        """Make every law once, so that values outside its range are refused before a run."""
+
+    def to_dict(self, laws: Mapping[str, Mapping[str, Any] | None]) -> dict[str, Any]:
+        """Return the joint as a nested mapping, with the keys of laws that differ from a scene's.
+
+        Args:
+            laws: of the scene, "contact", "friction" and "film".
+        """
+        keys: dict[str, Any] = {"kind": self.kind}
+        for field in dataclasses.fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, Table):
+                usual = laws.get(field.name) or {}
+                own = {
+                    name: plain(inner) if isinstance(inner, Table) else inner
+                    for name, inner, _ in key_values(value)
+                    if inner is not None and inner != usual.get(name)
+                }
+                keys |= {field.name: own} if own else {}
+            elif value is not None:
+                keys[field.name] = value
+        return keys
+
 
 @dataclass(frozen=True)
-class IdealJoint(Table):
+class IdealJoint(Joint):
     """A joint without clearance."""
 
-    kind: ClassVar[Literal["ideal"]] = "ideal"
-    clearance: ClassVar[float] = 0.0
-    contact: ClassVar[None] = None
-    friction: ClassVar[None] = None
-    worn: ClassVar[None] = None
-    onset: ClassVar[None] = None
+    registered_name: ClassVar[str] = "ideal"
 
 
-@dataclass(frozen=True)
-class DryJoint(Table):
-    """A joint whose journal or ball lies loose in its bearing or socket.
+class TouchingJoint(Joint):
+    """A journal or ball, loose in its bearing or socket.
 
     Keys that are not given are None until the scene fills them in.
     """
 
-    kind: ClassVar[Literal["dry"]] = "dry"
-    clearance: float = key(None, "radial clearance", "m", above=0, example=5e-5)
-    radius: float = key(None, "of the journal or ball", "m", above=0, example=0.03)
-    contact: Contact = dataclasses.field(default=cast(Any, None))
-    friction: Friction = dataclasses.field(default=cast(Any, None))
-    worn: "Worn | None" = None
+    radius: float
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        _check_clearance(self)
+        if self.worn is not None and self.clearance is not None:
+            self.worn.refuse_sharp(self.clearance)
+        if None not in (self.clearance, self.radius) and self.clearance >= self.radius:
+            raise InputError(
+                f"clearance = {self.clearance!r}: allowed is a number < radius = {self.radius!r}"
+            )
+
+    def demand_keys(self, place: str) -> None:
+        """Raise InputError for the first missing key that decides its behaviour."""
+        demand_keys(place, self, SIZES, "", f"[{place}]")
+        if self.contact is not None:
+            lengths = () if self.film_length else ("length",)
+            where = f"[contact] or [{place}.contact]"
+            demand_keys(place, self.contact, lengths, "contact", where)
+
+    def check_laws(self) -> None:
+        """Make every law once, so that values outside its range are refused before a run."""
+        self.normal_contact(1.0)
+        if self.friction is not None:
+            self.friction.friction()
 
     @property
-    def onset(self) -> float:
-        """Gap at which the surfaces begin to touch, m."""
-        return 0.0
+    def film_length(self) -> float | None:
+        """Length of its film, m, or None."""
+        return None if self.film is None else self.film.length
+
+    def normal_contact(self, crank_speed: float) -> "NormalContact | None":
+        """Return the normal contact of its surfaces at a speed of the crank, rad/s, or None."""
+        if self.contact is None:
+            return None
+        elastic = self.contact.elastic_force(self.radius, self.clearance, self.film_length)
+        return self.contact.damped(elastic, self.clearance, crank_speed)
+
+
+def _clearance() -> Any:
+    return key(None, "radial clearance", "m", above=0, example=5e-5)
+
+
+def _radius() -> Any:
+    return key(None, "of the journal or ball", "m", above=0, example=0.03)
 
 
 @dataclass(frozen=True)
-class LubricatedJoint(Table):
-    """A journal or ball in its bearing or socket, full of oil; they touch with a mixed film alone.
+class DryJoint(TouchingJoint):
+    """A joint without oil."""
 
-    Keys that are not given are None until the scene fills them in; contact and friction stay None
-    where the film alone carries.
+    registered_name: ClassVar[str] = "dry"
+    clearance: float = _clearance()
+    radius: float = _radius()
+    contact: "JournalContact | BallContact | None" = None
+    friction: "Friction | None" = None
+    worn: "Worn | None" = None
+    onset: ClassVar[float] = 0.0  # type: ignore[misc]
+
+
+@dataclass(frozen=True)
+class LubricatedJoint(TouchingJoint):
+    """A joint full of oil, whose surfaces touch with a mixed film alone.
+
+    Contact and friction stay None where the film alone carries.
     """
 
-    kind: ClassVar[Literal["lubricated"]] = "lubricated"
-    clearance: float = key(None, "radial clearance", "m", above=0, example=5e-5)
-    radius: float = key(None, "of the journal or ball", "m", above=0, example=0.03)
-    film: Film = dataclasses.field(default=cast(Any, None))
-    contact: Contact | None = None
-    friction: Friction | None = None
+    registered_name: ClassVar[str] = "lubricated"
+    clearance: float = _clearance()
+    radius: float = _radius()
+    film: "JournalFilm | BallFilm" = dataclasses.field(default=cast(Any, None))
+    contact: "JournalContact | BallContact | None" = None
+    friction: "Friction | None" = None
     worn: "Worn | None" = None
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        _check_clearance(self)
+    @property
+    def onset(self) -> float | None:  # type: ignore[override]
+        """Gap at which the surfaces' asperities begin to touch, m; None: the film ends the run."""
+        return self.film.contact_gap
+
+    def demand_keys(self, place: str) -> None:
+        """Raise InputError for the first missing key that decides its behaviour."""
+        super().demand_keys(place)
+        viscosity = () if self.film.oil is not None else ("viscosity",)
+        demand_keys(place, self.film, viscosity, "film", f"[film] or [{place}.film]")
+        if self.film.oil is not None:
+            where = f"[film.oil] or [{place}.film.oil]"
+            demand_keys(place, self.film.oil, (), "film.oil", where)
+
+    def check_laws(self) -> None:
+        """Make every law once, so that values outside its range are refused before a run."""
+        super().check_laws()
+        self.film_law()
+        self.film.check_cooling()
+
+    def film_law(self) -> "FilmLaw":
+        """Return the law of its film, in its plane."""
+        return self.film.film_law(self.radius, self.clearance)
 
     @property
-    def onset(self) -> float | None:
-        """Gap at which the surfaces' asperities begin to touch, m; None: the film ends the run."""
-        return asperity_onset(self.film)
+    def film_scale(self) -> float:
+        """Scale P of its film's force, N s."""
+        return self.film.scale(self.radius, self.clearance)
 
 
-def unworn(joint: DryJoint | LubricatedJoint) -> DryJoint | LubricatedJoint:
+Round = TypeVar("Round", bound=Joint)
+
+
+def unworn(joint: Round) -> Round:
     """Return a joint of the same mean clearance whose surfaces are round."""
     if joint.worn is None:
         return joint
     clearance = joint.clearance + joint.worn.even
-    return dataclasses.replace(joint, clearance=clearance, worn=None)
-
-
-LooseJoint = DryJoint | LubricatedJoint | CustomJoint
-Joint = IdealJoint | LooseJoint
-JOINT_KINDS: dict[str, type[Joint]] = {
-    kind.kind: kind for kind in (IdealJoint, DryJoint, LubricatedJoint)
-}
-
-LAW_TABLES: dict[str, type[Table]] = {"contact": Contact, "friction": Friction, "film": Film}
-"""Tables of the scene that hold for a joint unless it has its own."""
+    return cast(Round, dataclasses.replace(cast(Any, joint), clearance=clearance, worn=None))
 
 
 def oil_of(joint: Joint) -> "Oil | None":
     """Return the oil of a joint whose film warms, or None."""
-    return joint.film.oil if isinstance(joint, LubricatedJoint) else None
-
-
-def keys_used(kind: Any, at_contact: Any) -> tuple[str, ...]:
-    """Return the keys of a joint of this kind beside the kind itself."""
-    touching = ("contact", "friction")
-    if kind == "dry":
-        return (*SIZES, *touching, "worn")
-    if kind == "lubricated":
-        return (*SIZES, "film", *(touching if at_contact == "mixed" else ()), "worn")
-    own = None if kind == "ideal" else custom_class(kind, CustomJoint)
-    return () if own is None else tuple(field.name for field in dataclasses.fields(own))
-
-
-def refuse_missing(place: str, joint: Joint, *, revolute: bool) -> None:
-    """Raise InputError for the first missing key that decides a joint's behaviour."""
-    if isinstance(joint, IdealJoint | UnresolvedJoint):
-        return
-    sizes: tuple[str, ...] = SIZES
-    if isinstance(joint, CustomJoint):
-        sizes = tuple(field.name for field in dataclasses.fields(joint))
-    needed: dict[str, tuple[Table, tuple[str, ...]]] = {"": (joint, sizes)}
-    if joint.contact is not None:
-        dry = isinstance(joint, DryJoint)
-        length = ("length",) if dry and revolute and joint.contact.shape == "cylindrical" else ()
-        needed["contact"] = (joint.contact, length + _of_damping(joint.contact))
-    if isinstance(joint, LubricatedJoint):
-        oil, length = joint.film.oil, ("length",) if revolute else ()
-        needed["film"] = (joint.film, length if oil else ("viscosity", *length))
-        if oil is not None:
-            needed["film.oil"] = (oil, oil.needed)
-    for law, (table, keys) in needed.items():
-        where = f"[{law}] or [{place}.{law}]" if law else f"[{place}]"
-        demand_keys(place, table, keys, law, where)
-
-
-def refuse_missing_damping(place: str, contact: Contact) -> None:
-    """Raise InputError for the first key that the damping of a contact needs and does not have."""
-    demand_keys(place, contact, _of_damping(contact), "contact", "[contact]")
-
-
-def _of_damping(contact: Contact) -> tuple[str, ...]:
-    return ("damping_max", "damping_depth") if contact.damping == "step" else ()
-
-
-def joint_dict(joint: Joint, laws: Mapping[str, Table | None]) -> dict[str, Any]:
-    """Return a joint as a nested mapping, with the keys of laws that differ from the scene's."""
-    found: dict[str, Any] = {"kind": joint.kind}
-    if isinstance(joint, UnresolvedJoint):
-        return {**found, **joint.keys}
-    for field in dataclasses.fields(joint):
-        value = getattr(joint, field.name)
-        if not isinstance(value, Table):
-            found |= {} if value is None else {field.name: value}
-            continue
-        usual = laws.get(field.name)
-        own = {
-            key: each
-            for key, each in plain(value).items()
-            if usual is None or getattr(value, key) != getattr(usual, key)
-        }
-        found |= {field.name: own} if own else {}
-    return found
-
-
-def _check_clearance(joint: DryJoint | LubricatedJoint) -> None:
-    if joint.worn is not None and joint.clearance is not None:
-        joint.worn.refuse_sharp(joint.clearance)
-    if None not in (joint.clearance, joint.radius) and joint.clearance >= joint.radius:
-        raise InputError(
-            f"clearance = {joint.clearance!r}: allowed is a number < radius = {joint.radius!r}"
-        )
+    return None if joint.film is None else joint.film.oil

@@ -5,18 +5,15 @@ from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.scene.joint import IdealJoint, Joint
-from exu_press.scene.joints import keys_given
-from exu_press.scene.usage import Tables
-from exu_press.schema.checks import changed_table, nearest
+from exu_press.scene.joints import joint_keys
+from exu_press.scene.usage import TABLES
+from exu_press.schema.checks import nearest
+from exu_press.schema.registry import loaded
+from exu_press.schema.table import changed_table
 
 __all__ = ["by_group", "changed_joints", "unused_laws"]
 
-TABLES_OF_JOINTS = Tables(
-    contact="scene.tables:Contact",
-    friction="scene.tables:Friction",
-    film="scene.tables:Film",
-    worn="scene.worn:Worn",
-)
+TABLES_OF_JOINTS = ("contact", "friction", "film", "worn")
 
 
 def unused_laws(joints: Collection[Joint]) -> dict[str, str]:
@@ -48,11 +45,12 @@ def changed_joints(
         for member in groups.get(name, (name,)):
             keys = changed.setdefault(member, {})
             if not inner and not isinstance(value, str):
-                changed[member] = keys_given(name, value)
+                changed[member] = joint_keys(name, value)
             elif not last:
                 keys[key or "kind"] = value
             elif key in TABLES_OF_JOINTS and isinstance(keys.setdefault(key, {}), dict):
-                keys[key] = changed_table(TABLES_OF_JOINTS[key], keys[key], {last: value})
+                kind = loaded("scene.worn:Worn") if key == "worn" else TABLES[key]
+                keys[key] = changed_table(kind, keys[key], {last: value})
             else:
                 raise InputError(
                     f"joints.{path} = {value!r}: {key} is no table of a joint"

@@ -5,26 +5,30 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from exu_press.errors import InputError, UnusedKeyError, prefixed
-from exu_press.laws.catalogue import FILM_LAWS
-from exu_press.scene.custom import CustomJoint, UnresolvedJoint, custom_class
-from exu_press.scene.joint import (
-    JOINT_KINDS,
-    LAW_TABLES,
-    IdealJoint,
-    Joint,
-    LooseJoint,
-    LubricatedJoint,
-    joint_dict,
-    keys_used,
-    refuse_missing,
+from exu_press.scene.custom import CustomJoint
+from exu_press.scene.joint import JOINT_KINDS, IdealJoint, Joint
+from exu_press.scene.law_keys import LawKeys
+from exu_press.scene.usage import LAWS, law_kind
+from exu_press.schema.checks import nearest, refuse_unknown
+from exu_press.schema.table import (
+    Table,
+    changed_table,
+    given_keys,
+    key_values,
+    refuse_unknown_keys,
+    resolve,
+    table_from,
+    unused_reason,
+    used_names,
 )
-from exu_press.scene.tables import Contact, Film
-from exu_press.schema.checks import Table, given_in, nearest, refuse_unknown, table_from, table_with
 
-__all__ = ["Joints", "joints_of", "keys_given"]
+__all__ = ["Joints", "joint_keys", "joints_of"]
 
-Laws = Mapping[str, Table]
-"""The scene's own "contact", "friction" and "film"."""
+OF_JOINTS = ("kind", "clearance", "radius", *LAWS, "worn")
+"""Keys that some kind of joint has."""
+
+TOUCHING = ("contact", "friction")
+"""Laws of a lubricated joint with a mixed film alone."""
 
 
 class Joints(Mapping[str, Joint]):
@@ -74,15 +78,15 @@ class Joints(Mapping[str, Joint]):
         return frozenset(n for n, joint in self._joints.items() if isinstance(joint, IdealJoint))
 
     @property
-    def with_clearance(self) -> dict[str, LooseJoint]:
+    def with_clearance(self) -> dict[str, Joint]:
         """The joints with clearance."""
         return {n: j for n, j in self._joints.items() if not isinstance(j, IdealJoint)}
 
     @property
-    def grouped(self) -> dict[str, LooseJoint]:
+    def grouped(self) -> dict[str, Joint]:
         """The joints with clearance, those of a group that are all the same under its name."""
         loose = self.with_clearance
-        shown: dict[str, LooseJoint] = {}
+        shown: dict[str, Joint] = {}
         for name, joint in loose.items():
             group = next(
                 (
@@ -95,39 +99,50 @@ class Joints(Mapping[str, Joint]):
             shown.setdefault(group, joint)
         return shown
 
-    def to_dict(self, laws: Mapping[str, Table | None]) -> dict[str, dict[str, Any]]:
+    def to_dict(self, laws: Mapping[str, Mapping[str, Any] | None]) -> dict[str, dict[str, Any]]:
         """Return the joints with clearance as nested mappings.
 
         Args:
             laws: the scene's; keys of a joint that differ from them are given.
         """
-        return {name: joint_dict(joint, laws) for name, joint in self.with_clearance.items()}
+        return {name: joint.to_dict(laws) for name, joint in self.with_clearance.items()}
 
-    def unused_by_all(self, shared: Table, names: Iterable[str]) -> dict[str, str]:
-        """Return the keys of a law that none of these joints uses, if it has it -> the reason.
+    def law_keys(
+        self, law: str, names: Iterable[str] | None = None
+    ) -> dict[str, dataclasses.Field[Any]]:
+        """Return the keys of a law that joints use, with their declarations.
 
         Args:
-            shared: the scene's table of this law; where a joint's own decides, the reason says so.
-            names: of joints.
+            law: "contact", "friction" or "film".
+            names: of the joints; all unless given.
         """
-        law, of_all = shared.table, shared.unused()
-        unused = []
-        for name in names:
-            table = getattr(self._joints[name], law, None)
-            if table is not None:
-                reasons = unused_in(table, spherical=name in self.spherical)
-                unused.append(
-                    {
-                        key: f"joints.{name}.{reason}"
-                        if reason.startswith(f"{law}.") and of_all.get(key) != reason
-                        else reason
-                        for key, reason in reasons.items()
-                    }
-                )
-        common = set.intersection(*map(set, unused)) if unused else set()
-        return {
-            key: reason for key, reason in (unused[0] if unused else {}).items() if key in common
-        }
+        tables = (getattr(self._joints[n], law) for n in (self if names is None else names))
+        keys: dict[str, dataclasses.Field[Any]] = {}
+        for table in filter(None, tables):
+            for name, _, field in key_values(table):
+                keys.setdefault(name, field)
+        return keys
+
+    def unused_reason(
+        self, law: str, key: str, shared: Mapping[str, Any], names: Iterable[str]
+    ) -> str:
+        """Return why none of some joints uses a key of a law.
+
+        Args:
+            law: "contact", "friction" or "film".
+            key: of it.
+            shared: the scene's keys; where a joint's own decides, the reason says so.
+            names: of the joints.
+        """
+        name, table = next((n, t) for n in names if (t := getattr(self._joints[n], law)))
+        own = {k: value for k, value, field in key_values(table)
+               if value != shared.get(k, field.default)}  # fmt: skip
+
+        def place_of(key: str) -> str:
+            return f"joints.{name}.{law}.{key}" if key in own else f"{law}.{key}"
+
+        shape = "spherical" if name in self.spherical else "revolute"
+        return unused_reason(table, key, place_of) or f"the joint is {shape}"
 
     def members(self, name: str) -> tuple[str, ...]:
         """Return the joints that a joint's or a group's name stands for."""
@@ -135,11 +150,11 @@ class Joints(Mapping[str, Joint]):
 
 
 def joints_of(
-    given: Any,
+    tables: Any,
     mechanism: str,
     spherical: Mapping[str, bool],
     groups: Mapping[str, tuple[str, ...]],
-    laws: Laws,
+    laws: LawKeys,
     sizes: Mapping[str, float],
 ) -> Joints:
     """Return every joint of a mechanism from a scene's table.
@@ -147,7 +162,7 @@ def joints_of(
     A joint's own keys go before those of its group; a joint that is not named is ideal.
 
     Args:
-        given: joint or group -> its kind, a mapping of its keys or one of the three dataclasses.
+        tables: joint or group -> its kind, a mapping of its keys or the joint itself.
         mechanism: its name.
         spherical: every joint of it -> whether it is a ball in a socket.
         groups: names for several joints at once -> these joints.
@@ -159,159 +174,135 @@ def joints_of(
             key is not one of this kind of joint or is missing, or a law's parameters are outside
             its range.
     """
-    if not isinstance(given, Mapping):
-        raise InputError(f"joints = {given!r}: allowed is a table of joints")
+    if not isinstance(tables, Mapping):
+        raise InputError(f"joints = {tables!r}: allowed is a table of joints")
     own: dict[str, dict[str, Any]] = {}
     by_group: dict[str, str] = {}
     for group, members in groups.items():
-        for member in members if group in given else ():
+        for member in members if group in tables else ():
             if member in by_group:
                 raise InputError(
                     f"joints.{by_group[member]}, joints.{group}: {member} lies in both; allowed "
                     "is one of them"
                 )
             by_group[member] = group
-            own[member] = keys_given(group, given[group])
-    for joint, value in given.items():
-        if joint in spherical:
-            own[joint] = {**own.get(joint, {}), **keys_given(joint, value)}
-        elif joint not in groups:
-            raise InputError(_unknown(joint, mechanism, spherical, groups, value))
-    found, complete = {}, {law: _law("joints", law, {}, laws[law]) for law in LAW_TABLES}
-    for joint, ball in spherical.items():
-        shown, keys = by_group.get(joint, joint), own.get(joint, {"kind": "ideal"})
-        shown = joint if joint in given else shown
-        found[joint] = _joint(shown, keys, complete, sizes, spherical=ball)
-    joints = Joints(found, mechanism, groups, [name for name, ball in spherical.items() if ball])
-    for name, value in given.items():
-        for law in LAW_TABLES:
-            idle = joints.unused_by_all(laws[law], joints.members(name))
-            for key, each in given_in(keys_given(name, value).get(law)).items():
-                if key in idle:
-                    place = f"joints.{name}.{law}.{key}"
-                    raise UnusedKeyError(place, f"{place} = {each!r}", idle[key])
+            own[member] = joint_keys(group, tables[group])
+    for name, table in tables.items():
+        if name in spherical:
+            own[name] = {**own.get(name, {}), **joint_keys(name, table)}
+        elif name not in groups:
+            raise InputError(_unknown(name, mechanism, spherical, groups, table))
+    complete = {}
+    for name, is_ball in spherical.items():
+        shown, keys = by_group.get(name, name), own.get(name, {"kind": "ideal"})
+        shown = name if name in tables else shown
+        complete[name] = _joint(shown, keys, laws, sizes, spherical=is_ball)
+    balls = [name for name, is_ball in spherical.items() if is_ball]
+    joints = Joints(complete, mechanism, groups, balls)
+    for name, table in tables.items():
+        _refuse_unused(name, joint_keys(name, table), joints, laws)
     return joints
 
 
-def keys_given(name: str, given: Any) -> dict[str, Any]:
-    """Return the given keys of a joint or group as a mapping with its kind."""
-    if isinstance(given, Joint):
-        fields = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
-        kind = type(given) if isinstance(given, CustomJoint) else given.kind
+def _refuse_unused(name: str, table: Mapping[str, Any], joints: Joints, laws: LawKeys) -> None:
+    """Raise InputError for a law's key of a joint or group that none of its joints uses."""
+    members = joints.members(name)
+    for law in LAWS:
+        used = joints.law_keys(law, members)
+        for key, value in given_keys(table.get(law)).items():
+            if used and key not in used and value is not None:
+                place = f"joints.{name}.{law}.{key}"
+                reason = joints.unused_reason(law, key, laws.of(law), members)
+                raise UnusedKeyError(place, f"{place} = {value!r}", reason)
+
+
+def joint_keys(name: str, table: Any) -> dict[str, Any]:
+    """Return the keys of a joint or group, with its kind, as a mapping."""
+    if isinstance(table, Joint):
+        fields = {field.name: getattr(table, field.name) for field in dataclasses.fields(table)}
+        kind = type(table) if isinstance(table, CustomJoint) else table.kind
         return {"kind": kind, **{k: v for k, v in fields.items() if v is not None}}
-    if isinstance(given, str):
-        return {"kind": given}
-    if not isinstance(given, Mapping):
+    if isinstance(table, str):
+        return {"kind": table}
+    if not isinstance(table, Mapping):
         kinds = ", ".join(map(repr, JOINT_KINDS))
         raise InputError(
-            f"joints.{name} = {given!r}: allowed is a table of keys, or one of {kinds}"
+            f"joints.{name} = {table!r}: allowed is a table of keys, or one of {kinds}"
         )
-    return dict(given)
+    return dict(table)
 
 
 def _joint(
-    name: str, given: Mapping[str, Any], laws: Laws, sizes: Mapping[str, float], *, spherical: bool
+    name: str,
+    table: Mapping[str, Any],
+    laws: LawKeys,
+    sizes: Mapping[str, float],
+    *,
+    spherical: bool,
 ) -> Joint:
-    place = f"joints.{name}"
-    kind = given.get("kind")
-    with prefixed(f"{place}."):
-        own_class = None if kind in [*JOINT_KINDS] else custom_class(kind, CustomJoint)
-    if kind not in [*JOINT_KINDS] and own_class is None:
-        what = f"{place}.kind = {kind!r}" if "kind" in given else f"{place} has no kind"
+    place, kind = f"joints.{name}", table.get("kind")
+    chosen = JOINT_KINDS.find(f"{place}.kind", kind)
+    if chosen is None:
+        what = f"{place}.kind = {kind!r}" if "kind" in table else f"{place} has no kind"
         raise InputError(f"{what}: allowed is one of {', '.join(map(repr, JOINT_KINDS))}")
-    known = ("kind", "clearance", "radius", *LAW_TABLES, "worn")
-    if own_class is not None:
-        known = ("kind", *keys_used(kind, None))
-    refuse_unknown(place, given, known)
-    own = {
-        law: usual if given.get(law) is None else _law(place, law, given[law], usual)
-        for law, usual in laws.items()
-    }
-    film = own["film"]
-    assert isinstance(film, Film)
-    used = keys_used(kind, film.at_contact)
-    for unused in [key for key in given if key not in ("kind", *used)]:
-        mixed = kind == "lubricated" and unused in ("contact", "friction")
-        reason = "film.at_contact is 'stop'" if mixed else f"{place} is {kind!r}"
+    keys = [field.name for field in dataclasses.fields(chosen)]
+    is_custom = issubclass(chosen, CustomJoint)
+    refuse_unknown(place, table, ("kind", *keys) if is_custom else OF_JOINTS)
+    for law in [law for law in LAWS if table.get(law) is not None]:
+        _check_names(place, law, table[law], laws, spherical)
+    values: dict[str, Any] = {**sizes, **table}
+    if "film" in keys:
+        values["film"] = film = _law(place, "film", table.get("film"), laws, spherical)
+        if film.contact_gap is None:
+            keys = [key for key in keys if key not in TOUCHING]
+    for unused in [key for key in table if key not in ("kind", *keys)]:
+        stops = "film" in keys and unused in TOUCHING
+        reason = "film.at_contact is 'stop'" if stops else f"{place} is {kind!r}"
         raise UnusedKeyError(f"{place}.{unused}", f"{place}.{unused}", reason)
-    for law, table in own.items():
-        own[law] = table.without(unused_in(table, spherical=spherical))
-    values: dict[str, Any] = {**sizes, **given, **own}
-    if given.get("worn") is not None:
+    for law in [key for key in keys if key in TOUCHING]:
+        values[law] = _law(place, law, table.get(law), laws, spherical)
+    if table.get("worn") is not None:
         if spherical:
             raise UnusedKeyError(f"{place}.worn", f"{place}.worn", f"{place} is a ball")
         with prefixed(f"{place}."):
             from exu_press.scene.worn import Worn
 
-            values["worn"] = table_from(Worn, "worn", given["worn"])
-    chosen: type[Any] = own_class or JOINT_KINDS[str(kind)]
+            values["worn"] = table_from(Worn, "worn", table["worn"])
     with prefixed(f"{place}."):
-        joint: Joint = chosen(**{key: values[key] for key in used if key in values})
-    refuse_missing(place, joint, revolute=not spherical)
-    _check_laws(place, joint, spherical)
+        joint: Joint = chosen(**{key: values[key] for key in keys if key in values})
+    joint.demand_keys(place)
+    try:
+        joint.check_laws()
+    except InputError as error:
+        raise InputError(f"{error} ({place})") from None
     return joint
 
 
-def unused_in(law: Table, *, spherical: bool) -> dict[str, str]:
-    """Return the keys of a joint's law that it does not use -> the reason."""
-    if isinstance(law, Film):
-        return law.unused(joint="spherical" if spherical else "revolute")
-    ball = {"shape": "point"} if spherical and isinstance(law, Contact) else {}
-    return law.unused(**ball)
-
-
-def _law(place: str, law: str, given: Any, usual: Table) -> Table:
-    """Return a joint's law: the scene's, but for its own keys."""
-    complete = {field.name: getattr(usual, field.name) for field in dataclasses.fields(usual)}
+def _check_names(place: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> None:
+    """Raise InputError for the first key of a joint's law that no such law has."""
+    kind = law_kind(law, spherical)
+    if not isinstance(own, Mapping | Table):
+        raise InputError(f"{place}.{law} = {own!r:.200}: allowed is a table of keys")
+    keys = given_keys(own)
     with prefixed(f"{place}."):
-        return table_with(LAW_TABLES[law], law, given, complete)
+        merged = changed_table(kind, laws.of(law), keys)
+        refuse_unknown_keys([*LAWS[law].values()], law, keys, used_names(kind, law, merged))
 
 
-def _check_laws(place: str, joint: Joint, spherical: bool) -> None:
-    """Make every law once, so that values outside its range are refused before anything is run."""
-    if isinstance(joint, IdealJoint | UnresolvedJoint):
-        return
-    from exu_press.scene.laws import contact_law, film_law, friction_law
-
-    try:
-        if isinstance(joint, CustomJoint):
-            laws = joint.interfaces()
-            if not isinstance(laws, list | tuple) or not laws:
-                raise InputError(
-                    f"{joint.kind}.interfaces() returns {laws!r:.80}: allowed is a list of one "
-                    "interface law or more"
-                )
-        if joint.contact is not None:
-            contact_law(joint, revolute=not spherical, crank_speed=1.0)
-        if joint.friction is not None:
-            friction_law(joint.friction)
-        if isinstance(joint, LubricatedJoint):
-            film_law(joint.film, joint.radius, joint.clearance)
-            _check_cooling(joint.film)
-    except InputError as error:
-        raise InputError(f"{error} ({place})") from None
-
-
-def _check_cooling(film: Film) -> None:
-    """Raise InputError for a film of which nothing carries the heat off, or a ball's that warms."""
-    if film.oil is not None and film.length is None:
-        raise InputError(
-            "film.oil: the film of a ball does not warm; allowed is film.viscosity of its own"
-        )
-    if film.oil is not None and not film.oil.conductance and not FILM_LAWS[film.law].flows_out:
-        raise InputError(
-            f"film.oil.conductance = 0 with film.law = {film.law!r}: allowed is a number > 0, as a "
-            "long bearing has no side flow that carries heat off, or film.law = 'finite'"
-        )
+def _law(place: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> Any:
+    """Return a joint's law: the scene's, but for its own keys."""
+    kind = law_kind(law, spherical)
+    with prefixed(f"{place}."):
+        return resolve(kind, law, changed_table(kind, laws.of(law), given_keys(own)))
 
 
 def _unknown(
-    name: str, mechanism: str, joints: Iterable[str], groups: Iterable[str], value: Any = None
+    name: str, mechanism: str, joints: Iterable[str], groups: Iterable[str], table: Any = None
 ) -> str:
     groups = list(groups)
     known = [*joints, *groups]
-    given = "" if value is None else f" = {value!r}"
+    shown = "" if table is None else f" = {table!r}"
     return (
-        f"joints.{name}{given}: {mechanism} has no such joint{' or group' if groups else ''}"
+        f"joints.{name}{shown}: {mechanism} has no such joint{' or group' if groups else ''}"
         f"{nearest(name, known)}; allowed are {', '.join(known)}"
     )

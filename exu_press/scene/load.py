@@ -14,8 +14,9 @@ from exu_press.laws.load_curve import REVOLUTION, LoadCurve, PulseClock, blankin
 from exu_press.laws.sheet import SHAPE, Sheet, shear_force
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import Face, patch_given
-from exu_press.scene.custom import CustomKind
-from exu_press.schema.checks import Table, check_columns, check_increasing, key
+from exu_press.schema.checks import check_columns, check_increasing, key
+from exu_press.schema.kinds import CustomKind
+from exu_press.schema.table import Table
 
 __all__ = [
     "COLUMNS",
@@ -47,7 +48,7 @@ class _Placed(Table, ABC):
     point beside the middle of these moves with their mean motion.
     """
 
-    instead: ClassVar[Mapping[str, str]] = {"offset": "joint", "face": "joint"}
+    exclusive_with: ClassVar[Mapping[str, str]] = {"offset": "joint", "face": "joint"}
     over: ClassVar[Any] = ""
     body: str | None = key(None, "body that it acts on; the mechanism's output unless given")
     offset: tuple[float, float] | None = key(

@@ -9,7 +9,6 @@ from exu_press.errors import InputError, prefixed
 from exu_press.laws.load_curve import LoadCurve
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
-from exu_press.scene.custom import custom_class
 from exu_press.scene.load import (
     COLUMNS,
     LOAD_KINDS,
@@ -17,8 +16,10 @@ from exu_press.scene.load import (
     Load,
     UnresolvedLoad,
 )
-from exu_press.scene.tables import RPM
-from exu_press.schema.checks import demand_keys, demand_known, demand_name, plain
+from exu_press.scene.solver import RPM
+from exu_press.schema.checks import demand_known, demand_name
+from exu_press.schema.kinds import custom_class
+from exu_press.schema.table import demand_keys, plain
 from exu_press.schema.two_columns import read_two_columns
 
 __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
@@ -121,7 +122,7 @@ def _load(where: str, given: Any) -> Load:
     if "kind" not in keys:
         raise InputError(f"{where} has no kind: allowed is one of {kinds}")
     kind = keys.pop("kind")
-    table = LOAD_KINDS[kind] if kind in [*LOAD_KINDS] else custom_class(kind, CustomLoad)
+    table = LOAD_KINDS[kind] if kind in [*LOAD_KINDS] else custom_class("kind", kind, CustomLoad)
     if table is None:
         raise InputError(f"kind = {kind!r}: allowed is one of {kinds}")
     known = ["kind", *(field.name for field in dataclasses.fields(table))]

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from exu_press.errors import InputError
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import key
+from exu_press.schema.table import Table
 
 __all__ = ["Oil"]
 
@@ -63,6 +64,8 @@ class Oil(Table):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if not self.conductance:
+            self.refuse_unused(("frame_celsius",), "film.oil.conductance is 0")
         cold, warm = self.at_celsius
         if not -50.0 <= cold < warm <= 300.0:
             raise InputError(
@@ -78,10 +81,6 @@ class Oil(Table):
                 f"allowed is the larger one first, as oil thins when it warms, and >= {THINNEST:g} "
                 "mm^2/s, the range of ASTM D341"
             )
-
-    def unused(self, **instead: str) -> dict[str, str]:
-        """Return the keys that are not used: the frame's temperature, where nothing gets there."""
-        return {} if self.conductance else {"frame_celsius": "film.oil.conductance is 0"}
 
     @property
     def frame(self) -> float:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from exu_press.errors import InputError
-from exu_press.schema.checks import Table, check_increasing, key, nearest
+from exu_press.schema.checks import check_increasing, key, nearest
+from exu_press.schema.table import Table
 
 if TYPE_CHECKING:
     from exu_press.mechanism.section import Section

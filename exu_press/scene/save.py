@@ -10,17 +10,25 @@ from exu_press.errors import InputError
 from exu_press.files.output_directory import replacing
 from exu_press.mechanism import Mechanism, mechanism_lines
 from exu_press.scene.bodies import Flexible, body_dict
-from exu_press.scene.joint import joint_dict
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import LOAD_KINDS, Load
 from exu_press.scene.loads import load_dict
-from exu_press.schema.checks import Table
+from exu_press.scene.usage import table_keys
+from exu_press.schema.table import Table, declared_keys, key_values
 from exu_press.schema.toml import toml_text
 
-Laws = Mapping[str, Table | None]
+Laws = Mapping[str, Mapping[str, Any] | None]
 """The scene's own "contact", "friction" and "film"."""
 
-__all__ = ["body_lines", "joint_lines", "load_lines", "save_scene", "section_lines", "table_lines"]
+__all__ = [
+    "body_lines",
+    "joint_lines",
+    "law_lines",
+    "load_lines",
+    "save_scene",
+    "section_lines",
+    "table_lines",
+]
 
 
 def save_scene(
@@ -58,6 +66,8 @@ def save_scene(
                     beside = os.path.relpath(body.flexible, path.parent)
                     body = dataclasses.replace(body, flexible=beside)
                 lines += ["", f"[bodies.{name}]", *body_lines(body, comments)]
+        elif field.name in laws and table is not None:
+            lines += law_lines(field.name, table, comments)
         elif isinstance(table, Table):
             lines += section_lines(field.name, table, comments)
         elif isinstance(table, Mechanism):
@@ -76,9 +86,9 @@ def section_lines(name: str, table: Table, comments: bool, *, absent: bool = Fal
         absent: name the keys that are not used or given, too, as comments.
     """
     lines = ["", f"[{name}]", *table_lines(table, comments, absent=absent)]
-    for field in dataclasses.fields(table):
-        if isinstance(inside := getattr(table, field.name), Table):
-            lines += section_lines(f"{name}.{field.name}", inside, comments, absent=absent)
+    for key, inside, _ in key_values(table):
+        if isinstance(inside, Table):
+            lines += section_lines(f"{name}.{key}", inside, comments, absent=absent)
     return lines
 
 
@@ -90,11 +100,27 @@ def table_lines(table: Table, comments: bool, *, absent: bool = False) -> list[s
         comments: write meaning and unit behind every key.
         absent: name the keys that the scene does not use or give, too, as comments.
     """
-    values = {name: getattr(table, name) for name in _meanings(table)}
-    given = {name: value for name, value in values.items() if value is not None}
-    drawn = {name for name, value in given.items() if isinstance(value, Mechanism)}
-    told = {name: words for name, words in _meanings(table).items() if name not in drawn}
-    return _given_lines(given, told, comments, absent)
+    meanings = _meanings(table, absent=absent)
+    values = {name: value for name, value, _ in key_values(table) if value is not None}
+    drawn = {name for name, value in values.items() if isinstance(value, Mechanism)}
+    meanings = {name: text for name, text in meanings.items() if name not in drawn}
+    return _given_lines(values, meanings, comments, absent)
+
+
+def law_lines(
+    name: str, keys: Mapping[str, Any], comments: bool, *, absent: bool = False
+) -> list[str]:
+    """Return [contact], [friction] or [film]; arguments as those of `section_lines`."""
+    fields = {key: field for key, field in table_keys(name).items() if "meaning" in field.metadata}
+    meanings = {key: _meaning(field) for key, field in fields.items()}
+    meanings |= {key: "" for key in keys if key not in meanings}
+    values = {key: value for key, value in keys.items() if not isinstance(value, Table)}
+    meanings = {key: text for key, text in meanings.items() if key in values or key in fields}
+    lines = ["", f"[{name}]", *_given_lines(values, meanings, comments, absent)]
+    for key, value in keys.items():
+        if isinstance(value, Table):
+            lines += section_lines(f"{name}.{key}", value, comments, absent=absent)
+    return lines
 
 
 def body_lines(body: Flexible, comments: bool, *, absent: bool = False) -> list[str]:
@@ -119,7 +145,7 @@ def joint_lines(joints: Joints, laws: Laws, comments: bool) -> list[str]:
         meanings["worn"] = "depths worn off the surfaces, m, by angle from the body's x axis"
         keys = {
             f"{key} = {toml_text(value)}": meanings.get(key, f"where it differs from [{key}]")
-            for key, value in joint_dict(joint, laws).items()
+            for key, value in joint.to_dict(laws).items()
         }
         lines += ["", f"[joints.{name}]", *_lines(keys, comments)]
     return lines
@@ -143,11 +169,14 @@ def _lines(keys: Mapping[str, str], comments: bool) -> list[str]:
     return [f"{key:{width}}  # {meaning}" if comments else key for key, meaning in keys.items()]
 
 
-def _meanings(table: Table) -> dict[str, str]:
-    """Return the meaning, unit and choices of every key of a table."""
-    found = {}
-    for name, meta in ((f.name, f.metadata) for f in dataclasses.fields(table)):
-        if "meaning" in meta:
-            meaning = ", ".join(filter(None, [meta["meaning"], meta["unit"]]))
-            found[name] = ": ".join(filter(None, [meaning, " | ".join(meta["choices"])]))
-    return found
+def _meanings(table: Table, *, absent: bool = False) -> dict[str, str]:
+    """Return the meaning, unit and choices of every key that a table uses, or may use."""
+    fields = {name: field for name, _, field in key_values(table)}
+    fields = dict(declared_keys(type(table))) | fields if absent else fields
+    return {n: _meaning(field) for n, field in fields.items() if "meaning" in field.metadata}
+
+
+def _meaning(field: dataclasses.Field[Any]) -> str:
+    meta = field.metadata
+    meaning = ", ".join(filter(None, [meta["meaning"], meta["unit"]]))
+    return ": ".join(filter(None, [meaning, " | ".join(meta["choices"])]))

@@ -21,20 +21,16 @@ from exu_press.mechanism import Joint as Drawn
 from exu_press.mechanism.kinematics import MotionError
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.changes import asked_mechanism, changed_keys, drop, named
-from exu_press.scene.custom import UnresolvedJoint, import_kinds, refusal, with_unresolved
-from exu_press.scene.joint import (
-    JOINT_KINDS,
-    LAW_TABLES,
-    SIZES,
-    joint_dict,
-    oil_of,
-    refuse_missing_damping,
-)
+from exu_press.scene.custom import UnresolvedJoint
+from exu_press.scene.joint import JOINT_KINDS, SIZES, oil_of
 from exu_press.scene.joint_changes import by_group, unused_laws
 from exu_press.scene.joints import Joints, joints_of
-from exu_press.scene.tables import RPM, Contact, ElasticGuide, Film, Friction, Solver
-from exu_press.scene.usage import TABLES, unused_tables
-from exu_press.schema.checks import Table, given_in, key, names_in, plain, table_from, table_with
+from exu_press.scene.law_keys import LawKeys
+from exu_press.scene.solver import RPM, Solver
+from exu_press.scene.usage import LAWS, TABLES, unused_tables
+from exu_press.schema.checks import key
+from exu_press.schema.kinds import import_kinds, refusal, with_unresolved
+from exu_press.schema.table import Table, demand_keys, given_names, plain, table_from
 
 __all__ = ["STARTS", "Scene", "mechanism_of"]
 
@@ -56,6 +52,7 @@ ONLY_WHERE_GIVEN = ("drive", "guide", "output", "wear")
 
 if TYPE_CHECKING:
     from exu_press.scene.built import Built
+    from exu_press.scene.guide import ElasticGuide
     from exu_press.scene.load import Load
     from exu_press.scene.motor import Motor
     from exu_press.scene.output import Output
@@ -117,12 +114,12 @@ class Scene(Table):
     gravity: float = key(9.81, "gravitational acceleration, downwards", "m/s^2", at_least=0)
     joints: Joints = dataclasses.field(default=cast(Any, None))  # until its mechanism is known
     bodies: Mapping[str, Flexible] = dataclasses.field(default_factory=dict, hash=False)
-    contact: Contact | None = None
-    friction: Friction | None = None
-    film: Film | None = None
+    contact: Mapping[str, Any] | None = dataclasses.field(default=None, hash=False)
+    friction: Mapping[str, Any] | None = dataclasses.field(default=None, hash=False)
+    film: Mapping[str, Any] | None = dataclasses.field(default=None, hash=False)
     load: "LoadTables" = dataclasses.field(default_factory=cast(Any, dict), hash=False)
     drive: "Motor | None" = None
-    guide: ElasticGuide | None = None
+    guide: "ElasticGuide | None" = None
     output: "Output | None" = None
     wear: "Wear | None" = None
     solver: Solver | None = None
@@ -131,7 +128,7 @@ class Scene(Table):
 
     def __post_init__(self) -> None:
         """Check the keys, refuse those that the scene does not use and fill in the others."""
-        object.__setattr__(self, "asked", frozenset(names_in(self.given)))
+        object.__setattr__(self, "asked", frozenset(given_names(self.given)))
         object.__setattr__(self, "mechanism", asked_mechanism(self.mechanism))
         super().__post_init__()
         if not SHORTEST_RUN <= self.duration <= LONGEST_RUN:
@@ -147,16 +144,13 @@ class Scene(Table):
         unused = unused_tables(self.mechanism)
         for name in TABLES:
             given = getattr(self, name)
-            if name in LAW_TABLES:  # their defaults are the mechanism's
+            if name in LAWS:  # their defaults are the mechanism's
                 continue
             self._refuse(unused, name, given)
             if given is None and (name in unused or name in ONLY_WHERE_GIVEN):
                 continue
-            checked: Table = table_from(TABLES[name], name, {} if given is None else given)
-            idle = checked.unused()
-            for inner, value in checked.given.items():
-                self._refuse(idle, inner, value, name)
-            object.__setattr__(self, name, checked.without(idle))
+            table = table_from(TABLES[name], name, {} if given is None else given)
+            object.__setattr__(self, name, table)
         sampled = self.output is not None and self.output.samples
         if sampled and self.solver is not None and self.solver.step is not None:
             raise InputError(
@@ -178,7 +172,9 @@ class Scene(Table):
                 f"settle = {self.settle:g}: allowed is 0 with a [drive] that starts or stops, "
                 "which is read from its start"
             )
-        stop = motor.stop_angle_deg
+        stop = None
+        if motor.clutch is not None and motor.clutch.stop is not None:
+            stop = motor.clutch.stop.stop_angle_deg
         if stop is not None and stop <= self.start_angle_deg:
             raise InputError(
                 f"drive.stop_angle_deg = {stop:g}: allowed is a number > start_angle_deg = "
@@ -187,43 +183,48 @@ class Scene(Table):
 
     def _settle_joints(self) -> None:
         """Complete every joint of the mechanism; a law that no joint has is refused."""
-        given, laws, mechanism = self.joints, self.laws, mechanism_of(self)
+        mechanism = mechanism_of(self)
         usual = mechanism.defaults
-        if given is None:
-            given = usual.get("joints", {})
+        tables = usual.get("joints", {}) if self.joints is None else self.joints
         object.__setattr__(self, "joints", None)
         _require_turning(mechanism)
-        complete = {
-            name: table_with(
-                LAW_TABLES[name], name, {} if law is None else law, usual.get(name, {})
-            )
-            for name, law in laws.items()
-        }
+        laws = LawKeys(self.laws, usual)
         sizes = {name: usual[name] for name in SIZES if name in usual}
         spherical = {joint.name: joint.spherical for joint in mechanism.joints}
-        joints = joints_of(given, mechanism.name, spherical, mechanism.groups, complete, sizes)
+        joints = joints_of(tables, mechanism.name, spherical, mechanism.groups, laws, sizes)
         object.__setattr__(self, "joints", joints)
         unused = unused_laws(joints.values())
-        contact = complete["contact"]
-        assert isinstance(contact, Contact)
-        of_guides = {} if self.guide is None else self.guide.laws(contact)
         self._refuse(unused, "start", self.start)
         if self.start is None and "start" not in unused:
             object.__setattr__(self, "start", usual.get("start", STARTS[0]))
-        for name, law in laws.items():
-            rubbed = of_guides.get(name, ())
-            idle = joints.unused_by_all(complete[name], joints)
-            if rubbed and name in unused:
-                why = f"{unused.pop(name)}, and guides do not use it"
-                idle = {field.name: why for field in dataclasses.fields(complete[name])}
-            idle = {key: why for key, why in idle.items() if key not in rubbed}
-            self._refuse(unused, name, law)
-            for inner, value in given_in(law).items():
-                self._refuse(idle, inner, value, name)
-            used = None if name in unused else complete[name].without(idle)
-            object.__setattr__(self, name, used)
-        if of_guides.get("contact"):
-            refuse_missing_damping("guide.clearance", contact)
+        for law in LAWS:
+            self._settle_law(law, laws, unused.get(law, ""))
+        if self.guide is not None and self.guide.guideways is not None:
+            contact = self.guide.contact(laws.of("contact"))
+            assert contact is not None
+            demand_keys("guide.clearance", contact, (), "contact", "[contact]")
+
+    def _settle_law(self, law: str, laws: LawKeys, unused: str) -> None:
+        """Complete the keys of a law; those that no joint and no guide uses are refused.
+
+        Args:
+            law: "contact", "friction" or "film".
+            laws: the keys that are given.
+            unused: why no joint has this law, or nothing.
+        """
+        of_guides = {} if self.guide is None else self.guide.law_keys(law, laws)
+        used = {**self.joints.law_keys(law), **of_guides}
+        if not of_guides:
+            self._refuse({law: unused} if unused else {}, law, laws.given[law])
+        for name, value in (laws.given[law] or {}).items():
+            if name not in used and value is not None:
+                reason = f"{unused}, and guides do not use it" if unused else ""
+                reason = reason or self.joints.unused_reason(law, name, laws.of(law), self.joints)
+                place = f"{law}.{name}"
+                raise UnusedKeyError(place, f"{place} = {laws.of(law)[name]!r}", reason)
+        keys = {name: laws.of(law).get(name, field.default) for name, field in used.items()}
+        keys = {name: value for name, value in keys.items() if value is not None}
+        object.__setattr__(self, law, keys if used else None)
 
     def _settle_wear(self) -> None:
         """Complete the wear of each place; a scene in which nothing wears has no such table."""
@@ -303,6 +304,11 @@ class Scene(Table):
             value = getattr(self, field.name)
             if isinstance(value, Joints):
                 complete[field.name] = value.to_dict(self.laws)
+            elif field.name in LAWS and value is not None:
+                complete[field.name] = {
+                    name: plain(inner) if isinstance(inner, Table) else inner
+                    for name, inner in value.items()
+                }
             elif field.name in ("load", "bodies"):
                 to_dict = _load_dict if field.name == "load" else body_dict
                 tables = {name: to_dict(table) for name, table in value.items()}
@@ -341,23 +347,23 @@ class Scene(Table):
         """
         data, groups = self.to_dict(), self.joints.groups
         kept = [n for n in self.asked if not any(f"{n}.".startswith(f"{c}.") for c in changes)]
-        asked = frozenset([*kept, *names_in(changes)])
+        asked = frozenset([*kept, *given_names(changes)])
         if (mechanism := changes.get("mechanism", self.mechanism)) != self.mechanism:
             other = Scene.from_dict({"mechanism": mechanism})
             same = {name: joint for name, joint in self.joints.items() if name in other.joints}
             data["joints"] = {
                 **other.joints.to_dict(other.laws),
-                **{name: joint_dict(joint, self.laws) for name, joint in same.items()},
+                **{name: joint.to_dict(self.laws) for name, joint in same.items()},
             }
             own = {"start": STARTS[0], **mechanism_of(self).defaults}  # the other has its own
             if self.start == own["start"]:
                 data.pop("start", None)
             for name in same:
                 data["joints"][name] = _beyond(data["joints"][name], own)
-            for name in LAW_TABLES:
+            for name in LAWS:
                 if name in data:
                     data[name] = _beyond(data[name], own.get(name, {}))
-            groups, asked = other.joints.groups, frozenset(names_in(changes))
+            groups, asked = other.joints.groups, frozenset(given_names(changes))
             there = {body.name for body in mechanism_of(other).bodies}
             data["bodies"] = {n: k for n, k in data.get("bodies", {}).items() if n in there}
         data = changed_keys(data, groups, changes)
@@ -411,9 +417,9 @@ class Scene(Table):
         return self.mechanism if isinstance(self.mechanism, str) else ""
 
     @property
-    def laws(self) -> dict[str, Table | None]:
-        """Contact, friction and film of every joint that does not say otherwise."""
-        return {name: getattr(self, name) for name in LAW_TABLES}
+    def laws(self) -> dict[str, Mapping[str, Any] | None]:
+        """Keys of contact, friction and film of every joint that does not say otherwise."""
+        return {name: getattr(self, name) for name in LAWS}
 
     @property
     def angular_speed(self) -> float:
@@ -485,7 +491,7 @@ def _load(path: str | Path, assignments: Iterable[str] = (), *, allow_code: bool
     with prefixed(f"{path}: "):
         if allow_code:
             import_kinds({**data, **changes})
-        scene = Scene.from_dict(data, names_in(data))
+        scene = Scene.from_dict(data, given_names(data))
     return scene.replace(changes) if changes else scene
 
 

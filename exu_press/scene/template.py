@@ -9,10 +9,17 @@ from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import BlankingLoad, Load, TableLoad
 from exu_press.scene.oil import Oil
-from exu_press.scene.save import body_lines, joint_lines, load_lines, section_lines, table_lines
+from exu_press.scene.save import (
+    body_lines,
+    joint_lines,
+    law_lines,
+    load_lines,
+    section_lines,
+    table_lines,
+)
 from exu_press.scene.scene import Scene, mechanism_of
-from exu_press.scene.usage import TABLES
-from exu_press.schema.checks import Table
+from exu_press.scene.usage import LAWS, TABLES
+from exu_press.schema.table import Table, table_from
 
 __all__ = ["template"]
 
@@ -51,13 +58,16 @@ def _lines(scene: Scene) -> Iterator[str]:
             yield from ("", *_not_in_use(_loads()))
         elif field.name == "bodies":
             yield from ("", *_not_in_use(_a_flexible_body(scene)))
+        elif field.name in LAWS and value is not None:
+            yield from law_lines(field.name, value, True, absent=True)
         elif isinstance(value, Table):
             yield from section_lines(field.name, value, True, absent=True)
         elif (kind := TABLES.get(field.name)) is not None and field.name not in OF_MECHANISMS:
             told = (kind.__doc__ or "").splitlines()[0]
-            lines = f"[{field.name}]  # {told}", *table_lines(_usual(kind), True, absent=True)
+            table = table_from(kind, field.name, EXAMPLES.get(field.name, {}))
+            lines = f"[{field.name}]  # {told}", *table_lines(table, True, absent=True)
             yield from ("", *_not_in_use(lines))
-        if field.name == "film" and (scene.film is None or scene.film.oil is None):
+        if field.name == "film" and "oil" not in (scene.film or {}):
             yield from ("", *_not_in_use(_an_oil()))
 
 
@@ -78,12 +88,6 @@ def _not_in_use(lines: Iterable[str]) -> Iterator[str]:
     for line in lines:
         absent = line.startswith("# ")
         yield line.replace("  #", "    #", 1) if absent else f"# {line}".rstrip("# ")
-
-
-def _usual(kind: type[Table]) -> Table:
-    """Return a table at its defaults, without the keys that these do not use, or an example."""
-    table = kind(**EXAMPLES.get(kind.table, {}))
-    return table.without(table.unused())
 
 
 def _an_oil() -> Iterator[str]:

@@ -1,46 +1,60 @@
 """The tables of a scene, and which of them a scene does not use."""
 
-from collections.abc import Iterator, Mapping
-from importlib import import_module
+import functools
+from collections.abc import Mapping
+from dataclasses import Field
 from typing import Any
 
-__all__ = ["TABLES", "Tables", "unused_tables"]
+from exu_press.schema.registry import Registry
+from exu_press.schema.table import Table, declared_keys
 
+__all__ = ["LAWS", "TABLES", "law_kind", "table_keys", "unused_tables"]
 
-class Tables(Mapping[str, type[Any]]):
-    """Name of a table -> its dataclass, which is loaded when a scene has it."""
+LAWS: dict[str, Registry] = {
+    "contact": Registry(
+        {"revolute": "scene.contact:JournalContact", "spherical": "scene.contact:BallContact"}
+    ),
+    "friction": Registry(dict.fromkeys(("revolute", "spherical"), "scene.friction:Friction")),
+    "film": Registry({"revolute": "scene.film:JournalFilm", "spherical": "scene.film:BallFilm"}),
+}
+"""Tables that hold for every joint unless it has its own -> shape of a joint -> their dataclass."""
 
-    def __init__(self, **homes: str) -> None:
-        """Take the module and the class of each, with a colon between."""
-        self._homes = homes
-
-    def __getitem__(self, name: str) -> type[Any]:
-        module, _, kind = self._homes[name].partition(":")
-        table: type[Any] = getattr(import_module(f"exu_press.{module}"), kind)
-        return table
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._homes
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._homes)
-
-    def __len__(self) -> int:
-        return len(self._homes)
-
-
-TABLES = Tables(
-    contact="scene.tables:Contact",
-    friction="scene.tables:Friction",
-    film="scene.tables:Film",
-    drive="scene.motor:Motor",
-    guide="scene.tables:ElasticGuide",
-    output="scene.output:Output",
-    wear="scene.wear:Wear",
-    solver="scene.tables:Solver",
-    press="mechanism.press:Press",
-    slider_crank="mechanism.slider_crank:SliderCrank",
+TABLES = Registry(
+    {
+        **{
+            law: f"scene.{law}:{kind}"
+            for law, kind in (
+                ("contact", "JournalContact"),
+                ("friction", "Friction"),
+                ("film", "JournalFilm"),
+            )
+        },
+        "drive": "scene.motor:Motor",
+        "guide": "scene.guide:ElasticGuide",
+        "output": "scene.output:Output",
+        "wear": "scene.wear:Wear",
+        "solver": "scene.solver:Solver",
+        "press": "mechanism.press:Press",
+        "slider_crank": "mechanism.slider_crank:SliderCrank",
+    }
 )
+"""Name of a table -> its dataclass, which is loaded when a scene has it."""
+
+
+def law_kind(law: str, spherical: bool) -> type[Table]:
+    """Return the table of a law for a ball in its socket, or a journal in its bearing."""
+    return LAWS[law]["spherical" if spherical else "revolute"]
+
+
+@functools.cache
+def table_keys(name: str) -> Mapping[str, Field[Any]]:
+    """Return every key that a table of a scene may have, with its declaration."""
+    kinds = [*LAWS[name].values()] if name in LAWS else [TABLES[name]]
+    keys: dict[str, Field[Any]] = {}
+    for kind in kinds:
+        for key, field in declared_keys(kind).items():
+            keys.setdefault(key, field)
+    return keys
 
 
 def unused_tables(mechanism: Any) -> dict[str, str]:

@@ -1,17 +1,15 @@
 """Warnings of a scene: values that are allowed but hardly meant, and figures they change."""
 
-import dataclasses
 import math
 from collections.abc import Iterator
 
 import numpy as np
 
-from exu_press.laws.catalogue import FILM_LAWS
 from exu_press.mechanism.drawing_warnings import drawing_warnings
 from exu_press.scene.applied import applied_loads
-from exu_press.scene.custom import CustomJoint
-from exu_press.scene.joint import LubricatedJoint
+from exu_press.scene.joint import LubricatedJoint, TouchingJoint
 from exu_press.scene.scene import Scene, mechanism_of
+from exu_press.schema.table import key_values
 
 __all__ = ["doubtful_sizes", "scene_warnings"]
 
@@ -70,7 +68,7 @@ def _drawing(scene: Scene) -> Iterator[str]:
     position = mechanism.ideal_slider(np.linspace(0.0, 2.0 * math.pi, 181), 1.0)[0]
     yield from drawing_warnings(mechanism, float(np.ptp(position)))
     for name, joint in scene.joints.grouped.items():
-        if not isinstance(joint, CustomJoint) and joint.radius > size:
+        if isinstance(joint, TouchingJoint) and joint.radius > size:
             yield (
                 f"joints.{name}.radius = {joint.radius:g} m is larger than the mechanism of "
                 f"{size:.3g} m.{_slip(joint.radius, 1e-3 * size, size, 'm')}"
@@ -79,12 +77,8 @@ def _drawing(scene: Scene) -> Iterator[str]:
 
 def _guides(scene: Scene) -> Iterator[str]:
     """Yield a clearance of guides that lets their bodies tilt by degrees."""
-    guide = scene.guide
-    if (
-        guide is not None
-        and guide.clearance is not None
-        and guide.clearance > WIDEST * guide.length
-    ):
+    guide = None if scene.guide is None else scene.guide.guideways
+    if guide is not None and guide.clearance > WIDEST * guide.length:
         yield (
             f"guide.clearance = {guide.clearance:g} m lets a body in a guide of {guide.length:g} m "
             f"tilt by {math.degrees(2.0 * guide.clearance / guide.length):.2g} deg. Presses have "
@@ -94,7 +88,7 @@ def _guides(scene: Scene) -> Iterator[str]:
 
 def _clearances(scene: Scene) -> Iterator[str]:
     for name, joint in scene.joints.grouped.items():
-        if isinstance(joint, CustomJoint):
+        if not isinstance(joint, TouchingJoint):
             continue
         clearance, radius = joint.clearance, joint.radius
         film = isinstance(joint, LubricatedJoint)
@@ -111,10 +105,9 @@ def _films(scene: Scene) -> Iterator[tuple[str, LubricatedJoint]]:
     """Yield every lubricated joint, after the beginning of its film's keys."""
     for name, joint in scene.joints.grouped.items():
         if isinstance(joint, LubricatedJoint):
-            own = any(
-                getattr(joint.film, key.name) not in (None, getattr(scene.film, key.name))
-                for key in dataclasses.fields(joint.film)
-            )
+            shared = scene.film or {}
+            keys = key_values(joint.film)
+            own = any(value not in (None, shared.get(name)) for name, value, _ in keys)
             yield f"joints.{name}.film" if own else "film", joint
 
 
@@ -125,8 +118,8 @@ def _viscosity(scene: Scene) -> Iterator[str]:
         )
         for table, joint in _films(scene)
     }
-    if scene.guide is not None and scene.guide.viscosity is not None:
-        films["guide.viscosity"] = scene.guide.viscosity
+    if scene.guide is not None and scene.guide.oil is not None:
+        films["guide.viscosity"] = scene.guide.oil.viscosity
     for key, given in films.items():
         if THINNEST <= given <= THICKEST:
             continue
@@ -202,7 +195,8 @@ def _wear(scene: Scene) -> Iterator[str]:
 def _brake(scene: Scene) -> Iterator[str]:
     """Yield a brake that weights, and forces over the height, turn at some crank angle."""
     motor = scene.drive
-    if motor is None or motor.brake_torque is None:
+    brake = None if motor is None or motor.clutch is None else motor.clutch.brake
+    if brake is None:
         return
     mechanism, angle = mechanism_of(scene), np.linspace(0.0, 2.0 * math.pi, 361)
     moving = mechanism.motion(angle, 1.0)
@@ -217,9 +211,9 @@ def _brake(scene: Scene) -> Iterator[str]:
             )
             wanted -= np.array([load.curve(place) for place in height.tolist()]) * along
     worst = int(np.argmax(np.abs(wanted)))
-    if abs(wanted[worst]) > motor.brake_torque:
+    if abs(wanted[worst]) > brake.brake_torque:
         yield (
-            f"drive.brake_torque = {motor.brake_torque:g} N m does not hold the press at every "
+            f"drive.brake_torque = {brake.brake_torque:g} N m does not hold the press at every "
             f"angle: weights and springs turn it with {abs(float(wanted[worst])):.4g} N m at "
             f"{math.degrees(angle[worst]):.0f} deg"
         )
@@ -247,21 +241,27 @@ def _slip(given: float, low: float, high: float, unit: str) -> str:
 
 def _film_law(scene: Scene) -> Iterator[str]:
     """Yield film laws that are not meant for their bearing's width, and how far they are off."""
-    for table, joint in _films(scene):
-        if joint.film.length is None:  # a ball
+    films = [*_films(scene)]
+    if not films:
+        return
+    from exu_press.scene.film import FILMS, JournalFilm  # loaded by these joints
+
+    for table, joint in films:
+        if not isinstance(joint.film, JournalFilm):
             continue
-        ratio = joint.film.length / (2.0 * joint.radius)
-        given = FILM_LAWS[joint.film.law]
-        if given.suits(ratio):
+        ratio, law = joint.film.length / (2.0 * joint.radius), joint.film.law
+        if law.suits(ratio):
             continue
-        low, high = given.length_to_diameter
+        low, high = law.length_to_diameter
         meant = f"at least {low:g}" if high == math.inf else f"{low:g} to {high:g}"
-        name = next(name for name in ("finite", "short", "pi_film") if FILM_LAWS[name].suits(ratio))
+        better = next(
+            film for name in ("finite", "short", "pi_film") if (film := FILMS[name]()).suits(ratio)
+        )
         centred = (0.0, 1.0, 0.0)
-        off = given.factory(ratio)(*centred)[0] / FILM_LAWS[name].factory(ratio)(*centred)[0]
+        off = law.film(ratio)(*centred)[0] / better.film(ratio)(*centred)[0]
         yield (
-            f"{table}.law = {joint.film.law!r} is meant for L/D of {meant}. This bearing has "
+            f"{table}.law = {law.kind!r} is meant for L/D of {meant}. This bearing has "
             f"{ratio:.2g}: near its centre the film resists {off:.2g} times as much as "
-            f"{table}.law = {name!r} says. The eccentricity ratio comes out too small by a factor "
-            "of that order, and the film too thick."
+            f"{table}.law = {better.kind!r} says. The eccentricity ratio comes out too small by a "
+            "factor of that order, and the film too thick."
         )

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from exu_press.errors import InputError, UnusedKeyError
-from exu_press.schema.checks import Table, demand_keys, key, table_from
+from exu_press.schema.checks import key
+from exu_press.schema.table import Table, demand_keys, table_from
 
 __all__ = ["Wear", "WearAt"]
 

@@ -7,7 +7,8 @@ from typing import ClassVar
 
 from exu_press.errors import InputError
 from exu_press.laws.profile import Profile, profile
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import key
+from exu_press.schema.table import Table
 
 __all__ = ["Worn"]
 

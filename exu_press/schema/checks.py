@@ -1,68 +1,34 @@
 """Keys of a scene: their allowed values, and the validation."""
 
-import copy
 import dataclasses
 import difflib
 import functools
-import importlib
 import itertools
 import math
 import numbers
 import types
 import typing
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sized
-from typing import Any, ClassVar, Self, TypeVar
+from collections.abc import Collection, Iterable, Mapping, Sized
+from typing import Any
 
-from exu_press.errors import InputError, UnusedKeyError
+from exu_press.errors import InputError
 
 __all__ = [
-    "RENAMED",
-    "Table",
-    "Uses",
+    "allowed_text",
     "as_float",
-    "changed_table",
     "check_columns",
     "check_increasing",
-    "demand_keys",
+    "checked_value",
     "demand_known",
     "demand_name",
     "demand_number",
-    "given_in",
-    "inner",
     "key",
-    "names_in",
     "nearest",
-    "plain",
     "refuse_unknown",
-    "table_from",
-    "table_with",
 ]
-
-T = TypeVar("T")
-
-_fields: Callable[[Any], tuple[dataclasses.Field[Any], ...]] = functools.cache(dataclasses.fields)
 
 SMALLEST, LARGEST = 1e-30, 1e30
 """Magnitudes of a number other than 0: sums and squares within them are numbers, too."""
-
-Uses = Mapping[str, Mapping[Any, tuple[str, ...]]]
-
-RENAMED = {
-    "crank_pin": "joints.crank_pin",
-    "balls": "joints.balls",
-    "clearance": "joints.NAME.clearance",
-    "contact.radius": "joints.NAME.radius",
-    "flexible": "bodies.NAME",
-    "blanking": "load.NAME with kind = 'blanking'",
-    "guide.damping_depth": "contact.damping_depth",
-    "woehler_stress": "sn_stress, of the S-N curve",
-    "woehler_cycles": "sn_cycles, of the S-N curve",
-    "woehler_slope": "sn_slope, of the S-N curve",
-    "guide.slider_inertia": "a key of [press] or [slider_crank]",
-    "guide.slide_inertia": "press.slide_inertia",
-    "guide.counterweight_inertia": "press.counterweight_inertia",
-}
-"""Old keys -> new ones, in words."""
 
 
 def key(
@@ -100,7 +66,8 @@ def key(
     return dataclasses.field(default=default, metadata=metadata)
 
 
-def _allowed(field: dataclasses.Field[Any]) -> str:
+def allowed_text(field: dataclasses.Field[Any]) -> str:
+    """Return which values a key may have."""
     meta = field.metadata
     if meta.get("choices"):
         also = f", or {meta['meaning']}" if meta.get("also") else ""
@@ -119,98 +86,7 @@ def _allowed(field: dataclasses.Field[Any]) -> str:
     return f"{text} ({meta['meaning']}{', ' + meta['unit'] if meta['unit'] else ''})"
 
 
-@dataclasses.dataclass(frozen=True)
-class Table:
-    """A table of the scene: frozen, and checked once, when it is made."""
-
-    table: ClassVar[str] = ""
-
-    uses: ClassVar[Uses] = {}
-    """Key that is a choice -> the choice -> the keys that only some choices use."""
-
-    instead: ClassVar[Mapping[str, str]] = {}
-    """Key -> the key that it stands instead of; a table has one of the two at most."""
-
-    required: ClassVar[tuple[str, ...]] = ()
-    """Keys without a default."""
-
-    def __new__(cls, *values: Any, **keys: Any) -> Self:
-        """Remember which keys are given, so that a default gives way to a mechanism's own."""
-        made = super().__new__(cls)
-        names = [field.name for field in _fields(cls)][: len(values)]
-        object.__setattr__(made, "_given", frozenset([*names, *keys]))
-        return made
-
-    @property
-    def given(self) -> dict[str, Any]:
-        """The keys that were given, with their values."""
-        names: frozenset[str] = self._given  # type: ignore[attr-defined]
-        values = {f.name: getattr(self, f.name) for f in _fields(type(self))}
-        return {name: v for name, v in values.items() if name in names and v is not None}
-
-    def unused(self, **instead: str) -> dict[str, str]:
-        """Return the keys that this table does not use -> the reason.
-
-        Args:
-            instead: other choices than the table's own.
-        """
-        found = {}
-        for choice, by_chosen in self.uses.items():
-            chosen = instead.get(choice, getattr(self, choice))
-            used = by_chosen[chosen]
-            for key in itertools.chain(*by_chosen.values()):
-                if key not in used:
-                    shown = str(chosen).lower() if isinstance(chosen, bool) else repr(chosen)
-                    found[key] = f"{self.table}.{choice} is {shown}"
-        return found
-
-    def without(self, unused: Iterable[str]) -> Self:
-        """Return the table with None for keys that are not used."""
-        other = copy.copy(self)
-        for name in unused:
-            object.__setattr__(other, name, None)
-        return other
-
-    def __post_init__(self) -> None:
-        """Check every key; raise InputError for the first one that is not allowed."""
-        for field in _fields(type(self)):
-            if "inner" in field.metadata and (given := getattr(self, field.name)) is not None:
-                name = f"{self.table}.{field.name}"
-                object.__setattr__(self, field.name, _inner(_inner_table(field), name, given))
-            if "meaning" in field.metadata:
-                name = f"{self.table}.{field.name}" if self.table else field.name
-                value = _checked(field, name, getattr(self, field.name))
-                if value is None and field.name in self.required:
-                    raise InputError(f"{name}: missing; allowed is {_allowed(field)}")
-                object.__setattr__(self, field.name, value)
-        for one, other in self.instead.items():
-            if None not in (getattr(self, one), getattr(self, other)):
-                place = f"{self.table}." if self.table else ""
-                raise InputError(f"{place}{other} and {place}{one}: allowed is one of the two")
-
-
-def _inner(kind: type[Any], name: str, given: Any) -> Any:
-    """Return a table within a table, without the keys that it does not use."""
-    table: Table = table_from(kind, name, given)
-    idle = table.unused()
-    for key, value in table.given.items():
-        if key in idle:
-            raise UnusedKeyError(f"{name}.{key}", f"{name}.{key} = {value!r}", idle[key])
-    return table
-
-
-def inner(home: str) -> Any:
-    """Declare a table within a table, "module:Class", loaded where it is given; None elsewhere."""
-    return dataclasses.field(default=None, metadata={"inner": home})
-
-
-def _inner_table(field: dataclasses.Field[Any]) -> type[Any]:
-    module, _, name = field.metadata["inner"].partition(":")
-    table: type[Any] = getattr(importlib.import_module(module), name)
-    return table
-
-
-def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
+def checked_value(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
     """Return the value of one key in its declared type, or raise InputError.
 
     A whole number is taken for a number; nothing else is converted, clamped or defaulted.
@@ -238,7 +114,7 @@ def _checked(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
     )
     if not right:
         raise InputError(
-            f"{name} = {value!r:.200}: allowed is {_allowed(field)}{_magnitudes(value)}"
+            f"{name} = {value!r:.200}: allowed is {allowed_text(field)}{_magnitudes(value)}"
         )
     return value
 
@@ -255,7 +131,9 @@ def _numbers(field: dataclasses.Field[Any], name: str, value: Any) -> tuple[floa
         ]
         if all(map(_within, found)):
             return tuple(found)
-    raise InputError(f"{name} = {value!r:.80}: allowed is {_allowed(field)}{_magnitudes(value)}")
+    raise InputError(
+        f"{name} = {value!r:.80}: allowed is {allowed_text(field)}{_magnitudes(value)}"
+    )
 
 
 def demand_name(where: str, name: Any) -> None:
@@ -293,45 +171,6 @@ def as_float(value: Any) -> float:
         return math.inf
 
 
-def demand_keys(place: str, table: Table, keys: Collection[str], law: str, where: str) -> None:
-    """Raise InputError for the first of some keys that a table does not have.
-
-    Args:
-        place: that needs them.
-        table: with them.
-        keys: that are needed, each with an example.
-        law: name of the table in the message, if it has one.
-        where: they may be given.
-    """
-    for field in dataclasses.fields(table):
-        if field.name in keys and getattr(table, field.name) is None:
-            example = field.metadata.get("example")
-            if isinstance(example, float):
-                example = f"{example:g}"
-            shown = "" if example is None else f", as in {field.name} = {example}"
-            meta, name = field.metadata, f"{law}.{field.name}".lstrip(".")
-            raise InputError(
-                f"{place} needs {name} ({meta['meaning']}, {meta['unit']}), which decides its "
-                f"result and has no default; give it in {where}{shown}"
-            )
-
-
-def table_from(table: type[T], name: str, data: Any) -> T:
-    """Return the table `name` of a scene from a mapping of its keys ("" is the scene itself)."""
-    if isinstance(data, table):
-        return data
-    if not isinstance(data, Mapping):
-        raise InputError(f"{name} = {data!r:.200}: allowed is a table of keys")
-    known = [field.name for field in _fields(table)]
-    for given in data:
-        path = f"{name}.{given}" if name else given
-        if given not in known and {path, given} & RENAMED.keys():
-            now = RENAMED.get(path) or RENAMED[given]
-            raise InputError(f"{path} = {data[given]!r:.200}: is {now} now")
-    refuse_unknown(name, data, known)
-    return table(**data)
-
-
 def refuse_unknown(where: str, given: Mapping[str, Any], known: Collection[str]) -> None:
     """Raise InputError for the first key of a table that is not known."""
     for name, value in given.items():
@@ -355,75 +194,6 @@ def demand_known(said: str, name: Any, known: Iterable[str]) -> None:
             shown = difflib.get_close_matches(str(name), names, n=LIKE, cutoff=0.3) or names[:LIKE]
             rest = f" and {len(names) - len(shown)} others"
         raise InputError(f"{said}{nearest(name, names)}; allowed are {', '.join(shown)}{rest}")
-
-
-def table_with(table: type[T], name: str, data: Any, usual: Mapping[str, Any]) -> T:
-    """Return the table `name` of a scene; keys that `data` lacks are as in `usual`."""
-    if isinstance(data, table):
-        data = typing.cast(Table, data).given
-    if isinstance(data, Mapping):
-        data = changed_table(typing.cast(type[Table], table), usual, data)
-    return table_from(table, name, data)
-
-
-def changed_table(
-    kind: type[Table], before: Mapping[str, Any], changes: Mapping[str, Any]
-) -> dict[str, Any]:
-    """Return a table's keys with others; a key whose place another one takes is dropped.
-
-    Args:
-        kind: of the table.
-        before: its keys.
-        changes: key -> value; "TABLE.key" of a table within it, too, and "KEY.PLACE.key" where a
-            key has a table for each of several places.
-    """
-    found = dict(before)
-    inners = {f.name: f for f in _fields(kind) if "inner" in f.metadata}
-    by_place = {f.name for f in _fields(kind) if f.metadata.get("by_place")}
-    for path, value in changes.items():
-        name, dot, rest = path.partition(".")
-        change: Any = {rest: value} if dot else value
-        if name in inners and isinstance(change, Mapping | Table):
-            table = _inner_table(inners[name])
-            found[name] = changed_table(table, given_in(found.get(name)), given_in(change))
-        elif dot and name in by_place:
-            at, _, key_there = rest.partition(".")
-            there = given_in(found.get(name))
-            change = {**given_in(there.get(at)), key_there: value} if key_there else value
-            found[name] = {**there, at: change}
-        else:
-            found[path] = value
-    given = {path.partition(".")[0] for path, value in changes.items() if value is not None}
-    for kept, dropped in kind.instead.items():
-        if kept in given and dropped not in given:
-            found.pop(dropped, None)
-    return found
-
-
-def plain(table: Table) -> dict[str, Any]:
-    """Return the keys of a table that are not None as a nested mapping, as a file has them."""
-    found: dict[str, Any] = {}
-    for field in _fields(type(table)):
-        value = getattr(table, field.name)
-        if isinstance(value, Table):
-            found[field.name] = plain(value)
-        elif value is not None:
-            found[field.name] = list(value) if isinstance(value, tuple) else value
-    return found
-
-
-def given_in(table: Any) -> dict[str, Any]:
-    """Return the keys that a table gives, as a mapping or as its dataclass; none of None."""
-    keys = table.given if isinstance(table, Table) else table or {}
-    return dict(keys) if isinstance(keys, Mapping) else {}
-
-
-def names_in(table: Any, place: str = "") -> Iterator[str]:
-    """Yield the dotted names of the keys that a table gives, and of those of tables within it."""
-    for name, value in given_in(table).items():
-        if value is not None:
-            yield place + name
-            yield from names_in(value, f"{place}{name}.")
 
 
 def check_columns(names: tuple[str, str], one: Sized, other: Sized) -> None:

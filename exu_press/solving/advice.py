@@ -10,6 +10,7 @@ from exu_press.integrate.task import Task
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.scene import LubricatedJoint, mechanism_of
 from exu_press.scene.applied import applied_loads
+from exu_press.scene.joint import TouchingJoint
 from exu_press.solving.solvable_model import SolvableModel
 
 __all__ = ["SceneAdvice", "leapt_over_load"]
@@ -92,9 +93,9 @@ class SceneAdvice(Advice):
             assert scene.guide is not None
             if joint.lubricated:
                 return " (guide.viscosity, guide.clearance)"
-            return f" (guide.friction = {scene.guide.friction!r}, guide.clearance)"
-        if scene.friction is not None and not joint.lubricated:
-            return f" (friction.law = {scene.friction.law!r}, contact)"
+            return f" (guide.friction = {scene.guide.friction.kind!r}, guide.clearance)"
+        if scene.friction and "law" in scene.friction and not joint.lubricated:
+            return f" (friction.law = {scene.friction['law']!r}, contact)"
         return " (viscosity of the film, clearance)" if joint.lubricated else " (contact)"
 
     def cause(self) -> str:
@@ -128,11 +129,11 @@ class SceneAdvice(Advice):
         scene = self._scene
         for name, radius in mechanism_of(scene).crank_pins.items():
             pin = scene.joints[name]
-            if pin.friction is None or pin.friction.law == "none":
+            law = None if pin.friction is None else pin.friction.law
+            if law is None or not isinstance(pin, TouchingJoint) or not law.largest_coefficient:
                 continue
-            friction = pin.friction
-            largest = "mu_kinetic" if friction.law == "coulomb" else "mu_static"
-            circle = pin.radius * math.sin(math.atan(getattr(friction, largest)))
+            largest = law.largest_coefficient
+            circle = pin.radius * math.sin(math.atan(getattr(law, largest)))
             if circle >= WIDE_CIRCLE * radius:
                 return (
                     f"; the {name.replace('_', ' ')} seizes near dead centre (friction circle "

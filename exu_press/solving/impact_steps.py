@@ -9,7 +9,7 @@ from exu_press.joints.history import history
 from exu_press.laws.contact import NormalContact
 from exu_press.mechanism import GROUND
 from exu_press.numerics.arrays import Array, lengths
-from exu_press.scene.laws import contact_law
+from exu_press.scene.joint import TouchingJoint
 from exu_press.solving.solvable_model import SolvableModel
 
 __all__ = ["impact_steps"]
@@ -33,7 +33,10 @@ def impact_steps(model: SolvableModel) -> Iterator[float]:
     time = np.asarray(model.mbs.GetSensorStoredData(sensor))[:, 0]
     for description in model.mechanism.joints:
         joint, kind = model.clearance_joints.get(description.name), scene.joints[description.name]
-        if joint is None or kind.contact is None:
+        if joint is None or not isinstance(kind, TouchingJoint):
+            continue
+        law = kind.normal_contact(scene.angular_speed)
+        if law is None:
             continue
         states = history(model.states, joint, time)
         apart, moving = states.eccentricity, states.velocity
@@ -43,9 +46,6 @@ def impact_steps(model: SolvableModel) -> Iterator[float]:
         touches = free[:-1] & ~free[1:]
         speed = float(closing[:-1][touches].max(initial=0.0))
         if speed > 0.0:
-            law = contact_law(
-                kind, revolute=not description.spherical, crank_speed=scene.angular_speed
-            )
             mass = min(masses[description.journal], masses[description.bearing])
             yield _rise_time(law, mass, speed) / STEPS_IN_A_RISE
 

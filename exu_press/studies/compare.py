@@ -117,4 +117,4 @@ def _has_length(scene: Scene, law: str) -> bool:
     """Return whether a scene or its mechanism has the length of bearings for one of the laws."""
     table = getattr(scene, law)
     own = mechanism_of(scene).defaults.get(law, {})
-    return "length" in own or (table is not None and table.length is not None)
+    return "length" in own or "length" in (table or {})

@@ -34,10 +34,10 @@ def study_command(name: str) -> "type[StudyCommand] | None":
     if name in STUDIES:
         module, _, inside = STUDIES[name].partition(":")
         return getattr(import_module(module), inside)  # type: ignore[no-any-return]
-    from exu_press.scene.registered import registered_class  # seldom needed
+    from exu_press.schema.registered import registered_class  # seldom needed
     from exu_press.studies.base.command import StudyCommand
 
-    return registered_class(name, StudyCommand, GROUP)
+    return registered_class("study", name, StudyCommand, GROUP)
 
 
 def study_source(name: str) -> Path:

@@ -15,7 +15,7 @@ from exu_press.result import Result
 from exu_press.result.channel import AXES
 from exu_press.result.windows import settled_part
 from exu_press.scene import mechanism_of
-from exu_press.scene.laws import contact_law
+from exu_press.scene.joint import TouchingJoint
 from exu_press.schema.checks import demand_known
 from exu_press.signals.spectrum import Spectrogram, Spectrum, amplitude_spectrum, spectrogram
 from exu_press.terminal.columns import columns
@@ -210,7 +210,8 @@ def _on_contacts(result: Result) -> Iterator[Mark]:
     compliance = {body.name: 1.0 / body.mass for body in mechanism.bodies} | {GROUND: 0.0}
     for joint in mechanism.joints:
         kind = scene.joints[joint.name]
-        if kind.contact is None:
+        law = kind.normal_contact(scene.angular_speed) if isinstance(kind, TouchingJoint) else None
+        if law is None:
             continue
         away = lengths(result[f"{joint.name}_eccentricity"])
         touches = away > kind.clearance
@@ -220,9 +221,6 @@ def _on_contacts(result: Result) -> Iterator[Mark]:
         steps = np.gradient(result.time)
         forces = lengths(result[f"{joint.name}_force"])
         mean = float((forces * steps)[touches].sum() / steps[touches].sum())
-        law = contact_law(
-            kind, revolute=not joint.spherical, crank_speed=result.scene.angular_speed
-        )
 
         def missing(depth: float, law: object = law, mean: float = mean) -> float:
             return float(law.force(depth, 0.0, 1.0)[0]) - mean  # type: ignore[attr-defined]

@@ -91,15 +91,15 @@ def groups_of(scene: Scene) -> list[str]:
     if scene.speed_rpm < SLOW:
         found.append(f"speed: below {SLOW:g} rpm")
     kinds = {joint.kind for joint in scene.joints.values()}
-    mixed = scene.film is not None and scene.film.at_contact == "mixed"
+    mixed = scene.film is not None and scene.film["at_contact"] == "mixed"
     names = {"dry": "dry", "lubricated": "mixed" if mixed else "lubricated"}
     joints = [names[kind] for kind in sorted(kinds) if kind in names]
     found += [f"joints: {name}" for name in joints or ["ideal"]]
     if friction is not None and {"dry", "mixed"} & {*joints}:
-        found.append(f"friction: {friction.law}")
+        found.append(f"friction: {friction['law']}")
     if guide is not None:
         kind = "clearance" if guide.clearance else "elastic" if guide.soft else "rubbing"
-        found += [f"guides: {kind}", f"friction of guides: {guide.friction}"]
+        found += [f"guides: {kind}", f"friction of guides: {guide.friction.kind}"]
     if scene.drive is not None:
         found.append("motor")
     loads = [f"load: {load.kind}" for load in scene.load.values()]

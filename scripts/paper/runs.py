@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from exu_press.scene import Film, Scene, flexible_press
+from exu_press.scene import Scene, flexible_press
 
 __all__ = [
     "DAMPINGS",
@@ -67,7 +67,7 @@ def paper_runs(
         revolutions: of every run. The second one is observed: in the first one journals and balls
             fall from where they start.
     """
-    scene = Scene(film=Film(law="pinkus"), revolutions=revolutions)
+    scene = Scene(film={"law": "pinkus"}, revolutions=revolutions)
     scene = scene.replace({"contact.damping_max": DAMPINGS[damping]})
     if flexible:
         scene = scene.replace({"bodies": flexible_press()})

@@ -112,7 +112,8 @@ def values_in(scene: Scene, changes: Changes) -> dict[str, Any]:
     for name, value in changes.items():
         table, _, inner = name.rpartition(".")
         if (place := _place(scene, table)) is not None:
-            values[name] = value(getattr(place, inner)) if callable(value) else value
+            now = place[inner] if isinstance(place, Mapping) else getattr(place, inner)
+            values[name] = value(now) if callable(value) else value
     return values
 
 

@@ -4,14 +4,14 @@ from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.mechanism.press import PAPER_LAWS
-from exu_press.scene import Film, Scene, flexible_press
+from exu_press.scene import Scene, flexible_press
 from exu_press.studies.precision.cases import STEPS, TOLERANCES, Case
 from precision.other_solvers import Reduced, Squeezer
 from precision.variations import Modes
 
 __all__ = ["cases", "chosen"]
 
-PAPERS = Film(law="pinkus")
+PAPERS = {"law": "pinkus"}
 """The paper's film, which the reduced model has."""
 
 DRY = PAPER_LAWS

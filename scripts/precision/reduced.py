@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from exu_press.errors import InputError
 from exu_press.scene import DryJoint, LubricatedJoint, Scene
-from exu_press.scene.laws import film_scale_of
+from exu_press.schema.table import plain
 
 __all__ = ["Jit", "Numbers", "ScalarFunction", "is_reducible", "numbers_of", "rate_of", "start_of"]
 
@@ -62,7 +62,8 @@ def numbers_of(scene: Scene) -> Numbers:
         )
     size, pin = scene.slider_crank, scene.joints["crank_pin"]
     assert size is not None and isinstance(pin, DryJoint | LubricatedJoint)
-    contact, friction, c = pin.contact, pin.friction, pin.clearance
+    contact = {} if pin.contact is None else plain(pin.contact)
+    friction = {} if pin.friction is None else plain(pin.friction)
     return Numbers(
         crank_radius=size.crank_radius,
         rod_length=size.rod_length,
@@ -72,19 +73,19 @@ def numbers_of(scene: Scene) -> Numbers:
         gravity=scene.gravity,
         speed=scene.angular_speed,
         start_angle=scene.start_angle,
-        clearance=c,
+        clearance=pin.clearance,
         radius=pin.radius,
-        stiffness=(contact.stiffness or 1.0) if contact else 1.0,
-        exponent=contact.exponent if contact else 1.0,
-        damping_max=(contact.damping_max or 0.0) if contact else 0.0,
-        damping_depth=(contact.damping_depth or 1.0) if contact else 1.0,
-        mu_static=friction.mu_static if friction else 0.0,
-        mu_kinetic=friction.mu_kinetic if friction else 0.0,
-        sigma_2=friction.sigma_2 if friction else 0.0,
-        stribeck_velocity=friction.stribeck_velocity if friction else 1.0,
-        stribeck_exponent=friction.stribeck_exponent if friction else 1.0,
-        regularisation_velocity=friction.regularisation_velocity if friction else 1.0,
-        film_scale=film_scale_of(pin) if isinstance(pin, LubricatedJoint) else 0.0,
+        stiffness=contact.get("stiffness", 1.0),
+        exponent=contact.get("exponent", 1.0),
+        damping_max=contact.get("damping_max", 0.0),
+        damping_depth=contact.get("damping_depth", 1.0),
+        mu_static=friction.get("mu_static", 0.0),
+        mu_kinetic=friction.get("mu_kinetic", 0.0),
+        sigma_2=friction.get("sigma_2", 0.0),
+        stribeck_velocity=friction.get("stribeck_velocity", 1.0),
+        stribeck_exponent=friction.get("stribeck_exponent", 1.0),
+        regularisation_velocity=friction.get("regularisation_velocity", 1.0),
+        film_scale=pin.film_scale if isinstance(pin, LubricatedJoint) else 0.0,
     )
 
 
@@ -96,14 +97,12 @@ def is_reducible(scene: Scene) -> bool:
         return False
     pin = scene.joints["crank_pin"]
     if isinstance(pin, LubricatedJoint):
-        return (pin.film.law, pin.film.at_contact) == ("pinkus", "stop")
-    assert isinstance(pin, DryJoint)
-    contact = pin.contact
-    return (contact.shape, contact.damping, contact.tension) == (
-        "point",
-        "step",
-        False,
-    ) and pin.friction.law == "lugre_steady"
+        film = plain(pin.film)
+        return (film["law"], film["at_contact"]) == ("pinkus", "stop")
+    assert isinstance(pin, DryJoint) and pin.contact is not None and pin.friction is not None
+    keys = {**plain(pin.contact), **plain(pin.friction)}
+    wanted = {"shape": "point", "damping": "step", "tension": False, "law": "lugre_steady"}
+    return wanted.items() <= keys.items()
 
 
 def start_of(numbers: Numbers) -> State:

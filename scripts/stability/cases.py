@@ -11,7 +11,7 @@ from functools import cache
 from typing import Any, Self
 
 from exu_press.mechanism.press import PAPER_LAWS
-from exu_press.scene import Film, Scene, flexible_press
+from exu_press.scene import Scene, flexible_press
 from exu_press.studies.stability.cases import PAIRS, Case
 from exu_press.studies.stability.run import StabilityStudy
 
@@ -116,7 +116,7 @@ def _case(axis: str, base: str, value: str, changes: Changes) -> Case:
 
 @cache
 def _base(name: str) -> Scene:
-    scene = Scene(film=Film(law="pinkus"), revolutions=REVOLUTIONS)  # the paper's
+    scene = Scene(film={"law": "pinkus"}, revolutions=REVOLUTIONS)  # the paper's
     return scene.replace(BASES[name])
 
 

@@ -25,17 +25,16 @@ from exu_press.laws.film import with_asperities
 from exu_press.laws.film.ball import ball
 from exu_press.laws.friction import no_friction
 from exu_press.scene import Scene
-from exu_press.scene.laws import contact_law, film_law
 
 SCENE = Scene()
-CONTACT = contact_law(SCENE.joints["ball_left"], revolute=True, crank_speed=SCENE.angular_speed)
+CONTACT = SCENE.joints["ball_left"].normal_contact(SCENE.angular_speed)
 DRY = {"radius": 0.02, "clearance": 1e-4, "contact": CONTACT, "friction": no_friction()}
 FILM = {
     "radius": 0.02,
     "clearance": 1e-4,
     "length": 0.1,
     "viscosity": 0.1,
-    "law": film_law(SCENE.film, 0.02, 1e-4),
+    "law": SCENE.joints["crank_pin"].film.film_law(0.02, 1e-4),
 }
 OILED_BALL = {"radius": 0.02, "clearance": 1e-4, "viscosity": 0.1, "film": ball()}
 IN_SPACE = add_dry_spherical, add_lubricated_spherical

@@ -355,7 +355,7 @@ def test_the_damping_of_a_guide_is_that_of_the_solids_mass(slider):
     """2 D sqrt(k m) of the body that moves, not of the drawn one."""
     system = System(scene := slider(guide={"lateral_stiffness": 2e8}), placed_parts(scene))
     (guide,) = system.mechanism.guides
-    part, ratio = system.parts["slider"], scene.guide.damping_ratio
+    part, ratio = system.parts["slider"], scene.guide.support.damping_ratio
     drawn = mechanism_of(scene).body("slider").mass
     assert abs(drawn / part.reduced.mass - 1.0) > 0.1
     assert guide.lateral.damping == 2.0 * ratio * np.sqrt(2e8 * part.reduced.mass)

@@ -43,7 +43,7 @@ def test_the_losses_are_the_work_of_friction(pressed):
 
 
 def test_the_slider_has_its_clearance_and_the_give_of_its_guideway(pressed):
-    stiffness = pressed.scene.guide.lateral_stiffness
+    stiffness = pressed.scene.guide.support.lateral_stiffness
     beside = np.abs(pressed["slider_lateral"])
     expected = CLEARANCE + np.abs(pressed["guide_force"]) / stiffness
     side, velocity, _ = by_statics(pressed, FORCE, MU)

@@ -1,6 +1,7 @@
 """Clutch, brake and schedule: closed forms of free rotors, and a press of two coordinates."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from scipy.integrate import solve_ivp
 
 from exu_press import Scene, simulate
 from exu_press.scene import mechanism_of
+from exu_press.schema.table import plain
 
 FREE = {
     "rated_torque": 1e-3,
@@ -122,23 +124,24 @@ def reduced(scene, end):
     Of two coordinates, from the closed form of the slider-crank, with dry friction that jumps: each
     piece is integrated by LSODA until something slips or sticks.
     """
-    motor, wheel, free = scene.drive, scene.drive.inertia, scene.angular_speed
-    crank = OneCoordinate(scene, motor.driven_inertia).crank
+    motor, wheel, free = scene.drive.torque, scene.drive.inertia, scene.angular_speed
+    keys = SimpleNamespace(**plain(scene.drive.clutch))
+    crank = OneCoordinate(scene, keys.driven_inertia).crank
 
     def ramp(pair, since):
         return min(1.0, max(0.0, (since - pair[0]) / (pair[1] - pair[0])))
 
-    (start,), (stop,) = motor.start_time, motor.stop_time
+    (start,), (stop,) = keys.start_time, keys.stop_time
 
     def clutch(t):
         if t >= stop:
-            return motor.clutch_torque * (1.0 - ramp(motor.clutch_off, t - stop))
-        return motor.clutch_torque * ramp(motor.clutch_on, t - start) if t >= start else 0.0
+            return keys.clutch_torque * (1.0 - ramp(keys.clutch_off, t - stop))
+        return keys.clutch_torque * ramp(keys.clutch_on, t - start) if t >= start else 0.0
 
     def brake(t):
         if t >= stop:
-            return motor.brake_torque * ramp(motor.brake_on, t - stop)
-        return motor.brake_torque * (1.0 - ramp(motor.brake_off, t - start) if t >= start else 1.0)
+            return keys.brake_torque * ramp(keys.brake_on, t - stop)
+        return keys.brake_torque * (1.0 - ramp(keys.brake_off, t - start) if t >= start else 1.0)
 
     def rates(t, state, clutched, braked):
         """`clutched`, `braked`: the signs with which they slip, 0 where they stick."""
@@ -176,11 +179,11 @@ def reduced(scene, end):
 
     pieces = (
         ((1, 0), let_go, -1),
-        ((1, 1), None, start + motor.brake_off[1]),
+        ((1, 1), None, start + keys.brake_off[1]),
         ((1, 1), level, -1),
         ((0, 1), None, stop),
         ((0, 1), slips, -1),
-        (("slips", 1), None, stop + motor.brake_on[0]),
+        (("slips", 1), None, stop + keys.brake_on[0]),
         ((1, 1), stands, -1),
         ((1, 0), None, end),
     )

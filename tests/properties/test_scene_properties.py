@@ -1,6 +1,5 @@
 """Validation of a scene: whatever is handed in is one or an InputError; tried by Hypothesis."""
 
-import dataclasses
 import json
 import math
 
@@ -12,7 +11,8 @@ from exu_press import Scene, simulate
 from exu_press.cli import main
 from exu_press.errors import InputError
 from exu_press.integrate import SolverStatus
-from exu_press.scene.usage import TABLES
+from exu_press.scene.usage import TABLES, table_keys
+from exu_press.schema.table import declared_keys
 
 anything = st.one_of(
     st.none(),
@@ -26,9 +26,9 @@ anything = st.one_of(
 
 
 FIELDS = {
-    (name, field.name): field
-    for name, table in {"": Scene, **TABLES}.items()
-    for field in dataclasses.fields(table)
+    (table, name): field
+    for table in ("", *TABLES)
+    for name, field in (table_keys(table) if table else declared_keys(Scene)).items()
     if "meaning" in field.metadata
 }
 
@@ -57,16 +57,16 @@ def value_of(field):
 
 
 def table_of(table):
-    fields = {f.name: value_of(f) for f in dataclasses.fields(table) if "meaning" in f.metadata}
+    fields = {name: value_of(field) for (of, name), field in FIELDS.items() if of == table}
     fields["unknown"] = anything
     names = st.lists(st.sampled_from(sorted(fields)), max_size=3, unique=True)
     return names.flatmap(lambda chosen: st.fixed_dictionaries({n: fields[n] for n in chosen}))
 
 
 scenes = st.tuples(
-    table_of(Scene),
+    table_of(""),
     st.lists(st.sampled_from(sorted(TABLES)), max_size=3, unique=True).flatmap(
-        lambda chosen: st.fixed_dictionaries({name: table_of(TABLES[name]) for name in chosen})
+        lambda chosen: st.fixed_dictionaries({name: table_of(name) for name in chosen})
     ),
 ).map(lambda parts: {**parts[0], **parts[1]})
 

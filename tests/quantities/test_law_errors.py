@@ -20,7 +20,7 @@ FIGURES = ("min_film", "dissipated", "max_eccentricity_ratio", "peak_force")
 def test_the_error_of_a_table_covers_a_film_that_is_as_much_stronger(scene, joint, part):
     """The film of a ball was 7.8 nm off for a stated 1.8 nm: the table's 0.2 % were left out."""
     run = simulate(scene, errors=True, beside=False)
-    stronger = scene.replace({"film.viscosity": scene.film.viscosity * (1.0 + part)})
+    stronger = scene.replace({"film.viscosity": scene.film["viscosity"] * (1.0 + part)})
     other = simulate(stronger)
     for name in FIGURES:
         figure = run.quantity(f"joints.{joint}.{name}")

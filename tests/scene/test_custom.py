@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from exu_press import InputError, Scene, simulate
-from exu_press.scene.custom import import_kinds
+from exu_press.schema.kinds import import_kinds
 
 BUSHING = """
 from dataclasses import dataclass

@@ -9,10 +9,9 @@ from exu_press import InputError, Scene, simulate
 from exu_press.laws.contact import hertz_stiffness
 from exu_press.mechanism import mechanism_from_dict, mechanism_lines, shipped_mechanism
 from exu_press.mechanism.press import TABLE_2
-from exu_press.scene import Contact, DryJoint, Film
+from exu_press.scene import DryJoint
 from exu_press.scene.assumptions import assumed
-from exu_press.scene.laws import contact_law
-from exu_press.scene.usage import TABLES
+from exu_press.scene.usage import table_keys
 from exu_press.studies.compare import variants
 
 FOUR_BAR = shipped_mechanism("four_bar")
@@ -27,7 +26,7 @@ def scene(**given):
 
 def test_no_default_is_the_papers():
     for law in ("contact", "friction", "film"):
-        ours = {field.name: field.default for field in dataclasses.fields(TABLES[law])}
+        ours = {name: field.default for name, field in table_keys(law).items()}
         papers = TABLE_2[law].items() - {
             ("exponent", 1.5),
             ("modulus", 1.1538e11),
@@ -41,17 +40,13 @@ def test_no_default_is_the_papers():
 def test_the_paper_rules_its_press():
     press = Scene(joints={"crank_pin": "dry"})
     for law in ("contact", "friction"):
-        used = {
-            key: value for key, value in vars(getattr(press, law)).items() if key in TABLE_2[law]
-        }
-        assert {key: v for key, v in used.items() if v is not None}.items() <= TABLE_2[law].items()
-        assert not {key for key, v in used.items() if v is None} - set(getattr(press, law).unused())
-    assert Scene().film.viscosity == 0.4
-    assert Scene(contact=Contact(damping="flores")) == Scene(contact={"damping": "flores"})
-    assert Scene(contact=Contact(damping="flores")).contact.restitution == 0.5
+        used = {key: v for key, v in getattr(press, law).items() if key in TABLE_2[law]}
+        assert used and used.items() <= TABLE_2[law].items()
+    assert Scene().film["viscosity"] == 0.4
+    assert Scene(contact={"damping": "flores"}).contact["restitution"] == 0.5
     asked = Scene(friction={"mu_static": 0.1, "mu_kinetic": 0.1}).friction
-    assert asked.mu_kinetic == 0.1, "what is given counts although it is a general default"
-    assert Scene(contact=Contact(damping="flores", restitution=0.9)).contact.restitution == 0.9
+    assert asked["mu_kinetic"] == 0.1, "what is given counts although it is a general default"
+    assert Scene(contact={"damping": "flores", "restitution": 0.9}).contact["restitution"] == 0.9
 
 
 def test_another_mechanism_does_not_take_the_papers_laws_over():
@@ -59,8 +54,8 @@ def test_another_mechanism_does_not_take_the_papers_laws_over():
     other = Scene(joints={"crank_pin": "dry"}, contact=flores).replace(
         {"mechanism": "slider_crank"}
     )
-    assert other.contact.damping == "flores" and other.contact.stiffness is None
-    assert other.contact.restitution == 0.7, "what the scene gave stays"
+    assert other.contact["damping"] == "flores" and "stiffness" not in other.contact
+    assert other.contact["restitution"] == 0.7, "what the scene gave stays"
     assert other.friction == Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}).friction
 
 
@@ -87,10 +82,10 @@ def test_a_film_needs_its_oil_and_its_length():
     for name in OIL:
         with pytest.raises(InputError, match=rf"joints.knuckle needs film.{name} "):
             scene(joints=film, contact=None, film={k: v for k, v in OIL.items() if k != name})
-    whole = scene(joints=film, contact=None, film=Film(**OIL))
+    whole = scene(joints=film, contact=None, film=OIL)
     mixed = whole.replace({"film.at_contact": "mixed"})
-    law = contact_law(mixed.joints["knuckle"], revolute=True, crank_speed=1.0)
-    given = contact_law(scene().joints["knuckle"], revolute=True, crank_speed=1.0)
+    law = mixed.joints["knuckle"].normal_contact(1.0)
+    given = scene().joints["knuckle"].normal_contact(1.0)
     assert law.stiffness.force(1e-6) == given.stiffness.force(1e-6), "of the film's length"
 
 
@@ -100,11 +95,11 @@ def test_a_ball_has_the_stiffness_of_its_sizes():
         mechanism="eccentric_press",
         joints={"balls": {"kind": "dry", "radius": 0.03, "clearance": 1e-4}},
     )
-    law = contact_law(press.joints["ball_left"], revolute=False, crank_speed=1.0)
+    law = press.joints["ball_left"].normal_contact(1.0)
     expected = hertz_stiffness(1.0 / (1.0 / 0.03 - 1.0 / 0.0301), 210e9 / (2 * (1 - 0.3**2)))
     assert law.stiffness.force(1e-6)[0] == pytest.approx(expected * 1e-9, rel=1e-4)
     with pytest.raises(InputError, match=r"contact.exponent = 2.0: .* allowed is 1.5"):
-        scene(contact={"exponent": 2.0, "length": 0.02})
+        scene(contact={"exponent": 2.0, "shape": "point"})
 
 
 def test_a_mechanism_file_gives_sizes_and_laws_for_all_its_scenes(tmp_path):
@@ -172,12 +167,12 @@ def test_the_slowest_impact_follows_from_crank_speed_and_clearance():
     said = f"contact.slowest_impact = {speed:g} m/s (speed of the crank times the clearance)"
     assert said in assumed(slow)
     joint = slow.joints["knuckle"]
-    law = contact_law(joint, revolute=True, crank_speed=slow.angular_speed)
+    law = joint.normal_contact(slow.angular_speed)
     assert law.force(1e-6, 1e-5, 0.5 * speed) == law.force(1e-6, 1e-5, speed)
     assert law.force(1e-6, 1e-5, 1.5 * speed) != law.force(1e-6, 1e-5, speed)
     given = slow.replace({"contact.slowest_impact": 2e-3})
     assert not any("slowest_impact" in entry for entry in assumed(given))
-    law = contact_law(given.joints["knuckle"], revolute=True, crank_speed=given.angular_speed)
+    law = given.joints["knuckle"].normal_contact(given.angular_speed)
     assert law.force(1e-6, 1e-5, speed) == law.force(1e-6, 1e-5, 2e-3)
     with pytest.raises(InputError, match=r"contact\.slowest_impact"):
         scene(contact={"length": 0.02, "damping": "step", "damping_max": 1.0,
@@ -197,5 +192,5 @@ def test_variants_of_a_film_are_dry_in_bearings_of_its_length():
     joints = {"knuckle": {**PIN, "kind": "lubricated"}, "pivot": {**PIN, "kind": "lubricated"}}
     made = variants(scene(joints=joints, contact=None, film=OIL))
     assert made.keys() == {"ideal", "dry", "lubricated"}
-    assert made["dry"].joints["pivot"].contact.length == OIL["length"]
+    assert made["dry"].joints["pivot"].contact.shape.length == OIL["length"]
     assert variants(scene()).keys() == {"ideal", "dry"}, "no oil is known"

@@ -97,7 +97,7 @@ def test_shipped_scenes_load(path):
 def test_assignments_change_the_file(tmp_path):
     path = write(tmp_path, "speed_rpm = 300\n[film]\nviscosity = 0.1")
     scene = Scene.load(path, ["speed_rpm=200", "film.viscosity = 0.2", "film.law=pi_film"])
-    assert (scene.speed_rpm, scene.film.viscosity, scene.film.law) == (200.0, 0.2, "pi_film")
+    assert (scene.speed_rpm, scene.film["viscosity"], scene.film["law"]) == (200.0, 0.2, "pi_film")
 
 
 def test_assignment_drops_what_is_no_longer_used(tmp_path):

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError, prefixed
-from exu_press.schema.checks import Table, key, table_from
+from exu_press.schema.checks import key
+from exu_press.schema.table import Table, table_from
 
 __all__ = ["Key", "Normal", "Range", "Values", "key_from", "keys_from"]
 

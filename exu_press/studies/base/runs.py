@@ -13,7 +13,7 @@ from exu_press.parallel.task import Function
 from exu_press.quantities import own_modules, values_of
 from exu_press.result import Result
 from exu_press.scene import Scene
-from exu_press.scene.custom import custom_modules
+from exu_press.schema.kinds import custom_modules
 from exu_press.schema.stored import from_json
 from exu_press.studies.base.inputs import arguments_of, scene_from
 from exu_press.studies.base.report import Report

@@ -7,8 +7,9 @@ from typing import Any, ClassVar, TypeVar
 
 from exu_press.errors import InputError, prefixed
 from exu_press.scene import Scene
-from exu_press.scene.custom import import_kinds
-from exu_press.schema.checks import Table, key, table_from
+from exu_press.schema.checks import key
+from exu_press.schema.kinds import import_kinds
+from exu_press.schema.table import Table, table_from
 from exu_press.schema.toml import read_toml
 from exu_press.studies.base.keys import Key, keys_from
 

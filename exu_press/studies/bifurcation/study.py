@@ -5,7 +5,8 @@ from itertools import pairwise
 from types import MappingProxyType
 
 from exu_press.errors import InputError
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import key
+from exu_press.schema.table import Table
 from exu_press.studies.attractor.lyapunov import BATCHES
 from exu_press.studies.base import Study, Values
 

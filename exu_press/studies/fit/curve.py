@@ -12,7 +12,8 @@ from scipy.signal import butter, sosfilt, sosfilt_zi
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import eno_cubic, evaluate
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import key
+from exu_press.schema.table import Table
 from exu_press.studies.curve_file import CurveFile, factor_to, read_curve
 from exu_press.studies.fit.measured import dotted_keys
 

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import key
 from exu_press.schema.csv_table import flat
+from exu_press.schema.table import Table
 
 __all__ = ["MeasuredNumber", "dotted_keys"]
 

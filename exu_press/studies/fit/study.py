@@ -9,7 +9,8 @@ from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.quantities import quantity_of
-from exu_press.schema.checks import Table, demand_known, key
+from exu_press.schema.checks import demand_known, key
+from exu_press.schema.table import Table
 from exu_press.studies.base import Range, Study
 from exu_press.studies.base.evaluation import ranged
 from exu_press.studies.fit.curve import Curve

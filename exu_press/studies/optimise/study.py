@@ -5,7 +5,8 @@ from types import MappingProxyType
 
 from exu_press.errors import InputError
 from exu_press.quantities import quantity_of
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import key
+from exu_press.schema.table import Table
 from exu_press.studies.base import Range, Study, Values
 from exu_press.studies.base.evaluation import ranged
 

@@ -7,7 +7,8 @@ from typing import Any, cast
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.quantities import quantity_of
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import key
+from exu_press.schema.table import Table
 from exu_press.studies.base import Normal, Range, Study, Values
 from exu_press.studies.base.evaluation import ranged
 from exu_press.studies.base.study import names_in

@@ -14,7 +14,7 @@ from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE, quan
 from exu_press.quantities.energy import energy_residual, energy_scale, kinetic_energy
 from exu_press.result import Result
 from exu_press.scene import LubricatedJoint, Scene, mechanism_of
-from exu_press.scene.laws import contact_law, film_scale_of
+from exu_press.scene.joint import TouchingJoint
 from exu_press.verification.stated_errors import compare_errors
 
 __all__ = ["RESIDUAL_LIMIT", "Check", "agreement", "checks_of"]
@@ -164,12 +164,12 @@ def _elastic_energy(result: Result) -> Array | None:
     """Return the elastic energy of all contacts, (n,), J; None where nothing may touch."""
     total, found = np.zeros_like(result.time), False
     for name, joint in result.scene.joints.with_clearance.items():
-        if joint.contact is None or joint.onset is None:
+        if not isinstance(joint, TouchingJoint) or joint.onset is None:
+            continue
+        law = joint.normal_contact(result.scene.angular_speed)
+        if law is None:
             continue
         found, record = True, result.joints[name]
-        law = contact_law(
-            joint, revolute=not record.spherical, crank_speed=result.scene.angular_speed
-        )
         depth = joint.onset - record.gap
         total += [law.elastic_energy(d) for d in depth.tolist()]
     return total if found else None
@@ -195,7 +195,7 @@ def _rounding(scene: Scene, name: str) -> float:
     joint = scene.joints[name]
     if not isinstance(joint, LubricatedJoint):
         return 0.0
-    damping = 12.0 * math.pi * film_scale_of(joint) / joint.clearance
+    damping = 12.0 * math.pi * joint.film_scale / joint.clearance
     return SolverTuning().rounding * scene.pin_speed * damping
 
 

@@ -12,7 +12,8 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.scene import Scene
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import key
+from exu_press.schema.table import Table
 from exu_press.studies.base import Study
 from exu_press.studies.base.keys import Key, Values
 

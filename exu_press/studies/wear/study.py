@@ -9,7 +9,8 @@ from exu_press.errors import InputError
 from exu_press.quantities import quantity_of
 from exu_press.quantities.catalogue import DEAD_CENTRE, JOINT_FORCE
 from exu_press.scene.wearing import wearing_joints
-from exu_press.schema.checks import Table, key
+from exu_press.schema.checks import key
+from exu_press.schema.table import Table
 from exu_press.studies.base import Study
 from exu_press.studies.base.keys import Key
 from exu_press.studies.base.study import names_in

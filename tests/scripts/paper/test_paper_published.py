@@ -33,5 +33,5 @@ def test_every_number_and_trend_has_its_runs(damping):
 
 def test_the_readings_of_the_damping_differ_in_it_alone():
     default, literal = (paper_runs(damping)["clearance 0.2 mm"] for damping in DAMPINGS)
-    assert default.contact.damping_max == 2.5545e8
+    assert default.contact["damping_max"] == 2.5545e8
     assert literal == default.replace({"contact.damping_max": 0.01})

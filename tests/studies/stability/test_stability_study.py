@@ -159,7 +159,7 @@ def test_every_number_that_a_scene_uses_is_pushed_both_ways():
     table = extremes(scene, "mine")
     assert len({case.name for case in table}) == len(table)
     assert table[0].scene.replace({"solver.max_steps": scene.solver.max_steps}) == scene
-    reached = [case.scene.film.viscosity for case in table if case.axis == "film.viscosity"]
+    reached = [case.scene.film["viscosity"] for case in table if case.axis == "film.viscosity"]
     assert min(reached) == pytest.approx(3e-4) and max(reached) == pytest.approx(300.0)
     assert all(case.scene.to_dict() != table[0].scene.to_dict() for case in table[1:])
     keys = {case.axis for case in table}

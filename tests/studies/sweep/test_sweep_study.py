@@ -43,7 +43,7 @@ def test_a_scene_beside_the_study(tmp_path, monkeypatch):
         'scene = "scene.toml"\n[keys]\nfilm.viscosity = [0.1, 0.2]\n[sweep]\nway = "list"\n',
     )
     assert study.scene == Scene(joints={"crank_pin": "lubricated", "balls": "ideal"})
-    assert [scene.film.viscosity for scene in study.scenes] == [0.1, 0.2]
+    assert [scene.film["viscosity"] for scene in study.scenes] == [0.1, 0.2]
 
 
 def test_a_latin_hypercube(tmp_path):

@@ -20,10 +20,11 @@ __all__ = ["GROUP", "registered_class"]
 GROUP = "exu_press.kinds"
 
 
-def registered_class(name: str, base: type[Any], group: str = GROUP) -> type[Any] | None:
+def registered_class(key: str, name: str, base: type[Any], group: str = GROUP) -> type[Any] | None:
     """Return the class that a distribution registers by a name, or None.
 
     Args:
+        key: that has the name, for messages.
         name: of the entry point.
         base: that the class is derived from.
         group: of the entry points; that of kinds, or of studies.
@@ -39,8 +40,7 @@ def registered_class(name: str, base: type[Any], group: str = GROUP) -> type[Any
     }
     if not entries:
         return None
-    what = f"kind = {name!r}" if group == GROUP else name
-    said = f"{what}, registered by {' and '.join(owner for _, owner in entries.values())}"
+    said = f"{key} = {name!r}, registered by {' and '.join(owner for _, owner in entries.values())}"
     if len(entries) > 1:
         raise InputError(f"{said}: allowed is one of them; remove the other")
     entry, _ = next(iter(entries.values()))

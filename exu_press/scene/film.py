@@ -1,0 +1,264 @@
+"""[film]: the oil film of lubricated joints, Eqs. 34-35 corrected."""
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from exu_press.errors import InputError, prefixed
+from exu_press.laws.catalogue import BALL_ERROR, FILM_LAWS
+from exu_press.laws.film.asperities import with_asperities
+from exu_press.laws.film.ball import BallFilm as BallLaw
+from exu_press.laws.film.ball import ball
+from exu_press.laws.film.contract import FilmLaw as JournalLaw
+from exu_press.laws.film.contract import film_scale
+from exu_press.laws.film.side_flow import SideFlow, no_flow
+from exu_press.scene.oil import Oil
+from exu_press.schema.checks import key
+from exu_press.schema.kinds import CustomKind
+from exu_press.schema.registry import Registry, choice
+from exu_press.schema.table import Table, nested
+
+__all__ = ["FILMS", "BallFilm", "Film", "FilmLaw", "JournalFilm"]
+
+FILMS = Registry(
+    {
+        "pinkus": "scene.film:Pinkus",
+        "pi_film": "scene.film:PiFilm",
+        "short": "scene.film:Short",
+        "finite": "scene.film:Finite",
+    },
+    base="scene.film:FilmLaw",
+)
+
+AT_CONTACT_MEANING = "at eccentricity ratio 1: stop, or film and contact (A-13)"
+
+AT_CONTACT = Registry({"stop": "scene.film:StopAtContact", "mixed": "scene.film:MixedFilm"})
+
+
+@dataclass(frozen=True)
+class FilmLaw(CustomKind, Table, ABC):
+    """Base of the film laws of journals, also of your own.
+
+    The derived dataclass declares its keys, which stand in [film], by
+    `exu_press.schema.checks.key`.
+    """
+
+    table: ClassVar[str] = "film"
+    length_to_diameter: ClassVar[tuple[float, float]] = (0.0, math.inf)
+    """L/D that it is meant for."""
+    error: ClassVar[float] = 0.0
+    """Relative, of its forces."""
+    flow_error: ClassVar[float] = 0.0
+    """The same of the side flow."""
+    flows_out: ClassVar[bool] = False
+    """Whether oil flows out at the ends."""
+
+    @abstractmethod
+    def film(self, length_to_diameter: float) -> JournalLaw:
+        """Return the law of a bearing of this L/D."""
+
+    def side_flow(self, length_to_diameter: float) -> SideFlow:
+        """Return the flow of oil out of the ends of a bearing of this L/D."""
+        return no_flow(length_to_diameter)
+
+    def suits(self, length_to_diameter: float) -> bool:
+        """Return whether L/D lies in the range that the law is meant for."""
+        low, high = self.length_to_diameter
+        return low <= length_to_diameter <= high
+
+
+class _Published(FilmLaw):
+    """A law of `exu_press.laws.catalogue`."""
+
+    def __init_subclass__(cls) -> None:
+        entry = FILM_LAWS[cls.registered_name]
+        cls.length_to_diameter, cls.flows_out = entry.length_to_diameter, entry.flows_out
+        cls.error, cls.flow_error = entry.error, entry.flow_error
+
+    def film(self, length_to_diameter: float) -> JournalLaw:
+        """Return the law of a bearing of this L/D."""
+        return FILM_LAWS[self.kind].factory(length_to_diameter)
+
+    def side_flow(self, length_to_diameter: float) -> SideFlow:
+        """Return the flow of oil out of the ends of a bearing of this L/D."""
+        return FILM_LAWS[self.kind].side_flow(length_to_diameter)
+
+
+class Pinkus(_Published):
+    """A long bearing with Gümbel's condition, as printed by Pinkus and Sternlicht."""
+
+    registered_name: ClassVar[str] = "pinkus"
+
+
+class PiFilm(_Published):
+    """A long bearing, of whose film half bears."""
+
+    registered_name: ClassVar[str] = "pi_film"
+
+
+class Short(_Published):
+    """A short bearing."""
+
+    registered_name: ClassVar[str] = "short"
+
+
+class Finite(_Published):
+    """A bearing of any usual length."""
+
+    registered_name: ClassVar[str] = "finite"
+
+
+@dataclass(frozen=True)
+class StopAtContact(CustomKind, Table):
+    """The film alone bears; the run ends where surfaces would touch."""
+
+    registered_name: ClassVar[str] = "stop"
+    table: ClassVar[str] = "film"
+    contact_gap: ClassVar[None] = None
+
+
+@dataclass(frozen=True)
+class MixedFilm(CustomKind, Table):
+    """Asperities share the load where the film is thin."""
+
+    registered_name: ClassVar[str] = "mixed"
+    table: ClassVar[str] = "film"
+    roughness: float = key(2e-7, "combined rms roughness", "m", above=0)
+    asperity_onset: float = key(
+        3.0, "gap at which asperities touch, in roughnesses", above=0, at_most=10
+    )
+
+    @property
+    def contact_gap(self) -> float:
+        """Gap at which the surfaces' asperities touch, m."""
+        return self.roughness * self.asperity_onset
+
+
+class Film(Table):
+    """Film of a lubricated joint."""
+
+    table: ClassVar[str] = "film"
+    exclusive_with: ClassVar[Mapping[str, str]] = {"oil": "viscosity", "viscosity": "oil"}
+    length: Any
+    viscosity: float
+    at_contact: StopAtContact | MixedFilm
+    oil: Oil | None
+
+    @property
+    def cold_viscosity(self) -> float:
+        """Viscosity with which a run begins, Pa s: of oil as it is supplied."""
+        if self.oil is not None:
+            return self.oil.viscosity(self.oil.supply_celsius)
+        return self.viscosity
+
+    @property
+    def contact_gap(self) -> float | None:
+        """Gap at which the surfaces' asperities touch, m; None without mixed film."""
+        return self.at_contact.contact_gap
+
+    def contact_gap_ratio(self, clearance: float) -> float | None:
+        """Return that gap over the clearance, m.
+
+        Raises:
+            InputError: the gap is as wide as the clearance.
+        """
+        gap = self.contact_gap
+        if gap is not None and gap >= clearance:
+            raise InputError(
+                f"film.roughness * film.asperity_onset = {gap:g}: allowed is a number < "
+                f"clearance = {clearance:g}"
+            )
+        return None if gap is None else gap / clearance
+
+    def scale(self, radius: float, clearance: float) -> float:
+        """Return the scale P of its force, N s, from sizes, m; a ball is as long as its radius."""
+        length = radius if self.length is None else self.length
+        return film_scale(self.cold_viscosity, length, radius, clearance)
+
+
+def _viscosity() -> Any:
+    return key(None, "dynamic viscosity (A-11)", "Pa s", above=0, example=0.09)
+
+
+@dataclass(frozen=True)
+class JournalFilm(Film):
+    """Film of a journal in its bearing."""
+
+    needed: ClassVar[tuple[str, ...]] = ("length",)
+    law: FilmLaw = choice("finite", "film law of a journal", FILMS)
+    viscosity: float = _viscosity()
+    length: float = key(None, "bearing length (A-12); a ball has none", "m", above=0, example=0.05)
+    at_contact: StopAtContact | MixedFilm = choice("stop", AT_CONTACT_MEANING, AT_CONTACT)
+    oil: Oil | None = nested("scene.oil:Oil")
+
+    def film_law(self, radius: float, clearance: float) -> JournalLaw:
+        """Return the law of a journal of a radius and a clearance, m, also beyond contact."""
+        with prefixed("film."):
+            law = self.law.film(self._ratio(radius))
+        gap_ratio = self.contact_gap_ratio(clearance)
+        return law if gap_ratio is None else with_asperities(law, gap_ratio)
+
+    def side_flow(self, radius: float) -> SideFlow:
+        """Return the flow of oil out of its ends, of a journal of a radius, m."""
+        return self.law.side_flow(self._ratio(radius))
+
+    def check_cooling(self) -> None:
+        """Raise InputError for an oil that warms, and of which nothing carries the heat off."""
+        if self.oil is not None and not self.oil.conductance and not self.law.flows_out:
+            raise InputError(
+                f"film.oil.conductance = 0 with film.law = {self.law.kind!r}: allowed is a number "
+                "> 0, as a long bearing has no side flow that carries heat off, or film.law = "
+                "'finite'"
+            )
+
+    def _ratio(self, radius: float) -> float:
+        return self.length / (2.0 * radius)
+
+    @property
+    def error(self) -> float:
+        """Relative error of its forces, where they are a table's."""
+        return self.law.error
+
+    @property
+    def flow_error(self) -> float:
+        """Relative error of its side flow, where that is a table's."""
+        return self.law.flow_error
+
+
+@dataclass(frozen=True)
+class BallFilm(Film):
+    """Film of a ball in its socket."""
+
+    length = None
+    error: ClassVar[float] = BALL_ERROR
+    flow_error: ClassVar[float] = 0.0
+    viscosity: float = _viscosity()
+    socket_angle_deg: float = key(
+        90.0,
+        "ball: from the middle of each of its socket's two caps to the edge",
+        "deg",
+        at_least=45,
+        at_most=90,
+        source="two hemispheres",
+    )
+    at_contact: StopAtContact | MixedFilm = choice("stop", AT_CONTACT_MEANING, AT_CONTACT)
+    oil: Oil | None = nested("scene.oil:Oil")
+
+    def ball_film(self, clearance: float) -> BallLaw:
+        """Return the film of a ball with a clearance, m."""
+        gap_ratio = self.contact_gap_ratio(clearance)
+        with prefixed("film."):
+            return ball(math.radians(self.socket_angle_deg), gap_ratio)
+
+    def film_law(self, radius: float, clearance: float) -> JournalLaw:
+        """Return its law in a plane through its centre; arguments as those of `JournalFilm`."""
+        return self.ball_film(clearance).law
+
+    def check_cooling(self) -> None:
+        """Raise InputError for an oil that warms."""
+        if self.oil is not None:
+            raise InputError(
+                "film.oil: the film of a ball does not warm; allowed is film.viscosity of its own"
+            )

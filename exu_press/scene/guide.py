@@ -1,0 +1,271 @@
+"""[guide]: guides with friction, elastic ones or ones with clearance, instead of ideal ones."""
+
+import dataclasses
+import functools
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from exu_press.errors import InputError
+from exu_press.laws.film.plane_pad import WIDTHS
+from exu_press.scene.contact import GuideContact
+from exu_press.scene.friction import (
+    FRICTION,
+    OF_GUIDES,
+    Friction,
+    FrictionLaw,
+    demand_static_friction,
+)
+from exu_press.scene.law_keys import LawKeys
+from exu_press.schema.checks import key
+from exu_press.schema.kinds import CustomKind, kind_name
+from exu_press.schema.registry import Registry, alternatives, choice
+from exu_press.schema.table import Table, demand_keys, key_values, plain, resolve
+
+__all__ = ["ElasticGuide", "ElasticSupport", "GuideOil", "GuidewaySupport"]
+
+
+class GuideFrictionKinds(Registry):
+    """The laws of friction, each with the keys that guides have of their own."""
+
+    def __init__(self) -> None:
+        super().__init__(dict.fromkeys(FRICTION, ""))
+
+    def __getitem__(self, name: Any) -> type[Any]:
+        return _of_guides(FRICTION[name])
+
+    def find(self, key: str, name: Any) -> type[Any] | None:
+        """Return the kind of a name, or None; arguments and errors as those of `Registry`."""
+        law = FRICTION.find(key, name)
+        return None if law is None else _of_guides(law)
+
+
+@dataclass(frozen=True)
+class GuideFriction(CustomKind, Table):
+    """Those keys of a law of friction that guides have of their own.
+
+    Attributes:
+        law_kind: name of the law.
+    """
+
+    table: ClassVar[str] = "guide"
+    law_kind: ClassVar[str] = ""
+    law_keys: ClassVar[tuple[str, ...]] = ()
+    """The other keys of the law, which are in [friction]."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        keys = plain(self)
+        if "mu_static" in keys and "mu_kinetic" in keys:
+            demand_static_friction(self.table, keys["mu_static"], keys["mu_kinetic"])
+
+    @property
+    def kind(self) -> str:
+        """Name of the law."""
+        return self.law_kind
+
+
+def _keys_of_guides(law: type[FrictionLaw]) -> type[GuideFriction]:
+    """Return the keys of guides for a law of friction."""
+    own, others = [], []
+    for field in dataclasses.fields(law):
+        if field.name not in OF_GUIDES:
+            others.append(field.name)
+            continue
+        default, metadata = field.default, dict(field.metadata)
+        if field.name == "regularisation_velocity":
+            default = 1e-3
+        metadata["meaning"] = metadata["meaning"].partition(";")[0]
+        copied: Any = dataclasses.field(default=default, metadata=metadata)
+        own.append((field.name, field.type, copied))
+    namespace = {"law_kind": kind_name(law), "law_keys": tuple(others)}
+    kind: type[GuideFriction] = dataclasses.make_dataclass(
+        f"GuideFriction{law.__name__}",
+        own,
+        bases=(GuideFriction,),
+        namespace=namespace,
+        frozen=True,
+    )
+    return kind
+
+
+_of_guides: Callable[[Any], type[GuideFriction]] = functools.cache(_keys_of_guides)
+
+
+@dataclass(frozen=True)
+class ElasticSupport(Table):
+    """Springs across the guide and against tilting, in the body's centre of mass.
+
+    The tilting stiffness is that of an even bedding along the guide's length, k L^2 / 12, and each
+    damping a part of the critical one of the guided mass or inertia alone, 2 D sqrt(k m), unless
+    they are given.
+    """
+
+    table: ClassVar[str] = "guide"
+    lateral_stiffness: float = key(
+        None,
+        "of every guide, which is ideal without it; 1e9 with a clearance unless given",
+        "N/m",
+        above=0,
+    )
+    length: float = key(0.5, "of every guide with stiffness", "m", above=0, at_most=100)
+    tilting_stiffness: float | None = key(
+        None, "of every guide; from its length unless given", "N m/rad", above=0
+    )
+    damping_ratio: float = key(0.05, "of the guided body alone on its guide", at_least=0)
+    lateral_damping: float | None = key(
+        None, "of every guide, instead of the damping ratio's", "N s/m", at_least=0
+    )
+    tilting_damping: float | None = key(
+        None, "of every guide, instead of the damping ratio's", "N m s/rad", at_least=0
+    )
+
+
+@dataclass(frozen=True)
+class GuideOil(Table):
+    """Oil that fills the gaps between the faces of a body and its guideways.
+
+    Its film bears and drags, and the ends touch in parallel where the gap is below `contact_gap`.
+    """
+
+    table: ClassVar[str] = "guide"
+    needed: ClassVar[tuple[str, ...]] = ("face_width", "contact_gap")
+    viscosity: float = key(
+        None, "clearance: dynamic, of the oil in it; dry without it", "Pa s", above=0, example=0.1
+    )
+    face_width: float = key(
+        None, "viscosity: of a body's faces, normal to the plane", "m", above=0, example=0.1
+    )
+    contact_gap: float = key(
+        None,
+        "viscosity: gap at which surfaces begin to touch, three times their rms roughness",
+        "m",
+        above=0,
+        example=2e-6,
+    )
+
+    def check_pads(self, length: float, clearance: float) -> None:
+        """Raise InputError unless its pads are of the range of their law; sizes in m."""
+        demand_keys("guide.viscosity", self, (), "guide", "[guide]")
+        if not self.contact_gap < clearance:
+            raise InputError(
+                f"guide.contact_gap = {self.contact_gap!r}: allowed is a number < "
+                f"guide.clearance = {clearance!r}"
+            )
+        narrowest, widest = WIDTHS
+        if not narrowest * length <= self.face_width <= widest * length:
+            raise InputError(
+                f"guide.face_width = {self.face_width!r}: allowed are {narrowest:g} to {widest:g} "
+                f"times guide.length = {length!r}, the range of the pads' law"
+            )
+
+
+@dataclass(frozen=True)
+class GuidewaySupport(Table):
+    """Guideways with clearance, which a body's two ends touch, `length` apart.
+
+    Each end has half the lateral stiffness and the damping of [contact].
+    """
+
+    table: ClassVar[str] = "guide"
+    because: ClassVar[str] = (
+        "the two ends of the body carry its tilting moment, and [contact] has their damping"
+    )
+    lateral_stiffness: float = key(
+        1e9, "of both ends of a body together", "N/m", above=0, source="assumed"
+    )
+    length: float = key(0.5, "of every guide with stiffness", "m", above=0, at_most=100)
+    clearance: float = key(
+        None,
+        "on each side of a guided body, whose two ends make contact with the guideways",
+        "m",
+        above=0,
+    )
+    width: float = key(0.0, "clearance: of every guided body", "m", at_least=0)
+    oil: GuideOil | None = alternatives({"viscosity": "scene.guide:GuideOil"})
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.oil is not None:
+            self.oil.check_pads(self.length, self.clearance)
+
+
+@dataclass(frozen=True)
+class ElasticGuide(Table):
+    """Guides with friction, elastic ones or ones with clearance, instead of ideal ones (A-9).
+
+    With a lateral stiffness springs hold a body, with a clearance its two ends touch guideways.
+    With neither the guide is ideal, and rubs with its side force times the coefficient.
+    """
+
+    table: ClassVar[str] = "guide"
+    support: ElasticSupport | GuidewaySupport | None = alternatives(
+        {
+            "clearance": "scene.guide:GuidewaySupport",
+            "lateral_stiffness": "scene.guide:ElasticSupport",
+        }
+    )
+    friction: GuideFriction = choice(
+        "none", "law of friction, whose further keys are those of [friction]", GuideFrictionKinds()
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not (self.soft or self.rubs):
+            raise InputError(
+                "[guide] has neither lateral_stiffness nor clearance nor friction: allowed is at "
+                "least one of them, as in guide.friction = 'coulomb'; without [guide] the guides "
+                "are ideal"
+            )
+
+    @property
+    def soft(self) -> bool:
+        """Whether guided bodies can move across their guides."""
+        return self.support is not None
+
+    @property
+    def rubs(self) -> bool:
+        """Whether there is friction."""
+        return self.friction.kind != "none"
+
+    @property
+    def guideways(self) -> GuidewaySupport | None:
+        """Guideways with clearance, or None."""
+        return self.support if isinstance(self.support, GuidewaySupport) else None
+
+    @property
+    def clearance(self) -> float | None:
+        """Clearance on each side, m, or None."""
+        return None if self.guideways is None else self.guideways.clearance
+
+    @property
+    def oil(self) -> GuideOil | None:
+        """Oil in the clearance, or None."""
+        return None if self.guideways is None else self.guideways.oil
+
+    def contact(self, keys: Mapping[str, Any]) -> GuideContact | None:
+        """Return the contact with the guideways, from the keys of [contact], or None."""
+        return None if self.guideways is None else resolve(GuideContact, "contact", keys)
+
+    def friction_table(self, keys: Mapping[str, Any]) -> Friction:
+        """Return the law of friction; keys that [guide] lacks are those of [friction]."""
+        others = {name: keys[name] for name in self.friction.law_keys if name in keys}
+        own = {"law": self.friction.kind, **plain(self.friction)}
+        return resolve(Friction, "friction", {**others, **own})
+
+    def law_keys(self, law: str, laws: LawKeys) -> dict[str, dataclasses.Field[Any]]:
+        """Return the keys of [contact] or [friction] that the guides use, with declarations.
+
+        Args:
+            law: "contact", "friction" or "film".
+            laws: keys of the scene.
+        """
+        table: Table | None = None
+        if law == "contact" and self.guideways is not None:
+            table = self.contact(laws.of(law))
+        elif law == "friction" and self.friction.law_keys:
+            table = self.friction_table(laws.of(law))
+        used = {} if table is None else {name: field for name, _, field in key_values(table)}
+        if law == "friction":
+            used = {name: used[name] for name in self.friction.law_keys}
+        return used

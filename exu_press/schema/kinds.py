@@ -1,0 +1,219 @@
+"""Kinds of joints, loads and laws that users write, and the code that a name in a file stands for.
+
+A name alone imports nothing. It stands for a class that is there already, or for one that an
+installed distribution registers; else its module is imported only where the user allows that.
+"""
+
+import re
+import sys
+import traceback
+from collections.abc import Collection, Iterator, Mapping
+from importlib import import_module
+from typing import Any, ClassVar, TypeVar
+
+from exu_press.errors import InputError
+
+__all__ = [
+    "CustomKind",
+    "UnresolvedName",
+    "custom_class",
+    "custom_modules",
+    "import_kinds",
+    "kind_name",
+    "refusal",
+    "with_unresolved",
+]
+
+IMPORTLIB = import_module.__code__.co_filename
+
+PLACES = re.compile(
+    r"(?:.*\.)?(?:(?:joints|load)\.[^.]+(?:\.kind)?|contact\.damping|(?:friction|film)\.law"
+    r"|guide\.friction)"
+)
+"""Dotted names of keys whose values are kinds, also where a study varies them."""
+
+
+class UnresolvedName(str):
+    """Name of a kind in a result, whose code is not loaded."""
+
+
+class CustomKind:
+    """A kind that a scene calls by its name."""
+
+    registered_name: ClassVar[Any] = ""
+    """In the registry of its kinds, or of the entry point by which a distribution offers it."""
+
+    resolved: ClassVar[bool] = True
+    """False for what stands in a result for a kind whose code is not loaded."""
+
+    @property
+    def kind(self) -> str:
+        """Name of the class, as a scene has it."""
+        return kind_name(type(self))
+
+
+Kind = TypeVar("Kind", bound=CustomKind)
+
+
+def custom_class(key: str, name: object, base: Any) -> type[Any] | None:
+    """Return the class of a kind that a user has written; None for a text that is no such name.
+
+    Args:
+        key: that has the name, for messages.
+        name: of the kind, or the class itself.
+        base: of such kinds.
+
+    Raises:
+        InputError: code of that name is not loaded, or the class is no such kind.
+    """
+    if isinstance(name, type) and issubclass(name, base):
+        kind: type[Any] | None = name
+    elif not isinstance(name, str):
+        return None
+    else:
+        kind = _loaded(name, base)
+        if kind is None and ":" in name:
+            derived = f"allowed is a dataclass derived from {base.__name__}"
+            why = refusal(name) if _loaded(name, CustomKind) is None else derived
+            raise InputError(f"{key} = {name!r}: {why}")
+        if kind is None:
+            from exu_press.schema.registered import registered_class  # seldom needed
+
+            kind = registered_class(key, name, base)
+    missing = ", ".join(sorted(getattr(kind, "__abstractmethods__", ())))
+    if missing:
+        raise InputError(
+            f"{key} = {name!r}: the class has no {missing}, which {base.__name__} asks for"
+        )
+    return kind
+
+
+def import_kinds(data: Mapping[str, Any]) -> None:
+    """Import the modules of the kinds that a scene's or a study's tables name.
+
+    Raises:
+        InputError: a module is not there, fails, or is one of Python's own.
+    """
+    for key, name in _kinds_in(data):
+        module, _, inside = name.partition(":")
+        if _loaded(name, CustomKind) is not None:
+            continue
+        if module.partition(".")[0] in sys.stdlib_module_names or "__main__" in module.split("."):
+            raise InputError(
+                f"{key} = {name!r}: allowed is a module of your own, not one of Python's or of a "
+                "program"
+            )
+        try:
+            found = vars(import_module(module)).get(inside)
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:  # a module may raise anything, and SystemExit
+            raise InputError(
+                f"{key} = {name!r}: {_told(error)}; allowed is a module that Python finds "
+                "(PYTHONPATH names further folders) and one of its classes"
+            ) from None
+        if _loaded(name, CustomKind) is None:
+            what = f"module {module!r} has no attribute {inside!r}"
+            if isinstance(found, type) and issubclass(found, CustomKind):
+                what = f"this class is {kind_name(found)!r}"
+            elif found is not None:
+                what = "this is no class derived from it"
+            raise InputError(
+                f"{key} = {name!r}: {what}; allowed is a dataclass derived from CustomJoint or "
+                "CustomLoad"
+            )
+
+
+def with_unresolved(
+    data: Mapping[str, Any], tables: Mapping[str, tuple[Collection[str], Any]]
+) -> dict[str, Any]:
+    """Return a scene's tables, with what has a kind whose code is not loaded as unresolved.
+
+    Args:
+        data: of a result.
+        tables: name of a table of tables -> kinds that need no code, and the class of the others.
+    """
+    changed = dict(data)
+    for table, (known, unresolved) in tables.items():
+        if not isinstance(data.get(table), Mapping):
+            continue
+        changed[table] = inner = dict(data[table])
+        for name, given in data[table].items():
+            keys = {"kind": given} if isinstance(given, str) else given
+            if not isinstance(keys, Mapping) or not isinstance(kind := keys.get("kind"), str):
+                continue
+            if kind not in known and _loaded(kind, CustomKind) is None:
+                inner[name] = unresolved.of(kind, {k: v for k, v in keys.items() if k != "kind"})
+    return changed
+
+
+def custom_modules(data: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the modules that a worker imports for the kinds that a scene's or a study's data name.
+
+    Raises:
+        InputError: a class is of the script itself or of a function, where no import finds it.
+    """
+    modules = set()
+    kinds = (_loaded(name, CustomKind) for _, name in _kinds_in(data))
+    for kind in filter(None, kinds):
+        if kind.__module__ == "__main__" or "<locals>" in kind.__qualname__:
+            raise InputError(
+                f"kind = {kind_name(kind)!r}: workers of a study do not run the script that the "
+                "class is in; allowed is a class at the top level of a module that it imports"
+            )
+        modules.add(kind.__module__)
+    return tuple(sorted(modules))
+
+
+def kind_name(kind: type[CustomKind]) -> str:
+    """Return the name by which a scene calls a class."""
+    name: str = vars(kind).get("registered_name", "")
+    return f"{kind.__module__}:{kind.__qualname__}" if name == "" else name
+
+
+def _loaded(name: str, base: type[Kind]) -> type[Kind] | None:
+    """Return the class of a name among those that Python has made by now; the last one counts."""
+    found = [kind for kind in _derived(base) if kind.resolved and kind_name(kind) == name]
+    return found[-1] if found else None
+
+
+def _derived(base: type[Kind]) -> Iterator[type[Kind]]:
+    for kind in base.__subclasses__():
+        yield kind
+        yield from _derived(kind)
+
+
+def _kinds_in(data: Any, path: str = "") -> Iterator[tuple[str, str]]:
+    """Yield key and name of classes that tables name as kinds, in lists and dotted keys, too."""
+    if isinstance(data, Mapping):
+        for name, value in data.items():
+            yield from _kinds_in(value, f"{path}.{name}" if path else str(name))
+    elif isinstance(data, list | tuple):
+        for value in data:
+            yield from _kinds_in(value, path)
+    elif isinstance(data, str) and ":" in data and PLACES.fullmatch(path):
+        yield path, data
+
+
+def refusal(name: str) -> str:
+    """Return why a kind is not loaded, and how that is allowed."""
+    module = name.partition(":")[0]
+    return (
+        f"names code, the module {module!r}, and a file that names code runs it with all your "
+        "rights; if you know what it does, allow it by --allow-code, in Python by "
+        "Scene.load(..., allow_code=True), or import the module yourself"
+    )
+
+
+def _told(error: BaseException) -> str:
+    """Return an error of an import in words, with file and line of the user's module."""
+    kind = "" if isinstance(error, ImportError) else f"{type(error).__name__}: "
+    own = [
+        frame
+        for frame in traceback.extract_tb(error.__traceback__)
+        if not frame.filename.startswith("<") and frame.filename not in (__file__, IMPORTLIB)
+    ]
+    at = f"{own[-1].filename}, line {own[-1].lineno}: " if own else ""
+    if isinstance(error, SyntaxError):
+        at, error = f"{error.filename}, line {error.lineno}: ", SyntaxError(error.msg)
+    return f"{at}{kind}{error}"

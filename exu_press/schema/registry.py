@@ -1,0 +1,182 @@
+"""Kinds by name, and parts of a table whose dataclass the table's keys choose."""
+
+import dataclasses
+from collections.abc import Callable, Iterator, Mapping
+from importlib import import_module
+from typing import Any
+
+from exu_press.errors import InputError
+from exu_press.schema.checks import key
+from exu_press.schema.kinds import CustomKind, UnresolvedName, custom_class
+
+__all__ = ["Alternatives", "Choice", "Registry", "alternatives", "choice", "loaded"]
+
+PlaceOf = Callable[[str], str]
+"""Name of a key in its table -> the dotted name that a message has for it."""
+
+
+def loaded(home: str) -> Any:
+    """Return the class or function "module:name" of this package."""
+    module, _, name = home.partition(":")
+    return getattr(import_module(f"exu_press.{module}"), name)
+
+
+class Registry(Mapping[Any, type[Any]]):
+    """Name of a kind -> its dataclass, whose module is imported when a scene names it."""
+
+    def __init__(self, homes: Mapping[Any, str], base: str = "", unresolved: str = "") -> None:
+        """Take "module:Class" for each name.
+
+        Args:
+            homes: within this package.
+            base: class that kinds of other distributions and of users are derived from, likewise;
+                "" where there are none.
+            unresolved: class that stands for a kind whose code is not loaded.
+        """
+        self._homes, self._base, self._unresolved = dict(homes), base, unresolved
+
+    def __getitem__(self, name: Any) -> type[Any]:
+        kind: type[Any] = loaded(self._homes[name])
+        return kind
+
+    def __contains__(self, name: object) -> bool:
+        return any(name == known and type(name) is type(known) for known in self._homes)
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(self._homes)
+
+    def __len__(self) -> int:
+        return len(self._homes)
+
+    def find(self, key: str, name: Any) -> type[Any] | None:
+        """Return the kind of a name, also one that users or distributions offer, or None.
+
+        Args:
+            key: that has the name, for messages.
+            name: of the kind, or its class.
+
+        Raises:
+            InputError: the name stands for code that is not loaded, or for another class.
+        """
+        if name in self:
+            return self[name]
+        if isinstance(name, UnresolvedName) and self._unresolved:
+            unresolved: type[Any] = loaded(self._unresolved)
+            return unresolved
+        return custom_class(key, name, loaded(self._base)) if self._base else None
+
+
+@dataclasses.dataclass(frozen=True)
+class Choice:
+    """A part of a table that the key of its own name chooses.
+
+    Attributes:
+        kinds: name -> dataclass.
+    """
+
+    kinds: Registry
+
+    def select(self, key: str, place: str, keys: Mapping[str, Any], default: Any) -> type[Any]:
+        """Return the dataclass that a table's keys choose.
+
+        Args:
+            key: that chooses.
+            place: its dotted name.
+            keys: of the table.
+            default: value of the key.
+
+        Raises:
+            InputError: there is no such kind.
+        """
+        name = keys.get(key, default)
+        kind = self.kinds.find(place, name)
+        if kind is None:
+            names = ", ".join(map(repr, self.kinds))
+            allowed = "true or false" if True in self.kinds else f"one of {names}"
+            raise InputError(f"{place} = {name!r:.200}: allowed is {allowed}")
+        return kind
+
+    def classes(self) -> Iterator[tuple[str, type[Any]]]:
+        """Yield every name, as a scene file has it, with its dataclass."""
+        for name in self.kinds:
+            yield str(name).lower() if isinstance(name, bool) else repr(name), self.kinds[name]
+
+    def reason(self, key: str, place_of: PlaceOf, chosen: CustomKind, holders: list[str]) -> str:
+        """Return why a key of other kinds is not used.
+
+        Args:
+            key: that chooses.
+            place_of: dotted names of keys.
+            chosen: part of the table.
+            holders: names of the kinds that use it.
+        """
+        name = chosen.kind
+        shown = str(name).lower() if isinstance(name, bool) else repr(name)
+        return f"{place_of(key)} is {shown}; it belongs to {' or '.join(holders)}"
+
+
+@dataclasses.dataclass(frozen=True)
+class Alternatives:
+    """A part of a table that the first of some keys chooses which is there.
+
+    Attributes:
+        homes: deciding key -> "module:Class"; "" where none of them is there, in which case the
+            part may be None ("").
+    """
+
+    homes: Mapping[str, str]
+
+    def select(
+        self, key: str, place: str, keys: Mapping[str, Any], default: Any
+    ) -> type[Any] | None:
+        """Return the dataclass that a table's keys choose, or None; arguments as of `Choice`."""
+        home = next(
+            (home for name, home in self.homes.items() if keys.get(name) not in (None, [], ())),
+            self.homes.get("", ""),
+        )
+        return loaded(home) if home else None
+
+    def classes(self) -> Iterator[tuple[str, type[Any]]]:
+        """Yield every deciding key with its dataclass."""
+        for name, home in self.homes.items():
+            if home:
+                yield name, loaded(home)
+
+    def reason(self, key: str, place_of: PlaceOf, chosen: Any, holders: list[str]) -> str:
+        """Return why a key of other kinds is not used; arguments as of `Choice`."""
+        order = list(self.homes)
+        deciding = [n for n, home in self.homes.items() if home and loaded(home) is type(chosen)]
+        first = next((n for n in deciding if getattr(chosen, n, None) is not None), "")
+        if (first and order.index(first) < order.index(holders[0])) or holders == [""]:
+            because = getattr(chosen, "because", "")
+            return f"{place_of(first)} is given{because and ': '}{because}"
+        names = [place_of(name) for name in holders if name]
+        return (
+            f"{names[0]} is not given"
+            if len(names) == 1
+            else (f"neither {' nor '.join(names)} is given")
+        )
+
+
+def choice(default: Any, meaning: str, kinds: Registry, *, source: str = "") -> Any:
+    """Declare a key whose value names the dataclass of a part of its table.
+
+    In files the keys of that dataclass stand beside this one.
+    """
+    return dataclasses.field(
+        default=default,
+        metadata={
+            **key(None, meaning, source=source).metadata,
+            "choices": tuple(name for name in kinds if isinstance(name, str)),
+            "part": Choice(kinds),
+        },
+    )
+
+
+def alternatives(homes: Mapping[str, str]) -> Any:
+    """Declare a part of a table whose dataclass those of its keys choose that are there.
+
+    Args:
+        homes: deciding key -> "module:Class"; "" for the dataclass without any of them.
+    """
+    return dataclasses.field(default=None, metadata={"part": Alternatives(dict(homes))})

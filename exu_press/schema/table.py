@@ -1,0 +1,373 @@
+"""Tables of a scene: frozen dataclasses, made from the keys of a file and checked once."""
+
+import dataclasses
+import functools
+import typing
+from collections.abc import Callable, Collection, Iterator, Mapping
+from typing import Any, ClassVar, Self, TypeVar
+
+from exu_press.errors import InputError, UnusedKeyError
+from exu_press.schema.checks import allowed_text, checked_value, demand_known
+from exu_press.schema.registry import loaded
+
+__all__ = [
+    "RENAMED",
+    "Table",
+    "changed_table",
+    "check_keys",
+    "declared_keys",
+    "demand_keys",
+    "given_keys",
+    "given_names",
+    "key_values",
+    "nested",
+    "plain",
+    "refuse_unknown_keys",
+    "resolve",
+    "table_from",
+    "unused_reason",
+    "used_names",
+]
+
+T = TypeVar("T", bound="Table")
+Field = dataclasses.Field[Any]
+
+_fields: Callable[[Any], tuple[Field, ...]] = functools.cache(dataclasses.fields)
+
+RENAMED = {
+    "crank_pin": "joints.crank_pin",
+    "balls": "joints.balls",
+    "clearance": "joints.NAME.clearance",
+    "contact.radius": "joints.NAME.radius",
+    "flexible": "bodies.NAME",
+    "blanking": "load.NAME with kind = 'blanking'",
+    "guide.damping_depth": "contact.damping_depth",
+    "woehler_stress": "sn_stress, of the S-N curve",
+    "woehler_cycles": "sn_cycles, of the S-N curve",
+    "woehler_slope": "sn_slope, of the S-N curve",
+    "guide.slider_inertia": "a key of [press] or [slider_crank]",
+    "guide.slide_inertia": "press.slide_inertia",
+    "guide.counterweight_inertia": "press.counterweight_inertia",
+}
+"""Old keys -> new ones, in words."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Table:
+    """A table of the scene: frozen, and checked once, when it is made.
+
+    A field declared by `choice` or `alternatives` is a part of it: a table of its own, whose keys
+    stand beside the others in files.
+    """
+
+    table: ClassVar[str] = ""
+
+    exclusive_with: ClassVar[Mapping[str, str]] = {}
+    """Key -> the key that it stands instead of; a table has one of the two at most."""
+
+    required: ClassVar[tuple[str, ...]] = ()
+    """Keys without a default."""
+
+    needed: ClassVar[tuple[str, ...]] = ()
+    """Keys that decide the result and have no default; asked for where the table is used."""
+
+    def __new__(cls, *values: Any, **keys: Any) -> Self:
+        """Remember which keys are given, so that a default gives way to a mechanism's own."""
+        table = super().__new__(cls)
+        names = [field.name for field in _fields(cls)][: len(values)]
+        object.__setattr__(table, "_given", frozenset([*names, *keys]))
+        return table
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The keys that were given, with their values."""
+        names: frozenset[str] = self._given  # type: ignore[attr-defined]
+        keys: dict[str, Any] = {}
+        for field in _fields(type(self)):
+            value = getattr(self, field.name)
+            if "part" in field.metadata:
+                if value is not None:
+                    keys |= {field.name: value.kind} if field.name in names else {}
+                    keys |= value.given
+            elif field.name in names and value is not None:
+                keys[field.name] = value
+        return keys
+
+    def __post_init__(self) -> None:
+        """Check every key; raise InputError for the first one that is not allowed."""
+        for field in _fields(type(self)):
+            name = dotted(self.table, field.name)
+            value, meta = getattr(self, field.name), field.metadata
+            if "part" in meta:
+                if not isinstance(value, Table):
+                    keys = {} if value is None else {field.name: value}
+                    value = _part(field, self.table, keys)
+            elif "nested" in meta and value is not None:
+                value = table_from(loaded(meta["nested"]), name, value)
+            elif "meaning" in meta:
+                value = checked_value(field, name, value)
+                if value is None and field.name in self.required:
+                    raise InputError(f"{name}: missing; allowed is {allowed_text(field)}")
+            object.__setattr__(self, field.name, value)
+        for first, second in self.exclusive_with.items():
+            if None not in (getattr(self, first, None), getattr(self, second, None)):
+                names = dotted(self.table, second), dotted(self.table, first)
+                raise InputError(f"{' and '.join(names)}: allowed is one of the two")
+
+    def refuse_unused(self, keys: Collection[str], reason: str) -> None:
+        """Raise UnusedKeyError for the first of some keys that is given, all without default."""
+        for key in keys:
+            if (value := getattr(self, key)) is not None:
+                name = dotted(self.table, key)
+                raise UnusedKeyError(name, f"{name} = {value!r}", reason)
+
+
+def nested(home: str) -> Any:
+    """Declare a table within a table, "module:Class", loaded where it is given; None elsewhere."""
+    return dataclasses.field(default=None, metadata={"nested": home})
+
+
+def dotted(place: str, key: str) -> str:
+    """Return the name of a key in the table `place`, "" of the scene itself."""
+    return f"{place}.{key}" if place else key
+
+
+def table_from(kind: type[T], name: str, data: Any) -> T:
+    """Return the table `name` of a scene from a mapping of its keys.
+
+    Args:
+        kind: of the table.
+        name: dotted; "" is the scene itself.
+        data: key -> value, or the table.
+
+    Raises:
+        InputError: a key is unknown, not used by the others or not allowed.
+    """
+    if isinstance(data, kind):
+        return data
+    keys = _as_keys(name, data)
+    used = used_names(kind, name, keys)
+    refuse_unknown_keys([kind], name, keys, used)
+    table = resolve(kind, name, keys)
+    for key, value in keys.items():
+        if key not in used and value is not None:
+            place = dotted(name, key)
+            reason = unused_reason(table, key, lambda key: dotted(table.table, key)) or ""
+            raise UnusedKeyError(place, f"{place} = {value!r}", reason)
+    return table
+
+
+def used_names(kind: type[Table], name: str, keys: Mapping[str, Any]) -> set[str]:
+    """Return the names of the keys that the table of some keys may have."""
+    names: set[str] = set()
+    for field in _fields(kind):
+        part = field.metadata.get("part")
+        if part is None or "meaning" in field.metadata:
+            names.add(field.name)
+        if part is not None:
+            place = dotted(name, field.name)
+            chosen = part.select(field.name, place, keys, field.default)
+            names |= set() if chosen is None else used_names(chosen, name, keys)
+    return names
+
+
+def resolve(kind: type[T], name: str, keys: Mapping[str, Any]) -> T:
+    """Return the table `name` from those of some keys that it uses."""
+    values: dict[str, Any] = {}
+    for field in _fields(kind):
+        if "part" in field.metadata:
+            values[field.name] = _part(field, name, keys)
+        elif field.name in keys:
+            values[field.name] = keys[field.name]
+    table = kind(**values)
+    object.__setattr__(table, "_given", frozenset(keys))
+    return table
+
+
+def _part(field: Field, name: str, keys: Mapping[str, Any]) -> Table | None:
+    place = dotted(name, field.name)
+    kind = field.metadata["part"].select(field.name, place, keys, field.default)
+    return None if kind is None else resolve(kind, name, keys)
+
+
+def _as_keys(name: str, data: Any) -> Mapping[str, Any]:
+    if not isinstance(data, Mapping):
+        raise InputError(f"{name} = {data!r:.200}: allowed is a table of keys")
+    return data
+
+
+def refuse_unknown_keys(
+    kinds: Collection[type[Table]], name: str, keys: Mapping[str, Any], used: Collection[str]
+) -> None:
+    """Raise InputError for the first key that no table of some kinds may have.
+
+    Args:
+        kinds: of tables.
+        name: dotted, of the table that has the keys.
+        keys: of it.
+        used: names of keys that are known to be used.
+    """
+    for key, value in keys.items():
+        if key in used:
+            continue
+        place, known = dotted(name, key), [*used]
+        for kind in kinds:
+            known += declared_keys(kind)
+        if key not in known and {place, key} & RENAMED.keys():
+            now = RENAMED.get(place) or RENAMED[key]
+            raise InputError(f"{place} = {value!r:.200}: is {now} now")
+        demand_known(f"{place} = {value!r:.200}: unknown key", key, dict.fromkeys(known))
+
+
+def unused_reason(table: Table, key: str, place_of: Callable[[str], str]) -> str | None:
+    """Return why a table does not use a key, or None where it has none of that name.
+
+    Args:
+        table: complete.
+        key: that another choice of its parts has.
+        place_of: dotted names of keys.
+    """
+    for field in _fields(type(table)):
+        part, value = field.metadata.get("part"), getattr(table, field.name)
+        if part is None:
+            continue
+        if value is not None and (reason := unused_reason(value, key, place_of)) is not None:
+            return reason
+        holders = [name for name, kind in part.classes() if key in declared_keys(kind)]
+        if holders:
+            reason = part.reason(field.name, place_of, value, holders)
+            return typing.cast(str, reason)
+    return None
+
+
+def check_keys(kinds: Collection[type[Table]], name: str, data: Any) -> dict[str, Any]:
+    """Return the keys of a table which some of several kinds of tables may use, checked.
+
+    Raises:
+        InputError: a key is none of theirs, or its value is not allowed.
+    """
+    keys = dict(_as_keys(name, data))
+    names = {key for kind in kinds for key in used_names(kind, name, keys)}
+    refuse_unknown_keys(kinds, name, keys, names)
+    tables = [resolve(kind, name, keys) for kind in kinds]
+    used = {key: value for table in tables for key, value, _ in key_values(table)}
+    for key, value in keys.items():
+        if key in used:
+            keys[key] = used[key]
+            continue
+        field = next(f for k in kinds for n, f in declared_keys(k).items() if n == key)
+        if "meaning" in field.metadata:
+            keys[key] = checked_value(field, dotted(name, key), value)
+    return keys
+
+
+def key_values(table: Table) -> Iterator[tuple[str, Any, Field]]:
+    """Yield every key that a table uses with its value and declaration; of a part its own, too."""
+    for field in _fields(type(table)):
+        value, part = getattr(table, field.name), field.metadata.get("part")
+        if part is None or "meaning" in field.metadata:
+            yield field.name, value if part is None else value.kind, field
+        if part is not None and value is not None:
+            yield from key_values(value)
+
+
+def _declared_keys(kind: type[Table]) -> Mapping[str, Field]:
+    """Return every key that a table may have, of all kinds of its parts, with its declaration."""
+    keys: dict[str, Field] = {}
+    for field in _fields(kind):
+        part = field.metadata.get("part")
+        if part is None or "meaning" in field.metadata:
+            keys.setdefault(field.name, field)
+        for _, inner in part.classes() if part is not None else ():
+            for name, of_part in declared_keys(inner).items():
+                keys.setdefault(name, of_part)
+    return keys
+
+
+declared_keys: Callable[[Any], Mapping[str, Field]] = functools.cache(_declared_keys)
+
+
+def demand_keys(place: str, table: Table, keys: Collection[str], law: str, where: str) -> None:
+    """Raise InputError for the first of some keys that a table does not have.
+
+    Args:
+        place: that needs them.
+        table: with them.
+        keys: that are needed, each with an example, beside those that the table itself needs.
+        law: name of the table in the message, if it has one.
+        where: they may be given.
+    """
+    for name, value, field in key_values(table):
+        if value is None and (name in keys or name in _needed(table)):
+            meta, example = field.metadata, field.metadata.get("example")
+            if isinstance(example, float):
+                example = f"{example:g}"
+            shown = "" if example is None else f", as in {name} = {example}"
+            raise InputError(
+                f"{place} needs {dotted(law, name)} ({meta['meaning']}, {meta['unit']}), which "
+                f"decides its result and has no default; give it in {where}{shown}"
+            )
+
+
+def _needed(table: Table) -> set[str]:
+    parts = [getattr(table, f.name) for f in _fields(type(table)) if "part" in f.metadata]
+    return {*table.needed}.union(*(_needed(part) for part in parts if part is not None))
+
+
+def changed_table(
+    kind: type[Table], keys: Mapping[str, Any], changes: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return a table's keys with others; a key whose place another one takes is dropped.
+
+    Args:
+        kind: of the table.
+        keys: of the table.
+        changes: key -> value; "TABLE.key" of a table within it, too, and "KEY.PLACE.key" where a
+            key has a table for each of several places.
+    """
+    changed = dict(keys)
+    inner_tables = {f.name: f for f in _fields(kind) if "nested" in f.metadata}
+    by_place = {f.name for f in _fields(kind) if f.metadata.get("by_place")}
+    for path, value in changes.items():
+        name, dot, rest = path.partition(".")
+        change: Any = {rest: value} if dot else value
+        if name in inner_tables and isinstance(change, Mapping | Table):
+            inner = loaded(inner_tables[name].metadata["nested"])
+            changed[name] = changed_table(inner, given_keys(changed.get(name)), given_keys(change))
+        elif dot and name in by_place:
+            at, _, key_there = rest.partition(".")
+            there = given_keys(changed.get(name))
+            change = {**given_keys(there.get(at)), key_there: value} if key_there else value
+            changed[name] = {**there, at: change}
+        else:
+            changed[path] = value
+    given = {path.partition(".")[0] for path, value in changes.items() if value is not None}
+    for first, second in kind.exclusive_with.items():
+        if first in given and second not in given:
+            changed.pop(second, None)
+    return changed
+
+
+def plain(table: Table) -> dict[str, Any]:
+    """Return the keys of a table that are not None as a nested mapping, as a file has them."""
+    keys: dict[str, Any] = {}
+    for name, value, _ in key_values(table):
+        if isinstance(value, Table):
+            keys[name] = plain(value)
+        elif value is not None:
+            keys[name] = list(value) if isinstance(value, tuple) else value
+    return keys
+
+
+def given_keys(table: Any) -> dict[str, Any]:
+    """Return the keys that a table gives, as a mapping or as its dataclass; none of None."""
+    keys = table.given if isinstance(table, Table) else table or {}
+    return dict(keys) if isinstance(keys, Mapping) else {}
+
+
+def given_names(table: Any, place: str = "") -> Iterator[str]:
+    """Yield the dotted names of the keys that a table gives, and of those of tables within it."""
+    for name, value in given_keys(table).items():
+        if value is not None:
+            yield place + name
+            yield from given_names(value, f"{place}{name}.")

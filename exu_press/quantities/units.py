@@ -81,7 +81,8 @@ def _metadata(name: str) -> Mapping[str, Any] | None:
     elif table.startswith("joints."):
         fields = declared_keys(DryJoint)
     elif table.startswith("load."):
-        fields = {name: f for k in LOAD_KINDS.values() for name, f in declared_keys(k).items()}
+        kinds = reversed(LOAD_KINDS.values())  # of the first that has the key
+        fields = {name: f for kind in kinds for name, f in declared_keys(kind).items()}
     elif table.startswith("bodies."):
         fields = declared_keys(Flexible)
     elif table:

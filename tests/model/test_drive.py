@@ -59,8 +59,8 @@ def reduced_slider_crank(scene, end):
     J(a) a_tt + J'(a) a_t^2 / 2 = T(a_t) - V'(a): kinetic energy J a_t^2 / 2 of flywheel, crank, rod
     and slider, potential V of rod and slider.
     """
-    motor, free = scene.drive, scene.drive.no_load_speed_rpm * math.pi / 30
-    crank = OneCoordinate(scene, motor.inertia).crank
+    motor, free = scene.drive.torque, scene.drive.torque.no_load_speed_rpm * math.pi / 30
+    crank = OneCoordinate(scene, scene.drive.inertia).crank
 
     def rates(_time, state):
         a, speed = state

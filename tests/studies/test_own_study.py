@@ -16,7 +16,7 @@ MODULE = '''
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from exu_press.schema.checks import Table as Keys
+from exu_press.schema.table import Table as Keys
 from exu_press.schema.checks import key
 from exu_press.studies.base import Runs, Study
 from exu_press.studies.base.command import StudyCommand

@@ -51,7 +51,8 @@ def _starts_of(run: Reading) -> tuple[float, ...]:
 def _stops_of(run: Reading) -> list[float]:
     """Return the instants of commands to stop, s, as far as the run got."""
     stop, time = _clutch_of(run).stop, run.time
-    assert stop is not None
+    if stop is None:
+        return []
     commands = list(stop.stop_time or ())
     if stop.stop_angle_deg is not None:
         reached = np.flatnonzero(run["crank_angle"] >= np.radians(stop.stop_angle_deg))

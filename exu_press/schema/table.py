@@ -210,9 +210,8 @@ def refuse_unknown_keys(
     for key, value in keys.items():
         if key in used:
             continue
-        place, known = dotted(name, key), [*used]
-        for kind in kinds:
-            known += declared_keys(kind)
+        place = dotted(name, key)
+        known = [*(name for kind in kinds for name in declared_keys(kind)), *sorted(used)]
         if key not in known and {place, key} & RENAMED.keys():
             now = RENAMED.get(place) or RENAMED[key]
             raise InputError(f"{place} = {value!r:.200}: is {now} now")

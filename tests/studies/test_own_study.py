@@ -153,7 +153,9 @@ def test_what_is_registered_is_a_study_command(installed, capsys):
     assert issubclass(study_command("limit-speed"), StudyCommand)
     (installed / "limit_speed_study.py").write_text("LimitSpeedCommand = int\n")
     sys.modules.pop("limit_speed_study")
-    with pytest.raises(InputError, match=r"limit-speed, registered by limit_speed: .* is no class"):
+    with pytest.raises(
+        InputError, match=r"limit-speed', registered by limit_speed: .* is no class"
+    ):
         study_command("limit-speed")
 
 

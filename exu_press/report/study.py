@@ -12,9 +12,9 @@ from exu_press.page.study import study_viewer
 from exu_press.report.html import page, paragraph, picture, stills, table, warnings
 from exu_press.report.run import scene_parts
 from exu_press.scene import Scene
-from exu_press.schema.checks import table_from
 from exu_press.schema.csv_table import read_csv
 from exu_press.schema.stored import from_json
+from exu_press.schema.table import table_from
 from exu_press.studies.base.report import Column, Line, Panel, Points, Table
 from exu_press.studies.sweep import Sweep, SweepReport
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from fe_models.errors import DiskFullError, InputError
 
-__all__ = ["DiskFullError", "InputError", "UnusedKeyError", "prefixed", "required_package"]
+__all__ = ["DiskFullError", "InputError", "UnusedKeyError", "error_prefix", "required_package"]
 
 for error in (InputError, DiskFullError):
     error.__module__ = __name__  # as tracebacks and the reference name it
@@ -20,13 +20,13 @@ class UnusedKeyError(InputError):
         name: dotted, or a table's.
     """
 
-    def __init__(self, name: str, shown: str, reason: str) -> None:
-        super().__init__(f"{shown}: not used by this scene ({reason}); remove it")
+    def __init__(self, name: str, text: str, reason: str) -> None:
+        super().__init__(f"{text}: not used by this scene ({reason}); remove it")
         self.name = name
 
 
 @contextmanager
-def prefixed(prefix: str) -> Iterator[None]:
+def error_prefix(prefix: str) -> Iterator[None]:
     """Begin the message of an InputError with a prefix."""
     try:
         yield

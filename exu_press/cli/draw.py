@@ -17,7 +17,7 @@ from exu_press.cli.options import (
     shipped_names,
     show_warnings,
 )
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.mechanism import SHIPPED as MECHANISMS
 from exu_press.mechanism import (
     Mechanism,
@@ -127,7 +127,7 @@ def _asked(given: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | N
     data = read_toml(path)
     if "bodies" in data and "joints" in data and "crank" in data:
         data = change_mechanism(data, changes)
-        with prefixed(f"{path}: "):
+        with error_prefix(f"{path}: "):
             return mechanism_from_dict(data), None
     return _of_scene(data, path, changes)
 
@@ -146,14 +146,14 @@ def _of_scene(
     further = {name: value for name, value in changes.items() if name not in own}
     scene = {**data, **own}
     mechanism = scene.get("mechanism", "press")
-    with prefixed(f"{path}: " if path.name else ""):
+    with error_prefix(f"{path}: " if path.name else ""):
         speed = _speed(scene)
         if isinstance(mechanism, Mapping):
             return mechanism_from_dict(change_mechanism(mechanism, further)), speed
         if isinstance(mechanism, str) and mechanism.lower().endswith(".toml"):
             file = path.parent / mechanism
             drawing = change_mechanism(read_toml(file), further)
-            with prefixed(f"{file}: "):
+            with error_prefix(f"{file}: "):
                 return mechanism_from_dict(drawing), speed
         return _named(mechanism, scene, further), speed
 

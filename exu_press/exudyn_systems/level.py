@@ -137,11 +137,11 @@ def _constant_steps(settings: exu.SimulationSettings, steps: int, *, alone: bool
         values += [(owner, "write", False) for owner in (output.file, output.restart)]
         values += [(owner, "active", False) for owner in (output.sensors, integration.realtime)]
         values += [(output, "recordImagesInterval", -1.0), (exu.config, "printToConsole", False)]
-    before = [(owner, name, getattr(owner, name)) for owner, name, _ in values]
+    original = [(owner, name, getattr(owner, name)) for owner, name, _ in values]
     try:
         for owner, name, value in values:
             setattr(owner, name, value)
         yield
     finally:
-        for owner, name, value in before:
+        for owner, name, value in original:
             setattr(owner, name, value)

@@ -83,11 +83,11 @@ class Constraints:
 
     def _jacobian(self, of_positions: float, of_velocities: float) -> Array:
         solver, size = self._solver, len(self._current.positions)
-        before = np.array(solver.GetSystemJacobian())
+        jacobian = np.array(solver.GetSystemJacobian())
         solver.SetSystemJacobian(np.zeros((size + solver.GetODE1size() + self.count,) * 2))
         solver.ComputeJacobianAE(self._mbs, of_positions, of_velocities)
         rows = np.array(solver.GetSystemJacobian())[-self.count :, :size]
-        solver.SetSystemJacobian(before)
+        solver.SetSystemJacobian(jacobian)
         return rows
 
     def violations(self, *, velocities: bool = False) -> Array:

@@ -52,7 +52,7 @@ class SampledVelocities:
         self.times = np.linspace(start, end, INSTANTS + 1)[1:]
         self.rows: list[Array] = []
         self._state, self._close = system.current, 1e-9 * (end - start)
-        self._before: tuple[float, Array, Array] | None = None
+        self._last: tuple[float, Array, Array] | None = None
 
     def sampling_watch(self, watch: Watch) -> Watch:
         """Return a watch that keeps the velocities, too."""
@@ -66,8 +66,8 @@ class SampledVelocities:
     def _sample(self, time: float) -> None:
         """Keep what lies within the step that ends in the current state at a time, s."""
         v1, a1 = np.array(self._state.velocities), np.array(self._state.accelerations)
-        while self._before is not None and len(self.rows) < INSTANTS:
-            begin, v0, a0 = self._before
+        while self._last is not None and len(self.rows) < INSTANTS:
+            begin, v0, a0 = self._last
             at = self.times[len(self.rows)]
             if at > time + self._close:
                 break
@@ -76,7 +76,7 @@ class SampledVelocities:
             smooth, rest = s * s * (3.0 - 2.0 * s), 1.0 - s
             slopes = h * s * rest * (rest * a0 - s * a1)
             self.rows.append((1.0 - smooth) * v0 + smooth * v1 + slopes)
-        self._before = time, v1, a1
+        self._last = time, v1, a1
 
 
 def with_error(
@@ -110,7 +110,7 @@ def with_error(
         most = math.ceil(max_steps / FINER)
         try:
             outcome, _ = run(FINER * tolerance, finer.sampling_watch(watch), most, True)
-            why = "" if outcome.status.ended else f"{outcome.status.value}: {outcome.reason}"
+            why = "" if outcome.status.reached_end else f"{outcome.status.value}: {outcome.reason}"
         except Exception as error:  # of the user's functions; the run itself tells its own
             why = " ".join(str(error).partition("\n\nAt:")[0].split())  # without the calls
         return why, finer.rows, _rows(system.mbs)
@@ -118,7 +118,7 @@ def with_error(
     with Child(run_finer) as copy:
         copy.request()
         outcome, task = run(tolerance, motion.sampling_watch(watch), max_steps, quiet)
-        if not outcome.status.ended:
+        if not outcome.status.reached_end:
             return outcome
         with Progress("finer run", 1.0, "run", quiet=quiet) as progress:
             answer = _answer(copy)

@@ -82,13 +82,13 @@ class ConsistentInitialization:
 
     def _project_positions(self) -> bool:
         """Move positions onto the constraints; return whether they were off."""
-        last = before = math.inf
+        last = earlier = math.inf
         for i in range(ITERATIONS):
             violations = np.where(self._held, self._violations(), 0.0)
             size = float(np.abs(violations).max())
-            if size <= FITS[0] * self._length or size > SHRINKS * before:
+            if size <= FITS[0] * self._length or size > SHRINKS * earlier:
                 break
-            last, before = size, last
+            last, earlier = size, last
             if i:
                 self._solver.ComputeMassMatrix(self._mbs)
                 self._linearise()
@@ -125,14 +125,14 @@ class ConsistentInitialization:
         Of velocities or accelerations, with a function for what the constraints' rates of an order
         are off by; itself where it fits.
         """
-        last = before = math.inf
+        last = earlier = math.inf
         fits, least = FITS[order], self._roundoff(order)
         for _ in range(ITERATIONS):
             change = self._least_change(missing(vector))
             size = self._norm(change)
-            if size <= max(least, fits * self._norm(vector - change)) or size > SHRINKS * before:
+            if size <= max(least, fits * self._norm(vector - change)) or size > SHRINKS * earlier:
                 break
-            vector, last, before = vector - change, size, last
+            vector, last, earlier = vector - change, size, last
         return vector
 
     def _roundoff(self, order: int) -> float:

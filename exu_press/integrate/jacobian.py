@@ -66,7 +66,7 @@ class FlexibleJacobian:
         self._convergence: Any = task.solver.conv
         self._joints = task.system.joints
         self._serves = False  # whether it has balanced each step in one iteration
-        self._kept = False  # whether the step under way is tried with that of an earlier one
+        self._is_reused = False  # whether the step under way is tried with that of an earlier one
         self._step = 0.0  # that the last one was made for
         self._bodies: Array | None = None
         self._factors = 0.0, 0.0  # of stiffness and damping, and what they make of them
@@ -76,15 +76,15 @@ class FlexibleJacobian:
 
     def begin(self, step: float) -> None:
         """Choose whether the step (s) about to be tried starts with the Jacobian there is."""
-        self._kept = self._serves and abs(step - self._step) <= SAME * step
-        self._convergence.jacobianUpdateRequested = not self._kept
+        self._is_reused = self._serves and abs(step - self._step) <= SAME * step
+        self._convergence.jacobianUpdateRequested = not self._is_reused
         self._serves = self._joints is not None
 
     def request_if_stale(self, iterations: int) -> None:
         """Request a fresh one where a step has needed so many iterations so far."""
         if iterations > 1:
             self._serves = False
-        if self._kept and iterations == 2:
+        if self._is_reused and iterations == 2:
             self._convergence.jacobianUpdateRequested = True
         if iterations == STALE:
             self._bodies = None

@@ -217,8 +217,8 @@ class Monitor:
         def on_interrupt(number: int, frame: FrameType | None) -> None:
             self.interrupted = True
 
-        before = signal.signal(signal.SIGINT, on_interrupt)
+        handler = signal.signal(signal.SIGINT, on_interrupt)
         try:
             yield
         finally:
-            signal.signal(signal.SIGINT, before)
+            signal.signal(signal.SIGINT, handler)

@@ -25,7 +25,7 @@ class SolverStatus(Enum):
     NOT_CONVERGED = "not converged"
 
     @property
-    def ended(self) -> bool:
+    def reached_end(self) -> bool:
         """Whether the run reached its end."""
         return self in (SolverStatus.COMPLETED, SolverStatus.UNDER_RESOLVED)
 

@@ -65,8 +65,8 @@ class Predictor:
 
     def accept(self, step: float) -> None:
         """Take the current state as the end of an accepted step (s)."""
-        before, now = self._now, self._accelerations.read()
-        self._rate = [(now[i] - before[i]) / step for i in range(len(now))]
+        last, now = self._now, self._accelerations.read()
+        self._rate = [(now[i] - last[i]) / step for i in range(len(now))]
         self._last, self._now = step, now
 
     def before_residual(self, step: float, iteration: int) -> None:

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 from exu_press.integrate.task import Task
 
-__all__ = ["ImpactResolution", "Unresolved"]
+__all__ = ["ImpactResolution", "UnresolvedImpact"]
 
 
 @dataclass(frozen=True)
-class Unresolved:
+class UnresolvedImpact:
     """The worst step of a run that its steps do not resolve.
 
     Attributes:
@@ -44,7 +44,7 @@ class ImpactResolution:
         self._scales, self._largest_jump = task.scales, task.tuning.largest_jump
         self._radius = task.spectral_radius  # by which a ring decays from step to step
         self._least = (0.1 if task.system.joints is None else 0.01) * task.tolerance
-        self._before: list[float] = []
+        self._last: list[float] = []
         # A stiff film that starts from rest makes the accelerations ring; that is no impact.
         self._started: list[float] = []
         self._ring = 1.0
@@ -55,11 +55,11 @@ class ImpactResolution:
 
     def begin(self, accelerations: list[float]) -> None:
         """Begin with the accelerations of all coordinates at the start."""
-        self._before, self._started, self._ring = accelerations, [], 1.0
+        self._last, self._started, self._ring = accelerations, [], 1.0
 
     def accept(self, time: float, step: float, accelerations: list[float]) -> None:
         """Look at an accepted step (s), and where it ends (s)."""
-        before, self._before = self._before, accelerations
+        last, self._last = self._last, accelerations
         inertias, masses, ends = self._scales.inertias, self._scales.masses, self._scales.ends
         first = not self._started
         if not first:
@@ -70,7 +70,7 @@ class ImpactResolution:
             size = jump = 0.0
             while i < ends[k]:
                 now = accelerations[i]
-                change = now - before[i]
+                change = now - last[i]
                 size += inertias[i] * now * now
                 jump += inertias[i] * change * change
                 i += 1
@@ -87,7 +87,7 @@ class ImpactResolution:
             if force > self._largest_jump * self._largest:
                 self._jumps.append((force, time, step, k, 0.5 * step * jump))
 
-    def worst(self) -> Unresolved | None:
+    def worst(self) -> UnresolvedImpact | None:
         """Return the step with the largest change of an inertia force, if it is too large."""
         speed, rest = self._scales.speed, self._scales.roundoff_speed
         least = max(self._least * speed, rest) if speed > rest else math.inf
@@ -98,4 +98,4 @@ class ImpactResolution:
         weight = self._scales.gravity * max(m for m in self._scales.masses if m < math.inf)
         if jump <= self._largest_jump * max(self._largest, weight):
             return None
-        return Unresolved(time, step, node, jump / self._largest)
+        return UnresolvedImpact(time, step, node, jump / self._largest)

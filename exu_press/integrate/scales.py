@@ -65,7 +65,7 @@ class RunningScales:
         Rounding is that of accelerations due to positions, times the step's square, over the
         length.
         """
-        self._given, self._system, self._longest = scales, system, longest
+        self._prescribed, self._system, self._longest = scales, system, longest
         self._first, self._rounding, self._least_speed = first, rounding, least_speed
         self.gravity, self.length = scales.gravity, system.length
         self.roundoff = self.roundoff_speed = 0.0
@@ -97,9 +97,9 @@ class RunningScales:
         """Take over the velocities and accelerations of a state where they are the largest."""
         if not self.updates:
             return
-        if self._given.speed is None:
+        if self._prescribed.speed is None:
             self.speed = max(self.speed, self.norm(velocities))
-        if self._given.force is None:
+        if self._prescribed.force is None:
             forces = [i * a for i, a in zip(self.inertias, accelerations, strict=True)]
             self.force = max(self.force, math.hypot(*forces))
 

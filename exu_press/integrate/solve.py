@@ -220,9 +220,9 @@ def _update_initial_values(mbs: exu.MainSystem) -> None:
 @contextmanager
 def _silent_console() -> Iterator[None]:
     """Keep Exudyn's own messages off the console; the outcome says what happened."""
-    before = exu.config.printToConsole
+    printed = exu.config.printToConsole
     exu.config.printToConsole = False
     try:
         yield
     finally:
-        exu.config.printToConsole = before
+        exu.config.printToConsole = printed

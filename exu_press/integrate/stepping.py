@@ -128,27 +128,27 @@ class Event:
         """Look for the zeros of a function of the system and the time, s."""
         self._mbs, self._function = task.system.mbs, function
         self._narrow = max(EVENT_WIDTH * task.largest, 2.0 * task.smallest)
-        self._before = self._now = 0.0  # at the beginning and at the end of the step last tried
+        self._start = self._now = 0.0  # at the beginning and at the end of the step last tried
         self.passed = False
 
     def begin(self, time: float) -> None:
         """Look at the current state, from which the run starts at a time, s."""
         if self._function is not None:
-            self._before = self._function(self._mbs, time)
+            self._start = self._function(self._mbs, time)
 
     def shorter(self, step: float, end: float) -> float:
         """Return with which step to repeat one (s) that ends at `end`, s, or 0.0 to keep it."""
         if self._function is None:
             return 0.0
         self._now = now = self._function(self._mbs, end)
-        self.passed = now * self._before < 0.0
+        self.passed = now * self._start < 0.0
         if not self.passed:
             return 0.0
-        fraction = self._before / (self._before - now)
+        fraction = self._start / (self._start - now)
         if (1.0 - fraction) * step <= self._narrow:
             return 0.0
         return min(fraction * step + 0.5 * self._narrow, 0.9 * step)
 
     def accept(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
-        self._before = self._now or self._before
+        self._start = self._now or self._start

@@ -279,11 +279,11 @@ def prepared_settings(settings: exu.SimulationSettings, task: Task) -> Iterator[
     ]
     if linear.solverType == exu.LinearSolverType.EXUdense:
         needed.append((linear, "solverType", exu.LinearSolverType.EigenDense))
-    before = [(owner, name, getattr(owner, name)) for owner, name, _ in needed]
+    original = [(owner, name, getattr(owner, name)) for owner, name, _ in needed]
     try:
         for owner, name, value in needed:
             setattr(owner, name, value)
         yield
     finally:
-        for owner, name, value in before:
+        for owner, name, value in original:
             setattr(owner, name, value)

@@ -9,7 +9,7 @@ from typing import Any
 
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.outcome import Outcome, SolverStatus
-from exu_press.integrate.resolution import Unresolved
+from exu_press.integrate.resolution import UnresolvedImpact
 from exu_press.integrate.system import System
 from exu_press.integrate.task import Task
 from exu_press.joints.joint import ClearanceJoint
@@ -93,7 +93,7 @@ class Advice:
         moved = self.system.rates_not_provided or _has_pre_step_function(self.system)
         return " (or no offset that jumps)" if moved else ""
 
-    def resolution(self, worst: Unresolved) -> str:
+    def resolution(self, worst: UnresolvedImpact) -> str:
         """Return what resolves a run that leapt over its impacts."""
         return f"a {self.setting} ten times smaller"
 

@@ -30,15 +30,15 @@ class UserFunctions:
         self.before_step, self._before_residual, self._after_newton, self._after_step = (
             self._functions
         )
-        now, before = system.current, system.start
+        current, at_start = system.current, system.start
         # what the pre-step function may set, where a step starts from and from where it is repeated
         self._states = [
-            (now.positions, before.positions),
-            (now.velocities, before.velocities),
-            (now.first_order, before.first_order),
-            (now.data, before.data),
+            (current.positions, at_start.positions),
+            (current.velocities, at_start.velocities),
+            (current.first_order, at_start.first_order),
+            (current.data, at_start.data),
         ]
-        self._velocities = now.velocities
+        self._velocities = current.velocities
 
     @contextmanager
     def replaced_by(self, *functions: Callable[..., Any]) -> Iterator[None]:
@@ -99,9 +99,9 @@ class UserFunctions:
         """Call the post-step function; return whether to go on, and whether it set velocities."""
         if not self._after_step:
             return True, False
-        before = self._velocities.tobytes()  # to compare bytes takes a tenth of the time
+        velocities = self._velocities.tobytes()  # to compare bytes takes a tenth of the time
         go_on = bool(self._after_step(self._mbs, end))
-        return go_on, self._velocities.tobytes() != before
+        return go_on, self._velocities.tobytes() != velocities
 
 
 def _function(mbs: Any, name: str) -> Any:

@@ -54,7 +54,7 @@ class VariableStepCorrection:
         self._refit, self._look_ahead = task.tuning.refit, task.tuning.look_ahead
         self._task, self._solver, self._constraints = task, task.solver, constraints
         self._data, self._current, self._at_start = system.data, system.current, system.start
-        self._now, self._before = (
+        self._now, self._start_state = (
             (
                 FloatBuffer(state.positions),
                 FloatBuffer(state.velocities),
@@ -122,7 +122,7 @@ class VariableStepCorrection:
         """
         solver = self._solver
         if not self._state:
-            self._state = [floats.read() for floats in self._before]
+            self._state = [floats.read() for floats in self._start_state]
         q, v, a = self._state
         if abs(ratio - 1.0) > SAME:
             fraction = step / self._fits
@@ -138,8 +138,8 @@ class VariableStepCorrection:
                     q = [q[i] - of_q[i] for i in range(len(q))]
                     v = [v[i] - more * of_v[i] for i in range(len(v))]
         at_start: list[float] = solver.GetStartOfStepStateAAlgorithmic().tolist()
-        before = self._state[2]
-        algorithmic = [a[i] + ratio * (at_start[i] - before[i]) for i in range(len(a))]
+        accelerations = self._state[2]
+        algorithmic = [a[i] + ratio * (at_start[i] - accelerations[i]) for i in range(len(a))]
         if self._method is None:
             self._method = solver.alphaM, solver.alphaF, solver.newmarkBeta, solver.newmarkGamma
         alpha_m, alpha_f, beta, gamma = self._method
@@ -156,7 +156,7 @@ class VariableStepCorrection:
         by = step * step * (gamma - 0.5 - beta), step * (1.0 - gamma), -alpha_m / alpha_f
         shifted = [q, v, a]
         now: list[float] = solver.GetAAlgorithmic().tolist()
-        for state, there in ((self._now, now), (self._before, at_start)):
+        for state, there in ((self._now, now), (self._start_state, at_start)):
             for k in range(3):
                 values, factor = shifted[k], by[k]
                 state[k].write(

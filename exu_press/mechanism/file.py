@@ -28,7 +28,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import Body, Guide, Joint, Output
 from exu_press.schema.checks import as_float, nearest, refuse_unknown
@@ -76,7 +76,7 @@ def load_mechanism(path: str | Path) -> Mechanism:
     """
     path = Path(path)
     data = read_toml(path)
-    with prefixed(f"{path}: "):
+    with error_prefix(f"{path}: "):
         return mechanism_from_dict(data)
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.mechanism import Body, Mechanism, Motion, Point
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.threads import one_thread
@@ -133,7 +133,7 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
     mechanism = mechanism_of(scene)
     parts = {}
     for name, table in scene.bodies.items():
-        with prefixed(f"bodies.{name}: "):
+        with error_prefix(f"bodies.{name}: "):
             if table.sn_stress is not None:
                 require_rainflow()
             loads = {

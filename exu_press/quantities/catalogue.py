@@ -121,11 +121,11 @@ def add(quantity: Quantity) -> Quantity:
     """
     for word in str(quantity.name).split("."):
         demand_name(f"quantity {quantity.name!r}", word)
-    prefixed = [f"{prefix}{quantity.unit}" for prefix in PREFIXES]
-    if quantity.display_unit not in prefixed:
+    units = [f"{prefix}{quantity.unit}" for prefix in PREFIXES]
+    if quantity.display_unit not in units:
         raise InputError(
             f"quantity {quantity.name}: display_unit = {quantity.display_unit!r}; allowed are "
-            f"{', '.join(prefixed)}"
+            f"{', '.join(units)}"
         )
     for declared in CATALOGUE:
         if (declared.owner, declared.name) == (quantity.owner, quantity.name):

@@ -97,7 +97,7 @@ def _combined_info(infos: Sequence[Info]) -> Info:
     """Return the last block's metadata, with the cost of all and the worst status."""
     last = infos[-1]
     worst = last
-    if SolverStatus(last["status"]).ended:
+    if SolverStatus(last["status"]).reached_end:
         completed = SolverStatus.COMPLETED.value
         worst = next((info for info in infos if info["status"] != completed), last)
     combined: Info = {

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypedDict, TypeVar
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.files.lock import LOCK, lock_directory
 from exu_press.files.output_directory import refuse_link, writing
 from exu_press.result import netcdf
@@ -150,7 +150,7 @@ def read(path: Path, kind: type[Kind]) -> Kind:
 def _read_checkpoint(directory: Path, kind: type[Kind]) -> Kind:
     """Return the run in a directory, as one of the revolutions that it has made."""
     run = netcdf.read(directory / HEAD, kind)
-    with prefixed(f"{directory / HEAD}: damaged: "):
+    with error_prefix(f"{directory / HEAD}: damaged: "):
         blocks = from_json(Blocks, netcdf.read_text(directory / HEAD, "blocks"), "blocks")
     warnings.warn(
         f"{directory}: this run goes on, or its process was killed; it has "

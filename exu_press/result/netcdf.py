@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.errors import InputError, prefixed, required_package
+from exu_press.errors import InputError, error_prefix, required_package
 from exu_press.files.file_format import NewerFormatError, refuse_newer_format
 from exu_press.files.output_directory import replacing
 from exu_press.result.channel import AXES, Channel
@@ -155,7 +155,7 @@ def _channels(file: Classic, along: str) -> dict[str, Channel]:
 def _channel(name: str, variable: Variable) -> Channel:
     """Return a channel; its last dimension names its columns."""
     _, *inner = variable.dimensions
-    with prefixed(f"channel {shown(name)}: "):
+    with error_prefix(f"channel {shown(name)}: "):
         return Channel(
             variable.values(np.float64),
             _text(variable.attributes, "units"),
@@ -166,7 +166,7 @@ def _channel(name: str, variable: Variable) -> Channel:
 
 def read_text(path: Path, name: str) -> str:
     """Return a text that a file has beside a result; raise InputError if it is damaged."""
-    with prefixed(f"{path}: "):
+    with error_prefix(f"{path}: "):
         return _text(_open_checked(path).attributes, name)
 
 
@@ -233,7 +233,7 @@ def _surface(file: Classic, body: str) -> Surface:
             raise InputError(f"has no {name}")
         return file.variables[f"{body}_surface_{name}"].values(dtype)
 
-    with prefixed(f"surface of {shown(body)}: "):
+    with error_prefix(f"surface of {shown(body)}: "):
         modes = array("modes", np.float32)
         stress = np.zeros((0, 6, modes.shape[-1]), np.float32)
         if f"{body}_surface_stress" in file.variables:

@@ -86,7 +86,7 @@ class Result(Contents):
     @property
     def completed(self) -> bool:
         """Return whether the run reached its end; if "under-resolved", its peaks are not right."""
-        return SolverStatus(self.info["status"]).ended
+        return SolverStatus(self.info["status"]).reached_end
 
     @cached_property
     def joints(self) -> Mapping[str, JointRecord]:

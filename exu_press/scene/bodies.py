@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError, UnusedKeyError, prefixed, required_package
+from exu_press.errors import InputError, UnusedKeyError, error_prefix, required_package
 from exu_press.schema.checks import demand_known, key, refuse_unknown
 from exu_press.schema.table import Table, changed_table, plain, table_from
 
@@ -191,7 +191,7 @@ def bodies_of(
                 f"bodies.{name} = {value!r}: allowed is a shipped part, a STEP file's path, or a "
                 "table of keys"
             )
-        with prefixed(f"bodies.{name}."):
+        with error_prefix(f"bodies.{name}."):
             body = found[name] = table_from(Flexible, "", _keys(value))
         for joint in body.faces:
             said = f"bodies.{name}.faces.{joint}: {name} has no such joint"
@@ -307,7 +307,7 @@ def _face(where: str, given: Any, known: tuple[str, ...]) -> Face:
             f"{where} = {given!r}: allowed is a face's name, or a table of {', '.join(known)}"
         )
     refuse_unknown(where, given, known)
-    with prefixed(f"{where}."):
+    with error_prefix(f"{where}."):
         return Face(**given)
 
 

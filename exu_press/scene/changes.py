@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.mechanism import (
     SHIPPED,
     Mechanism,
@@ -47,7 +47,7 @@ def changed_keys(
     joints, bodies, loads = (inner.pop(name) for name in ("joints", "bodies", "load"))
     if drawing := inner.pop("mechanism", None):
         drawn = _drawn(data["mechanism"], drawing)
-        with prefixed("mechanism."):
+        with error_prefix("mechanism."):
             data["mechanism"] = change_mechanism(drawn, drawing)
     for table, keys in inner.items():
         before = data.get(table, {})
@@ -75,7 +75,7 @@ def changed_keys(
 def asked_mechanism(mechanism: Any) -> Any:
     """Return a mechanism that is given as data or as the path of a file; others as they are."""
     if isinstance(mechanism, Mapping):
-        with prefixed("mechanism."):
+        with error_prefix("mechanism."):
             return mechanism_from_dict(mechanism)
     if isinstance(mechanism, str) and mechanism.lower().endswith(".toml"):
         return load_mechanism(mechanism)

@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.laws.contact_damping import DAMPING_LAWS, NormalContact
 from exu_press.laws.contact_stiffness import Stiffness, cylindrical, hertz, hertz_stiffness
 from exu_press.schema.checks import key
@@ -252,7 +252,7 @@ class Contact(Table):
                 around its bearing: above that of the penetration of a lasting contact, and below
                 that of impacts.
         """
-        with prefixed("contact."):
+        with error_prefix("contact."):
             return self.damping.normal_contact(
                 stiffness, tension=self.tension, usual_slowest=crank_speed * clearance
             )

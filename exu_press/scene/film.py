@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.laws.catalogue import BALL_ERROR, FILM_LAWS
 from exu_press.laws.film.asperities import with_asperities
 from exu_press.laws.film.ball import BallFilm as BallLaw
@@ -195,7 +195,7 @@ class JournalFilm(Film):
 
     def film_law(self, radius: float, clearance: float) -> JournalLaw:
         """Return the law of a journal of a radius and a clearance, m, also beyond contact."""
-        with prefixed("film."):
+        with error_prefix("film."):
             law = self.law.film(self._ratio(radius))
         gap_ratio = self.contact_gap_ratio(clearance)
         return law if gap_ratio is None else with_asperities(law, gap_ratio)
@@ -249,7 +249,7 @@ class BallFilm(Film):
     def ball_film(self, clearance: float) -> BallLaw:
         """Return the film of a ball with a clearance, m."""
         gap_ratio = self.contact_gap_ratio(clearance)
-        with prefixed("film."):
+        with error_prefix("film."):
             return ball(math.radians(self.socket_angle_deg), gap_ratio)
 
     def film_law(self, radius: float, clearance: float) -> JournalLaw:

@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.laws.friction import Friction as LawOfFriction
 from exu_press.laws.friction import LuGre as Bristle
 from exu_press.laws.friction import coulomb, lugre_steady, no_friction, stribeck
@@ -163,7 +163,7 @@ class Friction(Table):
 
     def friction(self) -> LawOfFriction | Bristle:
         """Return the law of one joint."""
-        with prefixed("friction."):
+        with error_prefix("friction."):
             return self.law.friction()
 
 

@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from exu_press.errors import InputError, UnusedKeyError, prefixed
+from exu_press.errors import InputError, UnusedKeyError, error_prefix
 from exu_press.scene.custom import CustomJoint
 from exu_press.scene.joint import JOINT_KINDS, IdealJoint, Joint
 from exu_press.scene.law_keys import LawKeys
@@ -264,11 +264,11 @@ def _joint(
     if table.get("worn") is not None:
         if spherical:
             raise UnusedKeyError(f"{place}.worn", f"{place}.worn", f"{place} is a ball")
-        with prefixed(f"{place}."):
+        with error_prefix(f"{place}."):
             from exu_press.scene.worn import Worn
 
             values["worn"] = table_from(Worn, "worn", table["worn"])
-    with prefixed(f"{place}."):
+    with error_prefix(f"{place}."):
         joint: Joint = chosen(**{key: values[key] for key in keys if key in values})
     joint.demand_keys(place)
     try:
@@ -284,7 +284,7 @@ def _check_names(place: str, law: str, own: Any, laws: LawKeys, spherical: bool)
     if not isinstance(own, Mapping | Table):
         raise InputError(f"{place}.{law} = {own!r:.200}: allowed is a table of keys")
     keys = given_keys(own)
-    with prefixed(f"{place}."):
+    with error_prefix(f"{place}."):
         merged = changed_table(kind, laws.of(law), keys)
         refuse_unknown_keys([*LAWS[law].values()], law, keys, used_names(kind, law, merged))
 
@@ -292,7 +292,7 @@ def _check_names(place: str, law: str, own: Any, laws: LawKeys, spherical: bool)
 def _law(place: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> Any:
     """Return a joint's law: the scene's, but for its own keys."""
     kind = law_kind(law, spherical)
-    with prefixed(f"{place}."):
+    with error_prefix(f"{place}."):
         return resolve(kind, law, changed_table(kind, laws.of(law), given_keys(own)))
 
 

@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.laws.load_curve import LoadCurve
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
@@ -55,7 +55,7 @@ def loads_of(
         _check_body(where, load, mechanism, flexible)
         if isinstance(load, CustomLoad):
             _check_curve(where, load, speed_rpm)
-        with prefixed(f"{where}."):
+        with error_prefix(f"{where}."):
             load.check(mechanism, 60.0 / speed_rpm)
     return found
 
@@ -137,7 +137,7 @@ def _load(where: str, given: Any) -> Load:
         both = [name for name in ("force", *COLUMNS) if name in keys]
         if both:
             raise InputError(f"file and {both[0]}: allowed is one of the two")
-        with prefixed("file: "):
+        with error_prefix("file: "):
             keys |= _read_table(Path(path))
     load: Load = table(**keys)
     return load
@@ -160,7 +160,7 @@ def _check_curve(where: str, load: CustomLoad, speed_rpm: float) -> None:
     demand_keys(where, load, [name for name in own if name not in _PLACES], "", f"[{where}]")
     if load.over not in COLUMNS:
         raise InputError(f"{where}: {load.kind}.over = {load.over!r}: allowed is one of {COLUMNS}")
-    with prefixed(f"{where}: "):
+    with error_prefix(f"{where}: "):
         curve = load.curve(speed_rpm * RPM)
     if not isinstance(curve, LoadCurve):
         raise InputError(

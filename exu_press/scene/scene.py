@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast, overload
 
-from exu_press.errors import InputError, UnusedKeyError, prefixed
+from exu_press.errors import InputError, UnusedKeyError, error_prefix
 from exu_press.mechanism import (
     SHIPPED,
     Mechanism,
@@ -488,7 +488,7 @@ def _load(path: str | Path, assignments: Iterable[str] = (), *, allow_code: bool
     path = Path(path)
     data = scene_tables(path)
     changes = dict(map(parse_assignment, assignments))
-    with prefixed(f"{path}: "):
+    with error_prefix(f"{path}: "):
         if allow_code:
             import_kinds({**data, **changes})
         scene = Scene.from_dict(data, given_names(data))

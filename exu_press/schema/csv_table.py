@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.files.output_directory import replacing
 from exu_press.schema.stored import LARGEST, shown
 
@@ -40,7 +40,7 @@ def read_csv(path: Path) -> dict[str, tuple[Value, ...]]:
     columns: dict[str, tuple[Value, ...]] = {}
     cells = zip(*lines, strict=True) if lines else [()] * len(head)
     for name, texts in zip(head, cells, strict=True):
-        with prefixed(f"column {shown(name)}: "):
+        with error_prefix(f"column {shown(name)}: "):
             columns[name] = tuple(map(_value, texts))
     return columns
 

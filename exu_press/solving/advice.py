@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 
 from exu_press.integrate import Advice, Outcome
-from exu_press.integrate.resolution import Unresolved
+from exu_press.integrate.resolution import UnresolvedImpact
 from exu_press.integrate.system import System
 from exu_press.integrate.task import Task
 from exu_press.joints.joint import ClearanceJoint
@@ -102,7 +102,7 @@ class SceneAdvice(Advice):
         """Return that the pin seizes or a film is too thin, or nothing."""
         return self._seizing() + self._thin_film()
 
-    def resolution(self, worst: Unresolved) -> str:
+    def resolution(self, worst: UnresolvedImpact) -> str:
         """Return the step or the tolerance that resolves the impacts."""
         solver = self._scene.solver
         assert solver is not None

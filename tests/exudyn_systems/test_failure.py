@@ -15,7 +15,7 @@ def refused_result(system, chosen, **options):
     """Return the outcome of a run that misses its tolerance, of which a warning tells."""
     with pytest.warns(UserWarning, match="solve_dynamic: not converged: "):
         outcome = solve_dynamic(system, chosen, **options)
-    assert outcome.status is SolverStatus.NOT_CONVERGED and not outcome.status.ended
+    assert outcome.status is SolverStatus.NOT_CONVERGED and not outcome.status.reached_end
     with pytest.raises(RuntimeError, match="not converged"):
         outcome.check()
     return outcome

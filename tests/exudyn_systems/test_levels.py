@@ -122,4 +122,4 @@ def test_where_no_copy_is_safe_a_function_is_asked_for(reason, monkeypatch):
     refusal(monkeypatch, reason)
     with pytest.raises(InputError, match=rf"{reason}; pass a function that builds"):
         solve_dynamic(oscillator()[0], settings(2.0, 100))
-    assert solve_dynamic(lambda: oscillator()[0], settings(2.0, 100)).status.ended
+    assert solve_dynamic(lambda: oscillator()[0], settings(2.0, 100)).status.reached_end

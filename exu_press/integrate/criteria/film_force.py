@@ -31,22 +31,22 @@ class FilmForceError:
         """Follow the force of a lubricated joint."""
         self.joint, self._tolerance = joint, task.tolerance
         self._shortest, self._taken_back = SHORTEST * task.smallest, task.tuning.taken_back
-        self._before: tuple[float, ...] = ()
+        self._start_force: tuple[float, ...] = ()
         self._now: tuple[float, ...] = ()
         self._change: tuple[float, ...] = ()  # in the step before
         self._most = 0.0  # so far, N
 
     def restart(self) -> None:
         """Begin with the next step."""
-        self._before = self._change = ()
+        self._start_force = self._change = ()
 
     def error(self, step: float) -> float:
         """Return the error of a step (s) that ends where the joint was last asked for its force."""
         self._now = now = self.joint.force
-        if not self._before or step < self._shortest:
+        if not self._start_force or step < self._shortest:
             return 0.0
         here = there = along = 0.0
-        for a, b in zip(self._before, now, strict=True):
+        for a, b in zip(self._start_force, now, strict=True):
             here += a * a
             there += b * b
             along += a * b
@@ -62,14 +62,14 @@ class FilmForceError:
     def _oscillates(self) -> bool:
         """Return whether the force takes back a good part of its last change."""
         back = last = 0.0
-        for change, a, b in zip(self._change, self._before, self._now, strict=False):
+        for change, a, b in zip(self._change, self._start_force, self._now, strict=False):
             back -= change * (b - a)
             last += change * change
         return back > self._taken_back * last > 0.0
 
     def accept(self) -> None:
         """Take the end of the step last tried as the next one's beginning."""
-        if self._before:
-            self._change = tuple(b - a for a, b in zip(self._before, self._now, strict=True))
-        self._before = self._now
+        if self._start_force:
+            self._change = tuple(b - a for a, b in zip(self._start_force, self._now, strict=True))
+        self._start_force = self._now
         self._most = max(self._most, math.hypot(*self._now))

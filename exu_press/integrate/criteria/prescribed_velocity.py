@@ -19,18 +19,18 @@ class PrescribedVelocityError:
         """Follow the bodies of a task."""
         self._scales, self._tolerance = task.scales, task.tolerance
         self._accelerations = task.system.current.accelerations
-        self._before: list[float] = []  # at the beginning of the step
+        self._start: list[float] = []  # at the beginning of the step
         self._now: list[float] = []
 
     def restart(self) -> None:
         """Begin with the current state, as at the start."""
-        self._before = self._accelerations.tolist()
+        self._start = self._accelerations.tolist()
 
     def error(self, step: float) -> float:
         """Return the error of a step (s) that ends in the current state, as the step's cube."""
         self._now = now = self._accelerations.tolist()
-        before, scales = self._before, self._scales
-        change = scales.norm([now[i] - before[i] for i in range(len(now))])
+        start, scales = self._start, self._scales
+        change = scales.norm([now[i] - start[i] for i in range(len(now))])
         error = step * change / 12.0
         allowed = self._tolerance * scales.speed
         if error <= scales.roundoff / (6.0 * step) or allowed == 0.0:
@@ -39,4 +39,4 @@ class PrescribedVelocityError:
 
     def accept(self) -> None:
         """Take the end of the step last tried as the next one's beginning."""
-        self._before = self._now
+        self._start = self._now

@@ -19,21 +19,21 @@ class VelocityError:
         self._scales, self._filter, self._allowed = task.scales, newton_filter, allowed
         self._constant = task.tuning.velocity_constant
         self._accelerations = task.system.current.accelerations
-        self._before: list[float] = []  # accelerations at the beginning of the step
+        self._start: list[float] = []  # accelerations at the beginning of the step
         self._now: list[float] = []
         self._rate_before: list[float] = []  # of them, in the step before; none in the first one
         self._rate: list[float] = []
 
     def restart(self) -> None:
         """Begin with the current state, as at the start."""
-        self._before, self._rate_before = self._accelerations.tolist(), []
+        self._start, self._rate_before = self._accelerations.tolist(), []
         self._filter.begin_step()
 
     def error(self, step: float) -> float:
         """Return the error of a step (s) that ends in the current state."""
         self._now = now = self._accelerations.tolist()
-        before, rate_before = self._before, self._rate_before
-        self._rate = rate = [(now[i] - before[i]) / step for i in range(len(now))]
+        start, rate_before = self._start, self._rate_before
+        self._rate = rate = [(now[i] - start[i]) / step for i in range(len(now))]
         if rate_before:
             change = [rate[i] - rate_before[i] for i in range(len(rate))]
         else:
@@ -50,7 +50,7 @@ class VelocityError:
 
     def accept(self) -> None:
         """Take the end of the step last tried as the next one's beginning."""
-        self._before, self._rate_before = self._now, self._rate
+        self._start, self._rate_before = self._now, self._rate
         self._filter.begin_step()
 
     def _relative_rate(self) -> float:
@@ -59,7 +59,7 @@ class VelocityError:
         What it changes by within the step is not known yet: as much as the accelerations do.
         """
         norm = self._scales.norm
-        rate, largest = norm(self._rate), max(norm(self._now), norm(self._before))
+        rate, largest = norm(self._rate), max(norm(self._now), norm(self._start))
         return rate / largest if rate > 0.0 else 0.0
 
     def _of_change(self, change: list[float], step: float, roundoff: float) -> float:

@@ -104,7 +104,7 @@ class Orbit:
         outcome = model.solve()
         if outcome.status is SolverStatus.INTERRUPTED:
             raise KeyboardInterrupt
-        if not outcome.status.ended:
+        if not outcome.status.reached_end:
             raise NoMotion(f"no motion in the long run: {outcome.reason}")
         if model.until is not None and model.crank_angle()[0] < model.until:
             raise NoMotion(

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.schema.checks import key
 from exu_press.schema.table import Table, table_from
 
@@ -181,7 +181,7 @@ def key_from(name: str, value: Any) -> Key:
     """
     if isinstance(value, (Values, Range, Normal)):
         return value
-    with prefixed(f"keys.{name}: "):
+    with error_prefix(f"keys.{name}: "):
         if isinstance(value, Mapping) and NAMES[0] <= set(value) <= NAMES[0] | {"log"}:
             return table_from(Range, "", value)
         if isinstance(value, Mapping) and NAMES[1] <= set(value):

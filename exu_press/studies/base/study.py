@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.scene import Scene
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import import_kinds
@@ -144,9 +144,9 @@ def load_study(path: str | Path, kind: type[S], *, allow_code: bool = False) -> 
         if name not in data and (name == "scene" or kind.with_keys):
             raise InputError(f"{path}: no {name}; allowed is {name} = {example}")
     if allow_code:
-        with prefixed(f"{path}: "):
+        with error_prefix(f"{path}: "):
             import_kinds(data)
     if isinstance(data["scene"], str):
         data["scene"] = Scene.load(path.parent / data["scene"], allow_code=allow_code)
-    with prefixed(f"{path}: "):
+    with error_prefix(f"{path}: "):
         return table_from(kind, "", kind.locate_files(data, path.parent))

@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError, prefixed
+from exu_press.errors import InputError, error_prefix
 from exu_press.parallel import FILE
 from exu_press.quantities import quantities_of
 from exu_press.studies.base import Runs, Study
@@ -36,7 +36,7 @@ def sweep(study: Sweep, directory: str | Path, **how: Any) -> SweepReport:
         numbers = range(1, len(study.points) + 1)
         files = [f"runs/{n:0{digits}}.nc" for n in numbers] if study.save_runs else []
         rows = runs.of(study.scenes, files)
-        with prefixed(f"{directory / FILE}: not rows of a sweep: "):
+        with error_prefix(f"{directory / FILE}: not rows of a sweep: "):
             report = report_of(study, rows, files)
         report.save(directory)
     return report

@@ -28,14 +28,14 @@ from exu_press.integrate import SolverStatus
 from exu_press.quantities.table import comparison_lines, difference_lines
 from exu_press.result import Result
 from exu_press.scene import Scene
-from exu_press.studies.beside_measured import (
+from exu_press.studies.compare import different_keys, variants
+from exu_press.studies.curve_comparison import (
     MEASURED,
     MEASURED_PICTURE,
-    Beside,
-    beside,
-    beside_rows,
+    CurveComparison,
+    compare_curve,
+    comparison_rows,
 )
-from exu_press.studies.compare import different_keys, variants
 from exu_press.studies.curve_file import CurveFile, read_curve
 from exu_press.terminal.columns import columns
 from exu_press.verification.simulate import simulate
@@ -74,8 +74,8 @@ def execute(options: argparse.Namespace) -> int:
     files = [Path(name) for name in options.given if Path(name).suffix.lower() == CURVES]
     curves = {file: read_curve(file) for file in files}
     runs = [name for name in options.given if Path(name) not in curves]
-    compared = _compared(runs, options.set, options.allow_code, measured=bool(curves))
-    stored = {label: one for label, one in compared.items() if isinstance(one, Result)}
+    compared = _load_items(runs, options.set, options.allow_code, measured=bool(curves))
+    stored = {label: result for label, result in compared.items() if isinstance(result, Result)}
     if not options.no_pictures:
         from exu_press.plots.file import save_figures
         from exu_press.plots.save import comparison_figures
@@ -83,16 +83,17 @@ def execute(options: argparse.Namespace) -> int:
 
         # they are refused here, where their files keep too little
         figures = comparison_figures(stored) if stored else {}
-    measured = _beside(curves, stored, {})
+    measured = _compare_curves(curves, stored, {})
     target = directory_of(options, options.given[0] if len(options.given) == 1 else "compare")
     with lock_directory(output_directory(target)) as directory:
         results, summaries = _run_all(compared, directory, options)
-        measured = _beside(curves, results, measured)
-        told = {
-            name: {run: one.plain() for run, one in runs.items()} for name, runs in measured.items()
+        measured = _compare_curves(curves, results, measured)
+        differences = {
+            name: {run: comparison.plain() for run, comparison in runs.items()}
+            for name, runs in measured.items()
         }
         if measured:
-            write_json(directory / MEASURED, told)
+            write_json(directory / MEASURED, differences)
         if not options.no_pictures:
             if list(results) != list(stored):
                 figures = comparison_figures(results)
@@ -104,8 +105,8 @@ def execute(options: argparse.Namespace) -> int:
         if len(scenes) > 1:
             print("\n".join([*columns(different_keys(scenes)), ""]))
         print("\n".join([*comparison_lines(results), *difference_lines(results)]))
-        for name, runs_beside in told.items():
-            print("\n".join([*columns(beside_rows(name, runs_beside)), ""]))
+        for name, runs_beside in differences.items():
+            print("\n".join([*columns(comparison_rows(name, runs_beside)), ""]))
         show_warnings(f"{label}: {w}" for label, s in summaries.items() for w in s["warnings"])
         print(f"written to {directory}")
     stopped = {label: s["reason"] for label, s in summaries.items() if s["reason"]}
@@ -155,55 +156,55 @@ def _label(name: str, labels: Iterable[str]) -> str:
     )
 
 
-def _beside(
+def _compare_curves(
     curves: Mapping[Path, CurveFile],
     results: Mapping[str, Result],
-    known: Mapping[str, Mapping[str, Beside]],
-) -> dict[str, dict[str, Beside]]:
+    known: Mapping[str, Mapping[str, CurveComparison]],
+) -> dict[str, dict[str, CurveComparison]]:
     """Return measured curves beside runs by label, by the names of their files; `known` as is."""
     stems = [file.stem for file in curves]
-    found = {}
+    compared = {}
     for file, curve in curves.items() if results else ():
         name = file.stem if stems.count(file.stem) == 1 else str(file)
-        there = known.get(name, {})
-        found[name] = {
-            label: there.get(label) or beside(file, curve, result)
+        known_runs = known.get(name, {})
+        compared[name] = {
+            label: known_runs.get(label) or compare_curve(file, curve, result)
             for label, result in results.items()
         }
-    return found
+    return compared
 
 
-def _compared(
-    given: list[str], assignments: list[str], allow_code: bool, *, measured: bool
+def _load_items(
+    names: list[str], assignments: list[str], allow_code: bool, *, measured: bool
 ) -> Mapping[str, Scene | Result]:
     """Return scenes and results by label, all of them read and checked before anything is run.
 
     Args:
-        given: names of files.
+        names: names of files.
         assignments: changes of scenes.
         allow_code: whether scenes may name modules of the user's.
         measured: whether measured curves are beside them, with which one run may be alone.
     """
-    if not given:
+    if not names:
         raise InputError("a measurement alone; allowed are scenes or results beside it")
-    found: dict[str, Scene | Result] = {}
-    for name in given:
+    items: dict[str, Scene | Result] = {}
+    for name in names:
         path = Path(name)
         file = path / RESULT if path.is_dir() else path
         if file.suffix == ".nc":
-            one: Scene | Result = Result.load(file)
+            item: Scene | Result = Result.load(file)
         else:
-            one = Scene.load(scene_path(name), assignments, allow_code=allow_code)
+            item = Scene.load(scene_path(name), assignments, allow_code=allow_code)
         label = file.resolve().parent.name if file.name == RESULT else path.stem
-        found[_label(label, found)] = one
-    scenes = [one for one in found.values() if isinstance(one, Scene)]
+        items[_label(label, items)] = item
+    scenes = [item for item in items.values() if isinstance(item, Scene)]
     if assignments and not scenes:
         raise InputError(f"--set {assignments[0]}: changes scenes, and none is given")
-    if len(found) > 1 or measured:
-        return found
+    if len(items) > 1 or measured:
+        return items
     if not scenes:
-        raise InputError(f"{given[0]}: a result alone; allowed are two or more, or a scene alone")
-    made = variants(scenes[0])
-    if not any(label.endswith("lubricated") for label in made):
+        raise InputError(f"{names[0]}: a result alone; allowed are two or more, or a scene alone")
+    scenes_by_label = variants(scenes[0])
+    if not any(label.endswith("lubricated") for label in scenes_by_label):
         print("lubricated: left out, as the scene has no film", file=sys.stderr)
-    return made
+    return scenes_by_label

@@ -83,7 +83,7 @@ def execute(options: argparse.Namespace) -> int:
         from exu_press.plots.file import check_picture
 
         check_picture(target)
-    mechanism, speed = _asked(options.path, dict(map(parse_assignment, options.set)))
+    mechanism, speed = _load_mechanism(options.path, dict(map(parse_assignment, options.set)))
     examined = examine(mechanism)
     summary = _summary(examined)
     if not options.quiet:
@@ -95,7 +95,7 @@ def execute(options: argparse.Namespace) -> int:
         from exu_press.plots.file import save_figure
 
         few = [f"{name} {value}" for name, value in summary if "transmission" not in name]
-        lines = [SEPARATOR.join(few[place : place + 3]) for place in range(0, len(few), 3)]
+        lines = [SEPARATOR.join(few[start : start + 3]) for start in range(0, len(few), 3)]
         save_figure(drawing_figure(examined, "\n".join(lines), speed), target)
         if not options.quiet:
             print(f"written: {target}")
@@ -111,19 +111,19 @@ def _names() -> list[str]:
     return sorted({*BY_DIMENSIONS, *MECHANISMS, *shipped_names()})
 
 
-def _asked(given: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | None]:
+def _load_mechanism(name: str, changes: Mapping[str, Any]) -> tuple[Mechanism, float | None]:
     """Return the mechanism, and the crank's speed (rad/s) where a scene says it.
 
     A scene is read as far as its mechanism goes: `Scene` refuses mechanisms with faults.
     """
-    path = Path(given)
+    path = Path(name)
     if not path.exists() and not path.suffix:
-        if given in MECHANISMS:
-            return _named(given, {}, changes), None
-        if given in BY_DIMENSIONS:
-            return _of_scene({"mechanism": given}, Path(), changes)
-        demand_known(f"{given}: no such mechanism or scene", given, ["a file", *_names()])
-        path = SHIPPED / f"{given}.toml"
+        if name in MECHANISMS:
+            return _build_mechanism(name, {}, changes), None
+        if name in BY_DIMENSIONS:
+            return _of_scene({"mechanism": name}, Path(), changes)
+        demand_known(f"{name}: no such mechanism or scene", name, ["a file", *_names()])
+        path = SHIPPED / f"{name}.toml"
     data = read_toml(path)
     if "bodies" in data and "joints" in data and "crank" in data:
         data = change_mechanism(data, changes)
@@ -155,10 +155,10 @@ def _of_scene(
             drawing = change_mechanism(read_toml(file), further)
             with error_prefix(f"{file}: "):
                 return mechanism_from_dict(drawing), speed
-        return _named(mechanism, scene, further), speed
+        return _build_mechanism(mechanism, scene, further), speed
 
 
-def _named(name: Any, scene: Mapping[str, Any], changes: Mapping[str, Any]) -> Mechanism:
+def _build_mechanism(name: Any, scene: Mapping[str, Any], changes: Mapping[str, Any]) -> Mechanism:
     """Return a shipped mechanism, with the dimensions that a scene gives it, changed."""
     if name in BY_DIMENSIONS:
         for change, value in changes.items():
@@ -210,9 +210,9 @@ def _summary(examined: Examination) -> list[tuple[str, str]]:
         return rows
     rows.append((f"stroke of {examined.mechanism.slider}", f"{1e3 * stroke.length:.3f} mm"))
     for centre in stroke.dead_centres:
-        place = f"position {1e3 * centre.position:.3f} mm"
+        position = f"position {1e3 * centre.position:.3f} mm"
         which = "top" if centre.top else "bottom"
-        rows.append((f"{which} dead centre", f"{math.degrees(centre.angle):.3f} deg, {place}"))
+        rows.append((f"{which} dead centre", f"{math.degrees(centre.angle):.3f} deg, {position}"))
     fastest = int(np.abs(stroke.velocity).argmax())
     most = float(np.abs(stroke.velocity[fastest]))
     if most > 0.0:
@@ -240,15 +240,15 @@ def _table(examined: Examination, speed: float | None) -> list[str]:
             "least transmission angle, deg",
         )
     ]
-    for place in range(0, 361, STEP):
-        advantage = stroke.mechanical_advantage[place]
+    for angle in range(0, 361, STEP):
+        advantage = stroke.mechanical_advantage[angle]
         rows.append(
             (
-                f"{place}",
-                f"{1e3 * stroke.position[place]:.3f}",
-                f"{round(scale * float(stroke.velocity[place]), 4) + 0.0:.4f}",
+                f"{angle}",
+                f"{1e3 * stroke.position[angle]:.3f}",
+                f"{round(scale * float(stroke.velocity[angle]), 4) + 0.0:.4f}",
                 f"{advantage:.2f}" if math.isfinite(advantage) else "infinite",
-                f"{min(values[place] for values in least):.2f}" if least else "-",
+                f"{min(values[angle] for values in least):.2f}" if least else "-",
             )
         )
     return columns(rows, right=True)

@@ -58,8 +58,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:  # of a path that no system takes, a disk that is full, and the like
         full = disk_full(error, error.filename or "standard output")
         where = error.filename or "the system"
-        said = full or InputError(f"{where}: {error.strerror or error}")
-        print(f"exu-press: {said}", file=sys.stderr)
+        message = full or InputError(f"{where}: {error.strerror or error}")
+        print(f"exu-press: {message}", file=sys.stderr)
         if full is not None:
             _discard(sys.stdout)
         return 2 if full is None else STOPPED
@@ -115,8 +115,8 @@ def _summary(name: str) -> str:
 
 def _execute(arguments: Sequence[str] | None) -> int:
     """Parse the arguments and run the command that they name."""
-    given = sys.argv[1:] if arguments is None else list(arguments)
-    for text in given:
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    for text in words:
         if "\0" in text:
             raise InputError(f"{text}: allowed are texts without a zero character")
     parser = argparse.ArgumentParser(
@@ -125,10 +125,10 @@ def _execute(arguments: Sequence[str] | None) -> int:
         epilog="example: exu-press compare press --out out/compare",
     )
     # to find it takes as long as all else here, in which Ctrl-C would meet Python's imports
-    version = f"%(prog)s {exu_press.__version__}" if "--version" in given else ""
+    version = f"%(prog)s {exu_press.__version__}" if "--version" in words else ""
     parser.add_argument("--version", action="version", version=version)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    named = next(iter(given), "-")
+    named = next(iter(words), "-")
     registered = None
     if named not in COMMANDS and not named.startswith("-"):
         registered = load_command(named)  # of an installed distribution
@@ -140,7 +140,7 @@ def _execute(arguments: Sequence[str] | None) -> int:
             command.epilog = f"example: {module.EXAMPLE}"
             module.add_arguments(command)
             command.set_defaults(execute=module.execute)
-    options = parser.parse_args(given)
+    options = parser.parse_args(words)
     remove_abandoned()
     usual, warnings.formatwarning = warnings.formatwarning, _as_users_read_it
     try:

@@ -121,18 +121,18 @@ def scene_of(options: argparse.Namespace) -> Scene:
     return Scene.load(scene_path(options.scene), options.set, allow_code=options.allow_code)
 
 
-def directory_of(options: argparse.Namespace, given: str) -> Path:
+def directory_of(options: argparse.Namespace, file: str) -> Path:
     """Return the directory that is asked for, else that of a file; it need not exist."""
-    return Path(options.out or Path("out") / folder_name(Path(given).stem))
+    return Path(options.out or Path("out") / folder_name(Path(file).stem))
 
 
-def show_warnings(found: Iterable[str]) -> None:
+def show_warnings(texts: Iterable[str]) -> None:
     """Print the first few warnings, each of them once."""
-    each = list(dict.fromkeys(found))
-    shown = each[:MOST_WARNINGS]
-    if len(each) > MOST_WARNINGS:
-        shown.append(f"{len(each) - MOST_WARNINGS} more like these")
-    for warning in shown:
+    unique = list(dict.fromkeys(texts))
+    first_texts = unique[:MOST_WARNINGS]
+    if len(unique) > MOST_WARNINGS:
+        first_texts.append(f"{len(unique) - MOST_WARNINGS} more like these")
+    for warning in first_texts:
         lines = textwrap.wrap(
             f"exu-press: warning: {warning}", 100, subsequent_indent="  ", break_on_hyphens=False
         )
@@ -144,15 +144,15 @@ def shipped_names() -> list[str]:
     return sorted(path.stem for path in SHIPPED.glob("*.toml"))
 
 
-def scene_path(given: str) -> Path:
+def scene_path(name: str) -> Path:
     """Return the file of a scene, or of the shipped one of this name."""
-    path, names = Path(given), shipped_names()
+    path, names = Path(name), shipped_names()
     if path.exists() or path.suffix:
         return path
-    if given not in names and given in MECHANISMS:
+    if name not in names and name in MECHANISMS:
         raise InputError(
-            f"{given}: is a shipped mechanism, not a scene; allowed is a scene of it, as "
-            f"`exu-press new my_scene.toml --mechanism {given}` writes one, or `exu-press draw`"
+            f"{name}: is a shipped mechanism, not a scene; allowed is a scene of it, as "
+            f"`exu-press new my_scene.toml --mechanism {name}` writes one, or `exu-press draw`"
         )
-    demand_known(f"{given}: no such scene", given, ["a file", *names])
-    return SHIPPED / f"{given}.toml"
+    demand_known(f"{name}: no such scene", name, ["a file", *names])
+    return SHIPPED / f"{name}.toml"

@@ -104,18 +104,18 @@ def _start_of(options: argparse.Namespace, scene: Scene) -> State | None:
         return None
     if options.within is not None:
         raise InputError("--from: not together with --within, which runs as often as it needs")
-    before = Result.load(_start_path(options.start))
-    if not before.completed or "state" not in before.info:
-        why = before.info["reason"] or "it was written without the state at its end"
+    previous = Result.load(_start_path(options.start))
+    if not previous.completed or "state" not in previous.info:
+        why = previous.info["reason"] or "it was written without the state at its end"
         raise InputError(f"--from {options.start}: allowed is a run that reached its end; {why}")
     for key in OF_THE_START:
-        asked, began = getattr(scene, key), getattr(before.scene, key)
+        asked, began = getattr(scene, key), getattr(previous.scene, key)
         if asked != began:
             raise InputError(
                 f"--from {options.start}: {key} = {asked!r} does nothing in a run that goes on; "
                 f"allowed is {began!r}, with which that run began"
             )
-    return before.info["state"]
+    return previous.info["state"]
 
 
 def execute(options: argparse.Namespace) -> int:
@@ -147,7 +147,7 @@ def _make_room(unfinished: Path, options: argparse.Namespace) -> None:
     refuse_blocks(unfinished)
 
 
-def _refined(
+def _run_refined(
     scene: Scene, start: State | None, unfinished: Path, *, quiet: bool
 ) -> tuple[Result, bool, str]:
     """Run a scene, and at finer tolerances where that is needed.
@@ -177,7 +177,7 @@ def _refined(
 
 def _run(scene: Scene, start: State | None, directory: Path, options: argparse.Namespace) -> int:
     """Run the scene in a directory of its own; return the exit status."""
-    found: list[str] = []
+    remarks: list[str] = []
     interrupted = False
     doubts = scene_warnings(scene)
     if not options.quiet:  # a drawing in mm may run for long
@@ -186,15 +186,15 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
     _make_room(unfinished, options)
     if options.within is not None:
         delivered = find_tolerance(scene, options.within, options.figure, quiet=options.quiet)
-        result, found = delivered.result, accuracy_lines(delivered, options.within)
+        result, remarks = delivered.result, accuracy_lines(delivered, options.within)
     elif options.no_error or options.once:
         errors = not options.no_error
         result = simulate(
             scene, errors=errors, start=start, unfinished=unfinished, quiet=options.quiet
         )
     else:
-        result, interrupted, remark = _refined(scene, start, unfinished, quiet=options.quiet)
-        found = [remark] if remark else []
+        result, interrupted, remark = _run_refined(scene, start, unfinished, quiet=options.quiet)
+        remarks = [remark] if remark else []
     summary = result.summary()
     remove_pictures(directory, "run")
     result.save(directory / RESULT)
@@ -202,8 +202,8 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
     written = [directory / RESULT, directory / "summary.json"]
     if not options.quiet:  # before the pictures, which take longer than a short run
         assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
-        said = [x for text in found for x in textwrap.wrap(text, 100, subsequent_indent="    ")]
-        print("\n".join([*run_lines(result), *said, *assumed]), flush=True)
+        texts = [x for text in remarks for x in textwrap.wrap(text, 100, subsequent_indent="    ")]
+        print("\n".join([*run_lines(result), *texts, *assumed]), flush=True)
         show_warnings(text for text in summary["warnings"] if text not in doubts)
     if not options.no_pictures:
         from exu_press.plots import save_pictures

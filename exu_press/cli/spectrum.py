@@ -44,16 +44,18 @@ def execute(options: argparse.Namespace) -> int:
     if kind is not Kind.RUN:
         raise InputError(f"{options.path}: allowed is a run.nc, or the directory that run wrote to")
     run = Result.load(file)
-    found = spectra(run, [*dict.fromkeys(options.channels)] or [DEFAULT], window=options.window)
+    spectra_list = spectra(
+        run, [*dict.fromkeys(options.channels)] or [DEFAULT], window=options.window
+    )
     marks = marks_of(run)
     written: list[Path] = []
     directory = output_directory(options.out or file.parent)
     if not options.no_pictures:
         from exu_press.studies.spectrum_figure import save_spectra
 
-        written = save_spectra(found, run.scene, marks, directory, options.format)
+        written = save_spectra(spectra_list, run.scene, marks, directory, options.format)
     if not options.quiet:
-        lines = [line for one in found for line in one.lines()]
+        lines = [line for spectra_entry in spectra_list for line in spectra_entry.lines()]
         lines += [f"natural frequency: {mark.name}, {mark.frequency:.4g} Hz" for mark in marks]
         print("\n".join(lines))
         if written:

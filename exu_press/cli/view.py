@@ -66,16 +66,16 @@ def execute(options: argparse.Namespace) -> int:
     from exu_press.view.save import check_target, is_animation
 
     check_target(target)
-    one = not is_animation(target)
-    if options.at is not None and not one:
+    is_picture = not is_animation(target)
+    if options.at is not None and not is_picture:
         raise InputError(f"--at {options.at:g}: allowed with --save FILE.png alone")
     for option in ("slow", "frames", "fps"):
-        if one and (value := getattr(options, option)) is not None:
+        if is_picture and (value := getattr(options, option)) is not None:
             raise InputError(f"--{option} {value:g}: allowed for animations, not for a picture")
     for option, value in (("--colour", options.colour), ("--exaggerate", options.exaggerate)):
         if value is not None and not result.surfaces:
             raise InputError(f"{option} {value}: allowed for runs with flexible bodies alone")
-    _write(result, target, one, options)
+    _write(result, target, is_picture, options)
     return 0
 
 
@@ -112,7 +112,7 @@ def _run_in(path: Path) -> Path:
     return file
 
 
-def _write(result: Result, target: Path, one: bool, options: argparse.Namespace) -> None:
+def _write(result: Result, target: Path, is_picture: bool, options: argparse.Namespace) -> None:
     """Make the animation or the picture and write it."""
     from matplotlib.figure import Figure
 
@@ -122,12 +122,12 @@ def _write(result: Result, target: Path, one: bool, options: argparse.Namespace)
     flexible = Look(options.colour or "displacement", options.exaggerate)
     start, stop = options.start, options.stop
     speed = {"slow": options.slow, "frames": options.frames, "fps": options.fps}
-    if one:
+    if is_picture:
         frames = moment(result, options.at, start, stop)
     else:
         frames = instants(result, start, stop, **{k: v for k, v in speed.items() if v is not None})
     animation = Animation(result, frames, Figure(figsize=SIZE), flexible)
-    if one:
+    if is_picture:
         written = [save_picture(animation, 1, target)]
     else:
         with Progress("animation", len(frames), "frames", quiet=options.quiet) as progress:

@@ -45,7 +45,7 @@ class Comparison:
         """Return the differences of the scenes, and the quantities."""
         head, *changed = different_keys({n: run.scene for n, run in self.results.items()})
         names, *rows = comparison_cells(self.results)
-        return _framed(table(head, changed) + table(names, rows))
+        return _frame(table(head, changed) + table(names, rows))
 
 
 def page_of(result: Result) -> Page:
@@ -53,17 +53,17 @@ def page_of(result: Result) -> Page:
     return Page(run_report(result, "this run"))
 
 
-def cell(thing: Any) -> str:
+def cell(item: Any) -> str:
     """Return the HTML of a scene, a mechanism or a result."""
-    if isinstance(thing, Scene):
-        return _framed(paragraph(describe([thing], ONE_LINE)) + changed_keys(thing))
-    if isinstance(thing, Mechanism):
-        return _drawing(thing)
-    assert isinstance(thing, Result)
-    told = warnings_of(thing.summary())
-    head = paragraph(describe([thing.scene], ONE_LINE)) + (warnings(told) if told else "")
-    numbers = comparison_cells({"": thing})[1:]
-    return _framed(head + table(("quantity", "value"), numbers))
+    if isinstance(item, Scene):
+        return _frame(paragraph(describe([item], ONE_LINE)) + changed_keys(item))
+    if isinstance(item, Mechanism):
+        return _drawing(item)
+    assert isinstance(item, Result)
+    texts = warnings_of(item.summary())
+    head = paragraph(describe([item.scene], ONE_LINE)) + (warnings(texts) if texts else "")
+    numbers = comparison_cells({"": item})[1:]
+    return _frame(head + table(("quantity", "value"), numbers))
 
 
 def _drawing(mechanism: Mechanism) -> str:
@@ -73,5 +73,5 @@ def _drawing(mechanism: Mechanism) -> str:
         return picture(path, mechanism.name)
 
 
-def _framed(inner: str) -> str:
+def _frame(inner: str) -> str:
     return f'<div style="{SMALL}">{inner}</div>'

@@ -15,8 +15,8 @@ from exu_press.report.shown import ALL, Span
 from exu_press.report.study import reading
 from exu_press.result import Result
 from exu_press.schema.stored import from_json, shown
-from exu_press.studies.beside_measured import MEASURED, MEASURED_PICTURE, beside_rows
 from exu_press.studies.compare import different_keys
+from exu_press.studies.curve_comparison import MEASURED, MEASURED_PICTURE, comparison_rows
 from fe_models.temporary import TemporaryFolder
 
 __all__ = ["comparison_page", "comparison_report"]
@@ -30,7 +30,7 @@ CAPTIONS = {
 def comparison_report(file: Path, span: Span = ALL) -> str:
     """Return the page of a comparison, from comparison.json and the variants' run.nc beside it."""
     results = {label: Result.load(path) for label, path in _runs(file).items()}
-    measured = _measured(file.parent)
+    measured = _measured_section(file.parent)
     return comparison_page(results, f"{file.parent.name}/{file.name}", span, measured)
 
 
@@ -50,11 +50,11 @@ def comparison_page(
     keys, *changed = different_keys({label: run.scene for label, run in results.items()})
     live = live_part(results, span)
     with TemporaryFolder() as folder:
-        shown = [
+        pictures = [
             picture(path, CAPTIONS.get(path.stem, path.stem))
             for path in save_comparison(results, folder)
         ]
-    told = [
+    texts = [
         f"{label}: {warning}"
         for label, summary in summaries.items()
         for warning in warnings_of(summary)
@@ -66,23 +66,23 @@ def comparison_page(
         [
             ("Differences of the scenes", table(keys, changed)),
             ("In motion", live),
-            ("Warnings", warnings(told)),
+            ("Warnings", warnings(texts)),
             ("Results", table(head, rows)),
             *([("Measured", measured)] if measured else []),
-            ("Pictures", stills("\n".join(shown), live)),
+            ("Pictures", stills("\n".join(pictures), live)),
             *scene_parts(richest.scene),
         ],
     )
 
 
-def _measured(directory: Path) -> str:
+def _measured_section(directory: Path) -> str:
     """Return differences from measured curves as tables, and their picture; nothing without any."""
     file, drawn = directory / MEASURED, directory / f"{MEASURED_PICTURE}.png"
     if not file.is_file():
         return ""
     with reading(file, "differences from measured curves"):
-        told = from_json(dict[str, Any], file.read_bytes(), file.name)
-        tables = [beside_rows(name, runs) for name, runs in told.items()]
+        differences = from_json(dict[str, Any], file.read_bytes(), file.name)
+        tables = [comparison_rows(name, runs) for name, runs in differences.items()]
     parts = [table(head, rows) for head, *rows in tables]
     if drawn.is_file():
         parts.append(picture(drawn, "Measured curves, and the runs at the measured places."))

@@ -21,31 +21,31 @@ class Kind(Enum):
     OLD_SWEEP = "table.csv"  # of versions before 0.9, which wrote no report
 
 
-def find_output(path: Path, wanted: Kind | None = None) -> tuple[Kind, Path]:
+def find_output(path: Path, preferred: Kind | None = None) -> tuple[Kind, Path]:
     """Return a path's kind and the file to read: a result file, or a directory with one of them.
 
     Args:
         path: of a file or a directory.
-        wanted: kind that is taken of a directory with results of several commands.
+        preferred: kind that is taken of a directory with results of several commands.
 
     Raises:
         InputError: nothing is there, or results of several commands are.
     """
     named = ", ".join(kind.value for kind in Kind if kind is not Kind.OLD_SWEEP)
     if path.is_dir():
-        found = [kind for kind in Kind if (path / kind.value).is_file()]
-        if Kind.STUDY in found:
-            found = [kind for kind in found if kind is not Kind.OLD_SWEEP]
-        if not found and checkpoint_directory(path / Kind.RUN.value).is_dir():
-            found = [Kind.RUN]
-        if not found:
+        kinds = [kind for kind in Kind if (path / kind.value).is_file()]
+        if Kind.STUDY in kinds:
+            kinds = [kind for kind in kinds if kind is not Kind.OLD_SWEEP]
+        if not kinds and checkpoint_directory(path / Kind.RUN.value).is_dir():
+            kinds = [Kind.RUN]
+        if not kinds:
             raise InputError(f"{path}: has none of {named}, so there is nothing to report")
-        if wanted in found:
-            return wanted, path / wanted.value
-        if len(found) > 1:
-            several = " and ".join(kind.value for kind in found)
+        if preferred in kinds:
+            return preferred, path / preferred.value
+        if len(kinds) > 1:
+            several = " and ".join(kind.value for kind in kinds)
             raise InputError(f"{path}: has {several}; name the file that is meant")
-        return found[0], path / found[0].value
+        return kinds[0], path / kinds[0].value
     for kind in Kind:
         if path.name == kind.value:
             return kind, path

@@ -167,16 +167,16 @@ def table(
     )
 
 
-def details(words: str, inner: str) -> str:
+def details(summary: str, inner: str) -> str:
     """Return a part that is shown on demand."""
-    return f"<details><summary>{escape(words)}</summary>\n{inner}\n</details>"
+    return f"<details><summary>{escape(summary)}</summary>\n{inner}\n</details>"
 
 
-def picture(path: Path, words: str) -> str:
+def picture(path: Path, caption: str) -> str:
     """Return a PNG file's content as a figure with a caption; a tap shows it in full size."""
     data = base64.b64encode(path.read_bytes()).decode("ascii")
     return (
-        f'<figure><label><input type="checkbox" aria-label="full size: {escape(words)}">'
-        f'<img src="data:image/png;base64,{data}" alt="{escape(words)}"></label>'
-        f"<figcaption>{escape(words)}</figcaption></figure>"
+        f'<figure><label><input type="checkbox" aria-label="full size: {escape(caption)}">'
+        f'<img src="data:image/png;base64,{data}" alt="{escape(caption)}"></label>'
+        f"<figcaption>{escape(caption)}</figcaption></figure>"
     )

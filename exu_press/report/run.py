@@ -36,21 +36,23 @@ def joint_table(result: Result) -> str:
     if len(result.clearance_joints) <= MOST_OWNERS:
         return ""
     values, joints = values_of(result), result.scene.joints
-    shown = [q for q in CATALOGUE if q.owner is Owner.JOINT and q.title]
-    forces = next(q for q in shown if q.kind is LOAD)
-    found = [name for name in joints if values[forces.full_name(name)].value is not None]
+    quantities = [q for q in CATALOGUE if q.owner is Owner.JOINT and q.title]
+    forces = next(q for q in quantities if q.kind is LOAD)
+    names = [name for name in joints if values[forces.full_name(name)].value is not None]
     rows = []
-    for name in sorted(found, key=lambda name: -(values[forces.full_name(name)].value or 0.0)):
+    for name in sorted(names, key=lambda name: -(values[forces.full_name(name)].value or 0.0)):
         joint = joints[name]
         clearance = f"{joint.clearance * 1e6:g}" if joint.clearance else "-"
         texts = [
             shown_value(quantity, values[quantity.full_name(name)])
             if quantity.full_name(name) in values
             else "-"
-            for quantity in shown
+            for quantity in quantities
         ]
         rows.append([joint_in_words(name), joint.kind, clearance, *texts])
-    return table(("joint", "kind", "clearance, um", *(q.head for q in shown)), rows, "All joints")
+    return table(
+        ("joint", "kind", "clearance, um", *(q.head for q in quantities)), rows, "All joints"
+    )
 
 
 CAPTIONS = {
@@ -117,8 +119,8 @@ def scene_parts(scene: Scene) -> list[tuple[str, str]]:
         for key in keys
     ]
     assumed = [
-        [f"A-{assumption.number}", assumption.text, ", ".join(map(str, left))]
-        for assumption, left in used_assumptions(scene).items()
+        [f"A-{assumption.number}", assumption.text, ", ".join(map(str, assumed_keys))]
+        for assumption, assumed_keys in used_assumptions(scene).items()
     ]
     assumed += [[key.source, key.meaning, str(key)] for key in engineering_values(scene)]
     every = details("every key", table((*HEAD, "default?"), everything))
@@ -148,22 +150,22 @@ def _pictures(result: Result) -> str:
     with TemporaryFolder() as folder:
         animation = Animation(result, moment(result, peak), Figure(figsize=SIZE))
         still = save_picture(animation, 1, folder / "mechanism.png")
-        words = f"The press at the slider's largest acceleration, t = {peak * 1e3:.2f} ms."
+        caption = f"The press at the slider's largest acceleration, t = {peak * 1e3:.2f} ms."
         if result.scene.press is None:
-            words = words.replace("press", "mechanism", 1)
-        shown = [picture(still, words)]
+            caption = caption.replace("press", "mechanism", 1)
+        pictures = [picture(still, caption)]
         for path in save_pictures(result, folder):
-            shown.append(picture(path, CAPTIONS.get(path.stem, path.stem)))
-    return "\n".join(shown)
+            pictures.append(picture(path, CAPTIONS.get(path.stem, path.stem)))
+    return "\n".join(pictures)
 
 
 def _energy_and_solver(result: Result) -> str:
-    energy = _listed(result, BALANCE, "Energy") if has_balance(result) else ""
+    energy = _quantity_table(result, BALANCE, "Energy") if has_balance(result) else ""
     versions = [[f"version of {name}", text] for name, text in result.info["versions"].items()]
-    return energy + _listed(result, COSTS, "Solver", versions)
+    return energy + _quantity_table(result, COSTS, "Solver", versions)
 
 
-def _listed(
+def _quantity_table(
     result: Result, quantities: Iterable[Quantity], title: str, more: list[list[str]] | None = None
 ) -> str:
     """Return a table of quantities in words, those that the run does not have left out."""
@@ -178,7 +180,7 @@ def _listed(
 
 
 def _row(name: str, value: Any, *rest: str) -> list[str]:
-    shown = str(value).lower() if isinstance(value, bool) else str(value)
+    text = str(value).lower() if isinstance(value, bool) else str(value)
     if isinstance(value, tuple) and len(value) > MOST_NUMBERS:
-        shown = f"{len(value)} numbers from {min(value):g} to {max(value):g}"
-    return [name, f"{value:.10g}" if isinstance(value, float) else shown, *rest]
+        text = f"{len(value)} numbers from {min(value):g} to {max(value):g}"
+    return [name, f"{value:.10g}" if isinstance(value, float) else text, *rest]

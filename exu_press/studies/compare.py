@@ -43,12 +43,15 @@ def variants(scene: Scene) -> dict[str, Scene]:
     joints["lubricated"] |= {
         name: "dry"
         for name in balls
-        if any(scene.joints[each].kind != "lubricated" for each in scene.joints.members(name))
+        if any(
+            scene.joints[joint_name].kind != "lubricated"
+            for joint_name in scene.joints.members(name)
+        )
     }
     kinds: dict[str, Scene] = {"": scene}
     if scene.bodies:
         kinds = {"rigid ": scene.replace({"bodies": {}}), "flexible ": scene}
-    found = {}
+    scenes_by_label = {}
     for bodies, base in kinds.items():
         for label, change in joints.items():
             by_joint: dict[str, Any] = {f"joints.{name}": kind for name, kind in change.items()}
@@ -57,8 +60,8 @@ def variants(scene: Scene) -> dict[str, Scene]:
                     if isinstance(joint, LubricatedJoint) and joint.film.length is not None:
                         by_joint[f"joints.{name}.contact.length"] = joint.film.length
             if label != "lubricated" or _has_length(base, "film") or set(names) <= set(balls):
-                found[bodies + label] = base.replace(by_joint)
-    return found
+                scenes_by_label[bodies + label] = base.replace(by_joint)
+    return scenes_by_label
 
 
 def different_keys(scenes: Mapping[str, Scene]) -> list[list[str]]:
@@ -70,22 +73,22 @@ def different_keys(scenes: Mapping[str, Scene]) -> list[list[str]]:
     Returns:
         the head alone where the scenes are the same.
     """
-    every = [_keys(scene) for scene in scenes.values()]
+    keys_of_scenes = [_keys(scene) for scene in scenes.values()]
     rows: dict[str, list[str]] = {}
-    for key in sorted(dict.fromkeys(key for keys in every for key in keys)):
+    for key in sorted(dict.fromkeys(key for keys in keys_of_scenes for key in keys)):
         values = [
-            _shown(keys[key]) if key in keys else _usual(key, scene)
-            for keys, scene in zip(every, scenes.values(), strict=True)
+            _value_text(keys[key]) if key in keys else _usual(key, scene)
+            for keys, scene in zip(keys_of_scenes, scenes.values(), strict=True)
         ]
         if len({value for value in values if value != ABSENT}) > 1:
             rows[key] = values
         elif ABSENT in values and key.startswith(OPTIONAL):
             parts = key.split(".")[: 1 if key.startswith(("drive", "guide")) else 2]
             rows[f"[{'.'.join(parts)}]"] = [ABSENT if v == ABSENT else "given" for v in values]
-    told = [[key, *values] for key, values in rows.items()]
-    if (more := len(told) - MOST_KEYS) > 0:
-        told = [*told[:MOST_KEYS], [f"{more} more keys", *["..."] * len(every)]]
-    return [["differences", *scenes], *told]
+    table = [[key, *values] for key, values in rows.items()]
+    if (further := len(table) - MOST_KEYS) > 0:
+        table = [*table[:MOST_KEYS], [f"{further} more keys", *["..."] * len(keys_of_scenes)]]
+    return [["differences", *scenes], *table]
 
 
 def _usual(key: str, scene: Scene) -> str:
@@ -104,10 +107,10 @@ def _keys(scene: Scene) -> dict[str, Any]:
     return flat(data)
 
 
-def _shown(value: Any) -> str:
+def _value_text(value: Any) -> str:
     """Return a value as a table has it, and the length of a long list."""
     if isinstance(value, Sequence) and not isinstance(value, str):
-        return ", ".join(map(_shown, value)) if len(value) < 4 else f"{len(value)} values"
+        return ", ".join(map(_value_text, value)) if len(value) < 4 else f"{len(value)} values"
     if isinstance(value, bool):
         return str(value).lower()
     return f"{value:.10g}" if isinstance(value, float) else str(value)

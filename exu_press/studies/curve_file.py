@@ -14,7 +14,7 @@ from exu_press.result import Result
 from exu_press.schema.checks import nearest
 from exu_press.schema.two_columns import read_two_columns
 
-__all__ = ["OVER", "CurveFile", "computed", "factor_to", "read_curve"]
+__all__ = ["OVER", "CurveFile", "channel_polynomials", "factor_to", "read_curve"]
 
 OVER = {"time": "s", "crank_angle": "deg"}
 """First column -> the unit that it is converted to."""
@@ -70,7 +70,7 @@ def read_curve(path: Path) -> CurveFile:
     count = len(read.places)
     if count < FEWEST:
         raise InputError(f"{path}: {count} samples; allowed are at least {FEWEST}")
-    stated = [found[1] for line in read.comments if (found := STATED.fullmatch(line))]
+    stated = [match[1] for line in read.comments if (match := STATED.fullmatch(line))]
     if stated and stated[0].lstrip("0") != str(count):
         raise InputError(
             f"{path}: states {stated[0]} samples and has {count}; allowed is the same number"
@@ -78,7 +78,7 @@ def read_curve(path: Path) -> CurveFile:
     return CurveFile(over, factor * np.array(read.places), name, unit, np.array(read.values))
 
 
-def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array, str]:
+def channel_polynomials(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array, str]:
     """Return what a run has of the quantity that a curve shows, over places that increase.
 
     Between steps it is Hermite's polynomial where the run has the channel's rate; else, as forces
@@ -124,13 +124,13 @@ def computed(where: str, curve: CurveFile, result: Result) -> tuple[Array, Array
     return at, hermite(at, values, rate), result.units[name]
 
 
-def factor_to(where: str, unit: str, wanted: str) -> float:
+def factor_to(where: str, unit: str, si_unit: str) -> float:
     """Return the factor from a unit to another one; a product is written with a space or without.
 
     Args:
         where: said of a fault.
         unit: that the file states.
-        wanted: SI unit of the column; "deg" of a crank angle.
+        si_unit: SI unit of the column; "deg" of a crank angle.
 
     Raises:
         InputError: the two units are not of one kind.
@@ -139,19 +139,19 @@ def factor_to(where: str, unit: str, wanted: str) -> float:
     (0.001, 1000.0)
     """
     unit = unit.strip().replace("\N{SUPERSCRIPT TWO}", "^2").replace("\N{DEGREE SIGN}", "deg")
-    forms = [wanted.replace(" ", sign) for sign in (" ", "", "*", "\N{MIDDLE DOT}")]
+    forms = [si_unit.replace(" ", sign) for sign in (" ", "", "*", "\N{MIDDLE DOT}")]
     if unit in forms:
         return 1.0
     degrees = math.degrees(1.0)
-    for angle, other, factor in (("rad", "deg", degrees), ("deg", "rad", 1.0 / degrees)):
-        if unit in [form.replace(other, angle) for form in forms if other in form]:
+    for angle, angle_unit, factor in (("rad", "deg", degrees), ("deg", "rad", 1.0 / degrees)):
+        if unit in [form.replace(angle_unit, angle) for form in forms if angle_unit in form]:
             return factor
     for prefix, factor in PREFIXES.items():
         if unit in [prefix + form for form in forms]:
             return factor
     raise InputError(
-        f"{where} in {unit or 'no unit'}: allowed is {wanted or '1'}, also with a prefix as in "
-        f"m{wanted} or k{wanted}"
+        f"{where} in {unit or 'no unit'}: allowed is {si_unit or '1'}, also with a prefix as in "
+        f"m{si_unit} or k{si_unit}"
     )
 
 
@@ -161,7 +161,7 @@ def head_of(where: str, text: str) -> tuple[str, str]:
     Raises:
         InputError: it has another form.
     """
-    found = HEAD.fullmatch(text.strip())
-    if found is None:
+    match = HEAD.fullmatch(text.strip())
+    if match is None:
         raise InputError(f"{where}: column {text.strip()!r}; allowed is NAME (UNIT), as time (s)")
-    return found["name"], found["unit"].strip()
+    return match["name"], match["unit"].strip()

@@ -9,14 +9,14 @@ from exu_press.numerics.arrays import Array
 from exu_press.plots.style import GREY, colour_of, with_style
 from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain, typeset
-from exu_press.studies.beside_measured import Beside
+from exu_press.studies.curve_comparison import CurveComparison
 from exu_press.studies.curve_file import OVER, CurveFile
 
 __all__ = ["curve_panel", "measured_figure"]
 
 
 @with_style
-def measured_figure(comparisons: Mapping[str, Mapping[str, Beside]]) -> Figure:
+def measured_figure(comparisons: Mapping[str, Mapping[str, CurveComparison]]) -> Figure:
     """Return a panel for each curve, by its name, with the runs by label."""
     size = 9.5, 1.2 + 2.9 * len(comparisons)
     figure = figure_with_title("Measured and computed", "Runs at the measured places.", size)

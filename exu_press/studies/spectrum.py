@@ -76,41 +76,42 @@ class Spectra:
 
     def lines(self) -> list[str]:
         """Return the lines of the terminal."""
-        found = [f"{self.name}, amplitudes in {self.unit}"]
+        lines = [f"{self.name}, amplitudes in {self.unit}"]
         for spectrum, unit in ((self.over_time, "Hz"), (self.over_angle, "orders")):
             if spectrum is None:
-                found.append("  no order spectrum: the run has no whole revolution")
+                lines.append("  no order spectrum: the run has no whole revolution")
                 continue
-            found.append(
+            lines.append(
                 f"  over {unit}: {spectrum.cells} cells, window {spectrum.window}, resolution "
                 f"{spectrum.resolution:.4g} {unit}, error of the resampling "
                 f"{significant(spectrum.error, 2)} {self.unit}"
             )
-            each = spectrum.window == "boxcar" and self.revolutions == 1
+            every_line = spectrum.window == "boxcar" and self.revolutions == 1
             rows = [
                 (f"{spectrum.frequency[k]:.5g} {unit}", f"{spectrum.amplitude[k]:.4g} {self.unit}")
-                for k in _strongest(spectrum, each)
+                for k in _strongest(spectrum, every_line)
             ]
-            found += columns(rows, indent=4)
+            lines += columns(rows, indent=4)
         if self.over_time.resolution > self.crank:
             number = f"{self.needed} revolution{'s' * (self.needed > 1)}"
-            found.append(
+            lines.append(
                 f"  the crank's {self.crank:.4g} Hz lies below the resolution; {number} after "
                 "`settle` would resolve it"
             )
-        return found
+        return lines
 
 
-def _strongest(spectrum: Spectrum, each: bool) -> list[int]:
+def _strongest(spectrum: Spectrum, every_line: bool) -> list[int]:
     """Return the places of the highest peaks above resolution and error, by frequency.
 
     Args:
         spectrum: of a curve.
-        each: whether every place is a line of its own, as the orders of a single revolution are.
+        every_line: whether each frequency is a line of its own, as the orders of a single
+            revolution are.
     """
     padded = np.concatenate([[0.0], spectrum.amplitude, [0.0]])
     higher = (padded[1:-1] > padded[:-2]) & (padded[1:-1] >= padded[2:])
-    peaks = np.flatnonzero(higher | each)
+    peaks = np.flatnonzero(higher | every_line)
     peaks = peaks[spectrum.frequency[peaks] >= spectrum.resolution * (1.0 - 1e-9)]
     peaks = peaks[spectrum.amplitude[peaks] > spectrum.error]
     highest = peaks[np.argsort(spectrum.amplitude[peaks])[::-1][:STRONGEST]]
@@ -125,18 +126,18 @@ def column_of(result: Result, name: str) -> tuple[Array, str]:
     """
     channel, _, column = name.partition(".")
     demand_known(f"channel {channel!r}: this run has none of that name", channel, sorted(result))
-    found = result.channels[channel]
-    allowed = AXES.get(found.axis) or tuple(str(k) for k in range(found.values.shape[-1]))
-    if found.values.ndim > 2:
+    values = result.channels[channel]
+    allowed = AXES.get(values.axis) or tuple(str(k) for k in range(values.values.shape[-1]))
+    if values.values.ndim > 2:
         raise InputError(f"channel {channel!r}: allowed is one with a value, or columns, a step")
-    if found.values.ndim == 1:
+    if values.values.ndim == 1:
         if column:
             raise InputError(f"channel {name!r}: {channel} has no columns; allowed is {channel}")
-        return found.values, found.unit
+        return values.values, values.unit
     if column not in allowed:
-        each = ", ".join(f"{channel}.{one}" for one in allowed)
-        raise InputError(f"channel {name!r}: allowed is a column of it: {each}")
-    return found.values[:, allowed.index(column)], found.unit
+        columns = ", ".join(f"{channel}.{column_name}" for column_name in allowed)
+        raise InputError(f"channel {name!r}: allowed is a column of it: {columns}")
+    return values.values[:, allowed.index(column)], values.unit
 
 
 def spectra(
@@ -197,12 +198,12 @@ def marks_of(run: Result) -> list[Mark]:
     the contact's stiffness at the joint's mean force while the surfaces touch, m the reduced mass
     of the two bodies that the joint connects (of the one where the other is the frame).
     """
-    found = [
+    marks = [
         Mark(f"{name.replace('_', ' ')}, mode {number}", frequency)
         for name, solid in run.info.get("solids", {}).items()
         for number, frequency in enumerate(solid.get("frequencies", ()), start=1)
     ]
-    return [*found, *_on_contacts(settled_part(run))]
+    return [*marks, *_on_contacts(settled_part(run))]
 
 
 def _on_contacts(result: Result) -> Iterator[Mark]:
@@ -213,22 +214,22 @@ def _on_contacts(result: Result) -> Iterator[Mark]:
         law = kind.normal_contact(scene.angular_speed) if isinstance(kind, TouchingJoint) else None
         if law is None:
             continue
-        away = lengths(result[f"{joint.name}_eccentricity"])
-        touches = away > kind.clearance
-        both = compliance[joint.journal] + compliance[joint.bearing]
-        if not touches.any() or both == 0.0:
+        distance = lengths(result[f"{joint.name}_eccentricity"])
+        touches = distance > kind.clearance
+        mobility = compliance[joint.journal] + compliance[joint.bearing]
+        if not touches.any() or mobility == 0.0:
             continue
         steps = np.gradient(result.time)
         forces = lengths(result[f"{joint.name}_force"])
         mean = float((forces * steps)[touches].sum() / steps[touches].sum())
 
-        def missing(depth: float, law: object = law, mean: float = mean) -> float:
+        def excess_force(depth: float, law: object = law, mean: float = mean) -> float:
             return float(law.force(depth, 0.0, 1.0)[0]) - mean  # type: ignore[attr-defined]
 
-        deepest = kind.clearance
-        while missing(deepest) < 0.0:
-            deepest *= 2.0
-        depth = float(brentq(missing, 0.0, deepest, xtol=1e-15))
+        bound = kind.clearance
+        while excess_force(bound) < 0.0:
+            bound *= 2.0
+        depth = float(brentq(excess_force, 0.0, bound, xtol=1e-15))
         stiffness = float(law.force(depth, 0.0, 1.0)[1])
-        words = f"{joint.name.replace('_', ' ')} on its contact"
-        yield Mark(words, float(np.sqrt(stiffness * both)) / (2.0 * np.pi))
+        label = f"{joint.name.replace('_', ' ')} on its contact"
+        yield Mark(label, float(np.sqrt(stiffness * mobility)) / (2.0 * np.pi))

@@ -61,7 +61,7 @@ class Modes(Case):
         }
         return [Attempt(MODES, "modes", float(n), partial(run, s)) for n, s in scenes.items()]
 
-    def stated(self, amount: Amount, horizon: float) -> list[Stated]:
+    def compare_stated_errors(self, amount: Amount, horizon: float) -> list[Stated]:
         """Return nothing: stated errors are of the tolerance."""
         return []
 

@@ -69,13 +69,13 @@ def recover(
     base = Study(scene=wrong, keys=case.keys)
     rng = np.random.default_rng(1)
     with Runs(base, directory, label=name, **how) as runs:
-        (row,) = runs.of([case.scene])
+        (row,) = runs.run_scenes([case.scene])
         reports = []
         for _ in range(measurements or case.measurements):
             numbers = synthetic(case, row, rng)
             given: dict[str, Any] = {"keys": case.keys, "measured": numbers, "fit": {"starts": 1}}
             study = Fit(scene=wrong, **given)
-            problem = Problem(study, directory, runs.of)
+            problem = Problem(study, directory, runs.run_scenes)
             reports.append(
                 fit_problem(
                     problem,

@@ -160,11 +160,11 @@ def test_stored_runs_are_compared_and_drawn_once(mine, tmp_path, monkeypatch):
         done = getattr(whose, name)
         monkeypatch.setattr(whose, name, lambda *given: (calls.append(name), done(*given))[1])
 
-    counted(compare, "beside")
+    counted(compare, "compare_curve")
     counted(save, "slider_figure")
     given = [str(first), str(measured), "--quiet", "--out", str(tmp_path / "out")]
     assert main(["compare", *given]) == 0
-    assert calls == ["slider_figure", "beside"]
+    assert calls == ["slider_figure", "compare_curve"]
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from exu_press.errors import InputError
 from exu_press.files.output_directory import PICTURES
 from exu_press.plots import save_comparison, save_pictures
 from exu_press.plots.file import save_figure, save_figures
-from exu_press.studies.beside_measured import MEASURED_PICTURE
+from exu_press.studies.curve_comparison import MEASURED_PICTURE
 
 EVERY = [f"{name}.png" for name in PICTURES["run"]]
 

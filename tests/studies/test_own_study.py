@@ -90,7 +90,7 @@ class LimitSpeedCommand(StudyCommand):
         with Runs(study, directory, report=LimitReport, **how) as runs:
             for _ in range(8):
                 speeds.append(0.5 * (low + high))
-                (row,) = runs.of([study.scene_at({"speed_rpm": speeds[-1]})])
+                (row,) = runs.run_scenes([study.scene_at({"speed_rpm": speeds[-1]})])
                 peaks.append(row[PEAK])
                 below = peaks[-1] < study.limit_speed.peak_velocity
                 low, high = (speeds[-1], high) if below else (low, speeds[-1])

@@ -27,9 +27,9 @@ def attractor_figure(motion: Attractor) -> Figure:
     low, high = motion.per_second[1:]
     exponent = f"in [{low:.3g}, {high:.3g}] 1/s" if np.isfinite(low) else f"below {high:.3g} 1/s"
     exponent = exponent if np.isfinite(high) else "not known"
-    words = f"{describe([motion.scene], 160)}\nperiod: {motion.period}; largest Lyapunov exponent "
-    words += exponent
-    figure = figure_with_title("In the long run", words, (18.0, 8.6))
+    text = f"{describe([motion.scene], 160)}\nperiod: {motion.period}; largest Lyapunov exponent "
+    text += exponent
+    figure = figure_with_title("In the long run", text, (18.0, 8.6))
     panels = figure.subplots(2, 4)
     loose = next(iter(motion.scene.joints.with_clearance), None)
     if motion.points.shape[1] > 1:

@@ -20,7 +20,7 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["BATCHES", "Exponent", "combined", "exponent_of"]
+__all__ = ["BATCHES", "Exponent", "combine_exponents", "exponent_of"]
 
 BATCHES = 10
 """Parts of the revolutions whose means are taken for independent."""
@@ -70,14 +70,16 @@ def exponent_of(growths: Array) -> tuple[float, float, float]:
     """
     from scipy.stats import t
 
-    batches = np.array([part.mean() for part in np.array_split(growths, BATCHES)])
+    batches = np.array([batch.mean() for batch in np.array_split(growths, BATCHES)])
     half = float(t.ppf(0.5 + 0.5 * CONFIDENCE, BATCHES - 1)) * batches.std(ddof=1)
     mean, half = float(growths.mean()), half / math.sqrt(BATCHES)
     half += abs(float(growths[len(growths) // 2 :].mean()) - mean)
     return mean, mean - half, mean + half
 
 
-def combined(growths: Sequence[Array], distances: Sequence[float], error: float) -> Exponent:
+def combine_exponents(
+    growths: Sequence[Array], distances: Sequence[float], error: float
+) -> Exponent:
     """Return the exponent of several renormalisation distances.
 
     Args:
@@ -85,17 +87,23 @@ def combined(growths: Sequence[Array], distances: Sequence[float], error: float)
         distances: d_0.
         error: distance that the integration's error makes of one point in a revolution.
     """
-    found = []
-    for each, distance in zip(growths, distances, strict=True):
-        mean, low, high = exponent_of(each)
-        apart = distance * math.exp(mean)
-        unsure = math.log1p(2.0 * error / apart)
-        found.append((mean, low - unsure if apart > FELT * error else -math.inf, high + unsure))
+    intervals = []
+    for series, distance in zip(growths, distances, strict=True):
+        mean, low, high = exponent_of(series)
+        final_distance = distance * math.exp(mean)
+        error_of_growth = math.log1p(2.0 * error / final_distance)
+        intervals.append(
+            (
+                mean,
+                low - error_of_growth if final_distance > FELT * error else -math.inf,
+                high + error_of_growth,
+            )
+        )
     revolutions = len(growths[0])
-    felt = [n for n, (_, low, _) in enumerate(found) if math.isfinite(low)]
-    if not felt:  # every distance has shrunk to the error
-        mean, low, high = min(found, key=lambda one: one[2])
+    above_error = [n for n, (_, low, _) in enumerate(intervals) if math.isfinite(low)]
+    if not above_error:  # every distance has shrunk to the error
+        mean, low, high = min(intervals, key=lambda interval: interval[2])
         return Exponent(mean, low, high, tuple(distances), revolutions)
-    means, lows, highs = zip(*(found[n] for n in felt), strict=True)
-    kept = tuple(distances[n] for n in felt)
-    return Exponent(float(np.mean(means)), min(lows), max(highs), kept, revolutions)
+    means, lows, highs = zip(*(intervals[n] for n in above_error), strict=True)
+    distances_used = tuple(distances[n] for n in above_error)
+    return Exponent(float(np.mean(means)), min(lows), max(highs), distances_used, revolutions)

@@ -72,9 +72,9 @@ class Orbit:
         model = build(self.scene)
         ways = [end for ends in model.guideways.values() for end in ends]
         self._joints: list[ClearanceJoint] = [*model.clearance_joints.values(), *ways]
-        found = scales(scene).speed
-        assert found is not None
-        self._speed: float = found
+        speed = scales(scene).speed
+        assert speed is not None
+        self._speed: float = speed
         self._state = state
         self.revolutions = 0
         self._model = self._towards_section(model if state is None else go_on_from(model, state))
@@ -114,10 +114,10 @@ class Orbit:
             )
         result = record(model, outcome) if recorded else None
         self.revolutions += 1
-        self.put(state_of(model))
+        self.set_state(state_of(model))
         return result
 
-    def put(self, state: State) -> None:
+    def set_state(self, state: State) -> None:
         """Go on from another state on the section, at its time."""
         self._state = state
         self._model = self._towards_section(go_on_from(self._model, state))
@@ -132,17 +132,17 @@ class Orbit:
         parts: list[Sequence[float]] = []
         speed = self._speed
         for joint in self._joints:
-            parts.append([part / joint.clearance for part in joint.eccentricity])
-            parts.append([part / speed for part in joint.relative_velocity])
+            parts.append([block / joint.clearance for block in joint.eccentricity])
+            parts.append([block / speed for block in joint.relative_velocity])
         if self.scene.drive is not None:
             parts.append([self._model.crank_angle()[1] / self.scene.angular_speed])
-        return np.concatenate([np.asarray(part, dtype=float) for part in parts])
+        return np.concatenate([np.asarray(block, dtype=float) for block in parts])
 
     def close(self) -> None:
         """Give the model back; Exudyn's systems and solvers hold each other."""
         self._model.SC.Reset()
 
-    def towards(self, other: State, part: float) -> State:
+    def towards(self, target: State, share: float) -> State:
         """Return the state on the line to another: at 0 the orbit's own, at 1 the other.
 
         The crank stays where it is: what rounding leaves between two cranks would grow to a shift
@@ -152,10 +152,12 @@ class Orbit:
         own = self.state["coordinates"][:2]
         free = self._free, self._free if self.scene.drive is None else 1.0
         q, q_t = (
-            np.array(one) + part * which * (np.array(two) - np.array(one))
-            for which, one, two in zip(free, own, other["coordinates"][:2], strict=True)
+            np.array(own_values) + share * mask * (np.array(target_values) - np.array(own_values))
+            for mask, own_values, target_values in zip(
+                free, own, target["coordinates"][:2], strict=True
+            )
         )
-        return _with(self.state, q, q_t)
+        return _replace_coordinates(self.state, q, q_t)
 
     def _towards_section(self, model: Model) -> Model:
         """Return a model on the section that goes on to the next one."""
@@ -178,7 +180,7 @@ class Orbit:
         return free
 
 
-def _with(state: State, q: Array, q_t: Array) -> State:
+def _replace_coordinates(state: State, q: Array, q_t: Array) -> State:
     """Return a state with other coordinates and rates."""
     changed = copy.deepcopy(state)
     changed["coordinates"][:2] = [q.tolist(), q_t.tolist()]

@@ -95,7 +95,9 @@ def period_of(points: Array, error: float, most: int = MOST, *, diverging: bool 
         return Period(int(same[0]) + 1, True, "", most, distances, error)
     nearest = int(np.argmin(distances))
     half = len(points) // 2
-    first, second = (_distance(part, nearest + 1) for part in (points[:half], points[half:]))
+    first, second = (
+        _distance(half_points, nearest + 1) for half_points in (points[:half], points[half:])
+    )
     if second < SETTLED * first:
         why = "it still settles: skip more revolutions"
         return Period(None, False, why, most, distances, error)

@@ -74,7 +74,7 @@ class AttractorReport(Report):
             for k, column in enumerate(motion.points.T.tolist())
         ]
         figures = [
-            quantity_column(name, _finite_values(values), other=motion.units[name])
+            quantity_column(name, _finite_values(values), default_unit=motion.units[name])
             for name, values in motion.figures.items()
         ]
         labels = [f"revolution {number}" for number in numbers]

@@ -17,7 +17,7 @@ from exu_press.result.run import SHORT, run_once
 from exu_press.scene import Scene
 from exu_press.schema.checks import nearest
 from exu_press.solving.solve import scales
-from exu_press.studies.attractor.lyapunov import BATCHES, Exponent, combined
+from exu_press.studies.attractor.lyapunov import BATCHES, Exponent, combine_exponents
 from exu_press.studies.attractor.orbit import NoMotion, Orbit
 from exu_press.studies.attractor.period import MOST, Period, period_of
 from exu_press.studies.spectrum import column_of
@@ -58,7 +58,7 @@ class Attractor:
         exponent: largest Lyapunov exponent.
         figures: quantity -> its value in each revolution, (n,); channel -> its value on the
             section.
-        missed: of these, error of each by the steps.
+        step_errors: of these, error of each by the steps.
         units: of these.
         turns: revolutions in a second; a motor's in the mean.
         last: records of the last revolutions.
@@ -74,7 +74,7 @@ class Attractor:
     period: Period
     exponent: Exponent
     figures: Mapping[str, Array]
-    missed: Mapping[str, float]
+    step_errors: Mapping[str, float]
     units: Mapping[str, str]
     turns: float
     last: Sequence[Result]
@@ -92,11 +92,11 @@ class Attractor:
     @property
     def distributions(self) -> dict[str, Distribution]:
         """Mean, scatter and percentiles of the figures that three revolutions at least have."""
-        known = {name: each[np.isfinite(each)] for name, each in self.figures.items()}
+        known = {name: values[np.isfinite(values)] for name, values in self.figures.items()}
         return {
-            name: Distribution.from_values(each, self.missed[name])
-            for name, each in known.items()
-            if len(each) > 2
+            name: Distribution.from_values(values, self.step_errors[name])
+            for name, values in known.items()
+            if len(values) > 2
         }
 
     def to_dict(self) -> dict[str, Any]:
@@ -128,11 +128,13 @@ class Attractor:
                 "motion": self.exponent.sign,
             },
             "figures": {
-                name: [_finite(value) for value in each.tolist()]
-                for name, each in self.figures.items()
+                name: [_finite(value) for value in values.tolist()]
+                for name, values in self.figures.items()
             },
             "units": dict(self.units),
-            "distributions": {name: one.to_dict() for name, one in self.distributions.items()},
+            "distributions": {
+                name: distribution.to_dict() for name, distribution in self.distributions.items()
+            },
             "points": self.points.tolist(),
         }
 
@@ -175,113 +177,114 @@ def attractor(
     declared = quantities_of(scene)
     if not names:
         names = [name for name, placed in declared.items() if placed.quantity.headline]
-    wanted = {name: declared[name] for name in names if name in declared}
+    quantities = {name: declared[name] for name in names if name in declared}
     channels = {name: _unit(scene, name) for name in names if name not in declared}
     total = skip + revolutions
     orbit = Orbit(scene, start)
     neighbours = [Orbit(scene) for _ in DISTANCES]
-    other, pushed = Orbit(finer(scene)), Orbit(_pushed(scene))
+    finer_orbit, pushed = Orbit(finer(scene)), Orbit(_perturbed_scene(scene))
     begin = min(1, skip - 1)
     measured = {skip, skip + 1, *(skip + int(part * revolutions) for part in LATER)}
-    before: list[Array] = []
+    transient_points: list[Array] = []
     points: list[Array] = []
     values: list[dict[str, float]] = []
     last: list[Result] = []
     growths: list[list[float]] = [[] for _ in DISTANCES]
-    off: list[float] = []
-    apart: list[dict[str, float]] = []
+    point_errors: list[float] = []
+    differences: list[dict[str, float]] = []
     stopped = ""
 
     def read(result: Result) -> dict[str, float]:
         there = {name: float(column_of(result, name)[0][-1]) for name in channels}
-        return numbers_of(result, wanted) | there
+        return numbers_of(result, quantities) | there
 
     with Progress("attractor", total, "revolutions", quiet=quiet) as progress:
         try:
             for done in range(total):
-                beside = done == begin or done in measured
+                is_measured = done == begin or done in measured
                 if done == begin:
-                    pushed.put(orbit.state)
-                if beside:
-                    other.put(orbit.state)
+                    pushed.set_state(orbit.state)
+                if is_measured:
+                    finer_orbit.set_state(orbit.state)
                 result = orbit.advance(recorded=done >= skip)
                 if done == skip - 1:
-                    begun = orbit.state["time"]
-                more = other.advance(recorded=done >= skip) if beside else None
+                    start_time = orbit.state["time"]
+                finer_result = finer_orbit.advance(recorded=done >= skip) if is_measured else None
                 if done > begin:
                     grown = [
                         _grown(orbit, *pair) for pair in zip(neighbours, DISTANCES, strict=True)
                     ]
                 if done == begin:  # towards states that fit all constraints
                     pushed.advance()
-                    for pair in zip(neighbours, (pushed, other), DISTANCES, strict=True):
+                    for pair in zip(neighbours, (pushed, finer_orbit), DISTANCES, strict=True):
                         _bring_back(orbit, *pair)
-                (points if done >= skip else before).append(orbit.point())
+                (points if done >= skip else transient_points).append(orbit.point())
                 if result is not None:
                     values.append(read(result))
                     last = [*last[-SHOWN + 1 :], result]
                     for series, growth in zip(growths, grown, strict=True):
                         series.append(growth)
-                if more is not None and values:
-                    finest = read(more)
-                    off.append(float(np.linalg.norm(orbit.point() - other.point())))
-                    apart.append(
+                if finer_result is not None and values:
+                    finest = read(finer_result)
+                    point_errors.append(float(np.linalg.norm(orbit.point() - finer_orbit.point())))
+                    differences.append(
                         {n: values[-1].get(n, math.nan) - finest.get(n, math.nan) for n in names}
                     )
                 progress.update(done + 1)
         except NoMotion as end:
-            if len(values) < FEWEST or len(off) < 2:
+            if len(values) < FEWEST or len(point_errors) < 2:
                 raise
-            stopped = f"{end} (after {len(before) + len(points)} of {total} revolutions)"
+            stopped = f"{end} (after {len(transient_points) + len(points)} of {total} revolutions)"
     state = orbit.state
-    turns = len(values) / (state["time"] - begun)
-    for each in (orbit, other, pushed, *neighbours):
-        each.close()
+    turns = len(values) / (state["time"] - start_time)
+    for system in (orbit, finer_orbit, pushed, *neighbours):
+        system.close()
     # the first growth is from a state that did not fit its constraints
-    settled = [np.array(each[begin == skip - 1 :]) for each in growths]
-    error = max(*off, NOISE)
+    settled = [np.array(system[begin == skip - 1 :]) for system in growths]
+    error = max(*point_errors, NOISE)
     if len(values) >= 2 * BATCHES:
-        exponent = combined(settled, DISTANCES, error)
+        exponent = combine_exponents(settled, DISTANCES, error)
     else:
         exponent = Exponent(math.nan, -math.inf, math.inf, DISTANCES, len(settled[0]))
     section = np.array(points)
-    kept = error * _amplified(exponent)
+    point_error = error * _error_amplification(exponent)
     most = min(most, len(section) // 3)
-    figures = {name: np.array([each.get(name, math.nan) for each in values]) for name in names}
+    figures = {name: np.array([system.get(name, math.nan) for system in values]) for name in names}
     return Attractor(
         scene=scene,
         skip=skip,
         points=section,
-        error=kept,
-        period=period_of(section, kept, most, diverging=exponent.low > 0.0),
+        error=point_error,
+        period=period_of(section, point_error, most, diverging=exponent.low > 0.0),
         exponent=exponent,
         figures=figures,
-        missed={
-            name: _missed([each[name] for each in apart], figures[name], exponent) for name in names
+        step_errors={
+            name: _figure_error([system[name] for system in differences], figures[name], exponent)
+            for name in names
         },
-        units=channels | {name: placed.quantity.unit for name, placed in wanted.items()},
+        units=channels | {name: placed.quantity.unit for name, placed in quantities.items()},
         turns=turns,
         last=last,
-        transient=np.linalg.norm(np.array(before) - section[-1], axis=1),
+        transient=np.linalg.norm(np.array(transient_points) - section[-1], axis=1),
         state=state,
         stopped=stopped,
     )
 
 
-def _missed(apart: Sequence[float], values: Array, exponent: Exponent) -> float:
+def _figure_error(differences: Sequence[float], values: Array, exponent: Exponent) -> float:
     """Return what steps miss of a figure: in a revolution, and by the state that it begins in.
 
     Errors of the state are those of all revolutions before. Where neighbours part, the scatter of
     the figure has them; where they may, they do not move it by more than it scatters.
     """
-    missed = discretization_error(apart)
-    before = _amplified(exponent) * missed
+    own = discretization_error(differences)
+    inherited = _error_amplification(exponent) * own
     if exponent.high >= 0.0:
-        before = min(before, max(float(np.ptp(values)), missed))
-    return missed if exponent.low > 0.0 else missed + before
+        inherited = min(inherited, max(float(np.ptp(values)), own))
+    return own if exponent.low > 0.0 else own + inherited
 
 
-def _pushed(scene: Scene) -> Scene:
+def _perturbed_scene(scene: Scene) -> Scene:
     """Return a scene that differs a little, to begin a neighbour in another direction.
 
     Two that begin in one may both follow for long a direction that grows less than another one.
@@ -297,11 +300,11 @@ def _grown(orbit: Orbit, neighbour: Orbit, distance: float) -> float:
     return math.log(_bring_back(orbit, neighbour, neighbour, distance) / distance)
 
 
-def _bring_back(orbit: Orbit, neighbour: Orbit, other: Orbit, distance: float) -> float:
+def _bring_back(orbit: Orbit, neighbour: Orbit, direction: Orbit, distance: float) -> float:
     """Put a neighbour at a distance from the orbit, towards another one; return how far that is."""
-    apart = max(float(np.linalg.norm(other.point() - orbit.point())), NOISE)
-    neighbour.put(orbit.towards(other.state, distance / apart))
-    return apart
+    distance_before = max(float(np.linalg.norm(direction.point() - orbit.point())), NOISE)
+    neighbour.set_state(orbit.towards(direction.state, distance / distance_before))
+    return distance_before
 
 
 def _unit(scene: Scene, name: str) -> str:
@@ -319,7 +322,7 @@ def _unit(scene: Scene, name: str) -> str:
         ) from None
 
 
-def _amplified(exponent: Exponent) -> float:
+def _error_amplification(exponent: Exponent) -> float:
     """Return the error of a state by all revolutions before, over one revolution's."""
     rate = min(exponent.high, -0.05)  # a motion that does not come together has no period
     return 1.0 / (1.0 - math.exp(rate))

@@ -18,7 +18,7 @@ from exu_press.studies.base.keys import Normal, Range, Values
 from exu_press.studies.base.runs import Runs
 from exu_press.studies.base.study import Study
 
-__all__ = ["Evaluation", "Point", "error_in", "numbers_in", "ranged", "with_errors_of"]
+__all__ = ["Evaluation", "Point", "error_in", "numbers_in", "require_key_kinds", "with_errors_of"]
 
 Point = Mapping[str, Any]
 
@@ -49,7 +49,7 @@ class Evaluation:
         Args:
             study: whose keys a point has.
             quantities: full names.
-            run: returns the rows of scenes; `Runs.of`.
+            run: returns the rows of scenes; `Runs.run_scenes`.
 
         Raises:
             InputError: the scene has no such quantity.
@@ -63,7 +63,7 @@ class Evaluation:
         self._study, self._run = study, run
 
     @property
-    def asked(self) -> int:
+    def number_of_points(self) -> int:
         """Number of different points that were evaluated."""
         return len(self.rows)
 
@@ -97,20 +97,25 @@ class Evaluation:
                 self.failures[NO_SCENE].append(str(error))
         for key, row in zip(new, self._run(list(new.values())), strict=True):
             self.rows[key] = row
-            if kind := self._failed(row):
+            if kind := self._failure_kind(row):
                 self.failures[kind].append(str(row["reason"]))
         return [self.rows[_key(point)] for point in points]
 
-    def told(self) -> list[str]:
+    def run_summary(self) -> list[str]:
         """Return how many runs gave numbers, and why others did not, in lines."""
         failed = sum(map(len, self.failures.values()))
-        lines = [f"{self.asked} runs: {self.asked - failed} gave numbers, {failed} did not"]
+        number = self.number_of_points
+        lines = [f"{number} runs: {number - failed} gave numbers, {failed} did not"]
         for kind, reasons in sorted(self.failures.items(), key=lambda one: -len(one[1])):
             first = ("; the first: " if len(reasons) > 1 else ": ") + reasons[0]
             lines.append(f"  {len(reasons)} x {kind}{first if reasons[0] else ''}")
         return lines
 
-    def _failed(self, row: Row) -> str:
+    def summary_line(self) -> str:
+        """Return `run_summary` in one line."""
+        return "; ".join(self.run_summary())
+
+    def _failure_kind(self, row: Row) -> str:
         if row["status"] != COMPLETED:
             return str(row["status"])
         missing = [name for name in self.quantities if row.get(name) is None]
@@ -123,41 +128,43 @@ def _key(point: Point) -> tuple[Any, ...]:
 
 def numbers_in(row: Row, quantities: Sequence[str]) -> list[float]:
     """Return quantities of a row; NaN in all of them where the run failed or lacks one."""
-    found = [row.get(name) for name in quantities]
-    if row["status"] != COMPLETED or any(value is None for value in found):
+    values = [row.get(name) for name in quantities]
+    if row["status"] != COMPLETED or any(value is None for value in values):
         return [np.nan] * len(quantities)
-    return [float(value) for value in found if value is not None]
+    return [float(value) for value in values if value is not None]
 
 
-def ranged(study: Study, command: str, kinds: tuple[type, ...] = (Range,)) -> tuple[str, ...]:
+def require_key_kinds(
+    study: Study, command: str, kinds: tuple[type, ...] = (Range,)
+) -> tuple[str, ...]:
     """Return the names of a study's keys, which all are of these kinds.
 
     Raises:
         InputError: one is not.
     """
-    words = {
+    forms = {
         Range: "{low = a, high = b}, with log = true by its logarithm",
         Normal: "{mean = m, deviation = s}",
         Values: "[value, ...]",
     }
-    for name, each in study.keys.items():
-        if not isinstance(each, kinds):
-            allowed = " or ".join(words[kind] for kind in kinds)
+    for name, key in study.keys.items():
+        if not isinstance(key, kinds):
+            allowed = " or ".join(forms[kind] for kind in kinds)
             raise InputError(
-                f"keys.{name} = {each.plain()!r}: allowed in a file for exu-press {command} is "
+                f"keys.{name} = {key.plain()!r}: allowed in a file for exu-press {command} is "
                 f"{allowed}"
             )
     return tuple(study.keys)
 
 
 def with_errors_of(
-    study: Study, directory: str | Path, scenes: Sequence[Scene], **how: Any
+    study: Study, directory: str | Path, scenes: Sequence[Scene], **workers: Any
 ) -> list[Row]:
     """Return the rows of scenes with their errors."""
     plain = dataclasses.replace(study, errors=True, save_runs=False)
     checked = subdirectory(output_directory(directory), CHECKED)
-    with Runs(plain, checked, label="errors", **how) as runs:
-        return runs.of(scenes)
+    with Runs(plain, checked, label="errors", **workers) as runs:
+        return runs.run_scenes(scenes)
 
 
 def error_in(row: Row, quantity: str) -> float | None:
@@ -165,9 +172,9 @@ def error_in(row: Row, quantity: str) -> float | None:
 
     Half the width of its bounds where the scene does not determine it; None where nothing is known.
     """
-    told = (row.get("errors") or {}).get(quantity)
-    if told is None:
+    error = (row.get("errors") or {}).get(quantity)
+    if error is None:
         return None
-    if not told["determined"]:
-        return float(told["high"] - told["low"]) / 2.0
-    return float(told["error"])
+    if not error["determined"]:
+        return float(error["high"] - error["low"]) / 2.0
+    return float(error["error"])

@@ -63,10 +63,10 @@ class Range(Table):
         """The values with which a scene is checked."""
         return self.low, self.high
 
-    def at(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
+    def quantile(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the values below which these shares of the distribution lie (its quantiles).
 
-        >>> Range(low=1.0, high=100.0, log=True).at(np.array([0.5])).round(12)
+        >>> Range(low=1.0, high=100.0, log=True).quantile(np.array([0.5])).round(12)
         array([10.])
         """
         if self.log:
@@ -74,7 +74,7 @@ class Range(Table):
         return np.asarray(self.low + share * (self.high - self.low))
 
     def share(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return which shares of the distribution lie below values: the inverse of `at`."""
+        """Return which shares of the distribution lie below values: the inverse of `quantile`."""
         if self.log:
             return np.asarray(np.log(value / self.low) / math.log(self.high / self.low))
         return np.asarray((value - self.low) / (self.high - self.low))
@@ -109,33 +109,33 @@ class Normal(Table):
     @property
     def ends(self) -> tuple[float, float]:
         """The values with which a scene is checked: the bounds, or those that hold all but 1e-4."""
-        low, high = self.at(np.array([5e-5, 1.0 - 5e-5]))
+        low, high = self.quantile(np.array([5e-5, 1.0 - 5e-5]))
         return (
             float(low) if self.low is None else self.low,
             float(high) if self.high is None else self.high,
         )
 
-    def at(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
+    def quantile(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the values below which these shares of the distribution lie (its quantiles)."""
         from scipy.stats import truncnorm
 
         low, high = ((bound - self.mean) / self.deviation for bound in self._bounds)
-        found = truncnorm.ppf(share, low, high, loc=self.mean, scale=self.deviation)
-        return np.asarray(found, dtype=float)
+        values = truncnorm.ppf(share, low, high, loc=self.mean, scale=self.deviation)
+        return np.asarray(values, dtype=float)
 
     def share(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return which shares of the distribution lie below values: the inverse of `at`."""
+        """Return which shares of the distribution lie below values: the inverse of `quantile`."""
         from scipy.stats import truncnorm
 
         low, high = ((bound - self.mean) / self.deviation for bound in self._bounds)
-        found = truncnorm.cdf(value, low, high, loc=self.mean, scale=self.deviation)
-        return np.asarray(found, dtype=float)
+        shares = truncnorm.cdf(value, low, high, loc=self.mean, scale=self.deviation)
+        return np.asarray(shares, dtype=float)
 
     def plain(self) -> dict[str, Any]:
         """Return the value as it stands in the file."""
         bounds = {name: getattr(self, name) for name in ("low", "high")}
-        given = {name: bound for name, bound in bounds.items() if bound is not None}
-        return {"mean": self.mean, "deviation": self.deviation, **given}
+        finite = {name: bound for name, bound in bounds.items() if bound is not None}
+        return {"mean": self.mean, "deviation": self.deviation, **finite}
 
     @property
     def _bounds(self) -> tuple[float, float]:
@@ -160,17 +160,17 @@ def keys_from(table: Mapping[str, Any], prefix: str = "") -> dict[str, Key]:
     Raises:
         InputError: a key is given twice, or varies in no allowed way.
     """
-    found: dict[str, Key] = {}
+    keys: dict[str, Key] = {}
     for name, value in table.items():
         if isinstance(value, Mapping) and value and not any(n & set(value) for n in NAMES):
             inner = keys_from(value, f"{prefix}{name}.")
         else:
             inner = {prefix + name: key_from(prefix + name, value)}
-        for each in inner:
-            if each in found:
-                raise InputError(f"keys.{each}: given twice")
-        found |= inner
-    return found
+        for dotted in inner:
+            if dotted in keys:
+                raise InputError(f"keys.{dotted}: given twice")
+        keys |= inner
+    return keys
 
 
 def key_from(name: str, value: Any) -> Key:

@@ -275,7 +275,7 @@ def quantity_column(
     low: Sequence[float | None] | None = None,
     high: Sequence[float | None] | None = None,
     *,
-    other: str | None = None,
+    default_unit: str | None = None,
 ) -> Column:
     """Return a key or a quantity as a column, in the unit of `shown_unit`.
 
@@ -283,9 +283,9 @@ def quantity_column(
         name: of the key or the quantity.
         values: SI.
         low, high: bounds of the values, SI.
-        other: unit of a name that is neither key nor quantity.
+        default_unit: unit of a name that is neither key nor quantity.
     """
-    unit, scale = shown_unit(name, [v for v in values if isinstance(v, float)], other)
+    unit, scale = shown_unit(name, [v for v in values if isinstance(v, float)], default_unit)
     bounds = (None if b is None else scale_numbers(b, scale) for b in (low, high))
     return Column(name, unit, scale_numbers(values, scale), *bounds)
 

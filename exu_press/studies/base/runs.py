@@ -27,9 +27,9 @@ STUDY_FILE = "study.json"
 class Runs(Batch):
     """The runs of a study in its directory; a context manager.
 
-    Worker processes stay alive from call to call of `of`. Every row is on the disk before the next
-    run begins, so that a study that was killed goes on where it was: runs that it asks for again
-    are read. Scenes alone decide which runs are the same; order and number of calls do not.
+    Worker processes stay alive from call to call of `run_scenes`. Every row is on the disk before
+    the next run begins, so that a study that was killed goes on where it was: runs that it asks for
+    again are read. Scenes alone decide which runs are the same; order and number of calls do not.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class Runs(Batch):
             raise
         return super().__enter__()
 
-    def of(self, scenes: Sequence[Scene], files: Sequence[str] = ()) -> list[Row]:
+    def run_scenes(self, scenes: Sequence[Scene], files: Sequence[str] = ()) -> list[Row]:
         """Return the row of each scene: status, reason, end_time, its quantities by name.
 
         With errors asked, `errors`, `horizon` and `lyapunov_exponent` too. A run that raised an
@@ -97,9 +97,9 @@ class Runs(Batch):
         """
         errors = {"errors": True} if self._study.errors else {}
         arguments: list[dict[str, Any]] = [{**arguments_of(s), **errors} for s in scenes]
-        for each, file in zip(arguments, files, strict=False):
+        for run, file in zip(arguments, files, strict=False):
             inside = subdirectory(self.directory, str(Path(file).parent))
-            each["save"] = str(inside.resolve() / Path(file).name)
+            run["save"] = str(inside.resolve() / Path(file).name)
         return self.rows(arguments)
 
 
@@ -138,32 +138,32 @@ def _claim(directory: Path, study: Mapping[str, Any], written: Sequence[str]) ->
         InputError: it is another study's, or its files are there without its study.json.
     """
     path = directory / STUDY_FILE
-    wanted = json.loads(json.dumps(study))
+    own = json.loads(json.dumps(study))
     if not path.exists():
-        taken = [name for name in written if (directory / name).exists()]
-        if taken:
+        foreign = [name for name in written if (directory / name).exists()]
+        if foreign:
             raise InputError(
-                f"{directory}: has {taken[0]} and no {path.name}, so that it may belong to another "
-                f"study; allowed is a directory of the study's own, or to delete "
-                f"{' and '.join(taken)}; runs of this study in {FILE} are kept"
+                f"{directory}: has {foreign[0]} and no {path.name}, so that it may belong to "
+                f"another study; allowed is a directory of the study's own, or to delete "
+                f"{' and '.join(foreign)}; runs of this study in {FILE} are kept"
             )
-        write_json(path, wanted)
+        write_json(path, own)
         return
     try:
-        found = from_json(dict[str, Any], path.read_bytes(), path.name)
+        stored = from_json(dict[str, Any], path.read_bytes(), path.name)
     except (OSError, InputError):
-        found = None
-    if found != wanted:
+        stored = None
+    if stored != own:
         raise InputError(
-            f"{directory}: belongs to another study ({path.name} differs{_where(found, wanted)}); "
+            f"{directory}: belongs to another study ({path.name} differs{_where(stored, own)}); "
             "allowed is another directory, or to remove this one"
         )
 
 
-def _where(found: Any, wanted: dict[str, Any]) -> str:
+def _where(stored: Any, own: dict[str, Any]) -> str:
     """Return the first key in which two studies differ, in words."""
-    if isinstance(found, dict):
-        for name in {**wanted, **found}:
-            if found.get(name) != wanted.get(name):
+    if isinstance(stored, dict):
+        for name in {**own, **stored}:
+            if stored.get(name) != own.get(name):
                 return f" in {name}"
     return ""

@@ -56,13 +56,13 @@ class Study(Table):
             raise InputError(f"errors, save_runs: not used by exu-press {command}; remove them")
         lists = {field.name for field in dataclasses.fields(self) if field.default == ()}
         for name, kind in self.tables.items():
-            given = getattr(self, name)
+            value = getattr(self, name)
             if name not in lists:
-                read: Any = table_from(kind, name, {} if given is None else given)
-            elif isinstance(given, list | tuple):
-                read = tuple(table_from(kind, name, each) for each in given)
+                read: Any = table_from(kind, name, {} if value is None else value)
+            elif isinstance(value, list | tuple):
+                read = tuple(table_from(kind, name, entry) for entry in value)
             else:
-                raise InputError(f"{name} = {given!r:.80}: allowed are tables [[{name}]]")
+                raise InputError(f"{name} = {value!r:.80}: allowed are tables [[{name}]]")
             object.__setattr__(self, name, read)
         for name in ("scene", "keys"):
             if not isinstance(value := getattr(self, name), (Mapping, Scene)):
@@ -81,8 +81,8 @@ class Study(Table):
 
     def check_keys(self) -> None:
         """Check the scene with each key alone at its ends, before anything runs."""
-        for name, each in self.keys.items():
-            for value in each.ends:
+        for name, variation in self.keys.items():
+            for value in variation.ends:
                 self.scene_at({name: value})
 
     def scene_at(self, point: Mapping[str, Any]) -> Scene:
@@ -99,31 +99,31 @@ class Study(Table):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the data that tell this study from others; a time limit does not."""
-        found: dict[str, Any] = {}
+        data: dict[str, Any] = {}
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
             if field.name == "keys":
-                value = {name: each.plain() for name, each in value.items()}
+                value = {name: variation.plain() for name, variation in value.items()}
             elif isinstance(value, Scene):
                 value = value.to_dict()
             elif isinstance(value, Table):
                 value = dataclasses.asdict(value)
             elif isinstance(value, tuple):
-                value = [dataclasses.asdict(one) for one in value]
+                value = [dataclasses.asdict(entry) for entry in value]
             if field.name != "time_limit" and value is not None:
-                found[field.name] = value
-        return found
+                data[field.name] = value
+        return data
 
 
-def names_in(name: str, given: Any) -> tuple[str, ...]:
+def names_in(name: str, value: Any) -> tuple[str, ...]:
     """Return a key that is a list of names of quantities.
 
     Raises:
         InputError: it is not, or has none.
     """
-    if isinstance(given, list | tuple) and given and all(isinstance(one, str) for one in given):
-        return tuple(given)
-    raise InputError(f"{name} = {given!r:.200}: allowed is a list of names of quantities")
+    if isinstance(value, list | tuple) and value and all(isinstance(text, str) for text in value):
+        return tuple(value)
+    raise InputError(f"{name} = {value!r:.200}: allowed is a list of names of quantities")
 
 
 def load_study(path: str | Path, kind: type[S], *, allow_code: bool = False) -> S:

@@ -86,7 +86,7 @@ def period_map_figure(report: BifurcationReport) -> Figure:
     """Return a row of two maps for each way: the period, and the upper end of the exponent."""
     study = report.study
     assert study.second is not None
-    points = [study.at(x, y) for y in study.seconds for x in study.values]
+    points = [study.point_at(x, y) for y in study.seconds for x in study.values]
     text = f"{describe([study.scene_at(point) for point in points], 110)}\n"
     own = study.bifurcation
     text += f"{own.revolutions} revolutions after {own.skip} at each of {len(points)}"

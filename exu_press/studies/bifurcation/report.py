@@ -114,7 +114,7 @@ class BifurcationReport(Report):
             for n, name in enumerate(names)
         ]
         texts = [
-            Column("way", "", [way for _, way, _, _ in rows]),
+            Column("way", "", [branch_name for _, branch_name, _, _ in rows]),
             Column("period", "", [str(row["in_words"]) for _, _, row, _ in rows]),
         ]
         sections = [
@@ -125,7 +125,10 @@ class BifurcationReport(Report):
         return Points(
             [*keys, *texts],
             [*sections, Column("exponent per revolution", "", exponents)],
-            [f"{row['in_words']}, {row['motion']}, on the way {way}" for _, way, row, _ in rows],
+            [
+                f"{row['in_words']}, {row['motion']}, on the way {branch_name}"
+                for _, branch_name, row, _ in rows
+            ],
             names[0],
             sections[0].name,
             colour="way",
@@ -133,7 +136,7 @@ class BifurcationReport(Report):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the entries of bifurcation.json, without states."""
-        branches: dict[str, list[dict[str, Any]]] = {way: [] for way in self.ways}
+        branches: dict[str, list[dict[str, Any]]] = {branch_name: [] for branch_name in self.ways}
         for branch in self.branches:
             second = {} if branch.second is None else {"second": branch.second}
             for value, row in branch:

@@ -17,7 +17,7 @@ from exu_press.studies.base.command import StudyCommand
 from exu_press.studies.bifurcation.report import BifurcationReport, Branch
 from exu_press.studies.bifurcation.study import FROM_THE_START, Bifurcation
 
-__all__ = ["BifurcationCommand", "bifurcation", "carried", "run_point"]
+__all__ = ["BifurcationCommand", "bifurcation", "rescale_state", "run_point"]
 
 
 def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> BifurcationReport:
@@ -44,13 +44,13 @@ def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> Bifurc
         else:
             ways = {"up": values, "down": values[::-1]}
             names = [name for name in ways if name in study.bifurcation.way]
-            found: list[list[Row]] = []
+            chain_rows: list[list[Row]] = []
             branches, chains = [], []
             for second in study.seconds:
                 for name in names:
-                    found.append([])
-                    branches.append(Branch(name, ways[name], found[-1], second))
-                    chains.append(_way(study, ways[name], second, found[-1]))
+                    chain_rows.append([])
+                    branches.append(Branch(name, ways[name], chain_rows[-1], second))
+                    chains.append(_way(study, ways[name], second, chain_rows[-1]))
             runs.follow(chains, len(chains) * len(values))
     report = BifurcationReport(study, branches)
     report.save(Path(directory))
@@ -72,22 +72,22 @@ def _arguments(
     study: Bifurcation, value: float, second: float | None, last: tuple[float, Row] | None
 ) -> dict[str, Any]:
     """Return the arguments of `run_point`, from the row at the value before."""
-    scene: Scene = study.scene_at(study.at(value, second))
-    own = study.bifurcation
-    found: dict[str, Any] = {
+    scene: Scene = study.scene_at(study.point_at(value, second))
+    settings = study.bifurcation
+    arguments: dict[str, Any] = {
         **arguments_of(scene),
-        "skip": own.skip,
-        "revolutions": own.revolutions,
-        "longest": own.longest,
+        "skip": settings.skip,
+        "revolutions": settings.revolutions,
+        "longest": settings.longest,
         "start": None,
     }
     if last is not None and "state" in last[1]:
-        found["start"] = last[1]["state"]
-        found["speed"] = study.scene_at(study.at(last[0], second)).speed_rpm
-    return found
+        arguments["start"] = last[1]["state"]
+        arguments["speed"] = study.scene_at(study.point_at(last[0], second)).speed_rpm
+    return arguments
 
 
-def carried(state: State, before: float, now: float) -> State:
+def rescale_state(state: State, old_speed: float, new_speed: float) -> State:
     """Return a state on the section at another speed of the crank.
 
     The crank's angle is its speed times the time; all speeds go with it, so that they still fit
@@ -95,16 +95,16 @@ def carried(state: State, before: float, now: float) -> State:
 
     Args:
         state: on the section.
-        before: speed at which it was found, in any unit.
-        now: likewise.
+        old_speed: speed at which it was found, in any unit.
+        new_speed: likewise.
     """
-    ratio = now / before
-    q, q_t, *others = state["coordinates"]
+    ratio = new_speed / old_speed
+    q, q_t, *further = state["coordinates"]
     return {
         **state,
         "time": state["time"] / ratio,
         "step": state["step"] / ratio,
-        "coordinates": [q, (ratio * np.array(q_t)).tolist(), *others],
+        "coordinates": [q, (ratio * np.array(q_t)).tolist(), *further],
         "accelerations": (ratio**2 * np.array(state["accelerations"])).tolist(),
     }
 
@@ -122,33 +122,33 @@ def run_point(arguments: dict[str, Any]) -> dict[str, Any]:
     """
     scene, start = scene_from(arguments), arguments["start"]
     if start is not None:
-        start = carried(start, arguments["speed"], scene.speed_rpm)
-    found = attractor(
+        start = rescale_state(start, arguments["speed"], scene.speed_rpm)
+    motion = attractor(
         scene,
         revolutions=arguments["revolutions"],
         skip=arguments["skip"],
         most=arguments["longest"],
         start=start,
     )
-    if found.stopped:
-        raise InputError(found.stopped)
-    low = found.exponent.low
+    if motion.stopped:
+        raise InputError(motion.stopped)
+    low = motion.exponent.low
     return {
         "status": "completed",
         "reason": "",
-        "points": found.points.tolist(),
-        "period": found.period.revolutions,
-        "told": found.period.told,
-        "in_words": str(found.period),
-        "finer": found.period.finer,
-        "error": found.error,
+        "points": motion.points.tolist(),
+        "period": motion.period.revolutions,
+        "told": motion.period.told,
+        "in_words": str(motion.period),
+        "finer": motion.period.finer,
+        "error": motion.error,
         "exponent": [
-            found.exponent.value,
+            motion.exponent.value,
             low if math.isfinite(low) else None,
-            found.exponent.high,
+            motion.exponent.high,
         ],
-        "motion": found.exponent.sign,
-        "state": found.state,
+        "motion": motion.exponent.sign,
+        "state": motion.state,
     }
 
 

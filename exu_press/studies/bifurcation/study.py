@@ -95,18 +95,20 @@ class Bifurcation(Study):
         """Its values; None alone where there is no other key."""
         return (None,) if self.second is None else self._numbers(self.second)
 
-    def at(self, value: float, second: float | None) -> dict[str, float]:
+    def point_at(self, value: float, second: float | None) -> dict[str, float]:
         """Return the keys at a point."""
-        found = {self.name: value}
+        point = {self.name: value}
         if self.second is not None and second is not None:
-            found[self.second] = second
-        return found
+            point[self.second] = second
+        return point
 
     def _numbers(self, name: str) -> tuple[float, ...]:
         """Return the values of a key."""
-        found = self.keys[name]
-        given = found.values if isinstance(found, Values) else ()
-        numbers = tuple(v for v in given if isinstance(v, (int, float)) and not isinstance(v, bool))
-        if not numbers or len(numbers) < len(given):
-            raise InputError(f"keys.{name} = {found.plain()!r:.200}: allowed is [number, ...]")
+        variation = self.keys[name]
+        values = variation.values if isinstance(variation, Values) else ()
+        numbers = tuple(
+            v for v in values if isinstance(v, (int, float)) and not isinstance(v, bool)
+        )
+        if not numbers or len(numbers) < len(values):
+            raise InputError(f"keys.{name} = {variation.plain()!r:.200}: allowed is [number, ...]")
         return numbers

@@ -18,7 +18,7 @@ from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.studies.base import Range
 from exu_press.studies.base.evaluation import Evaluation, Point, error_in, numbers_in
-from exu_press.studies.curve_file import computed
+from exu_press.studies.curve_file import channel_polynomials
 from exu_press.studies.fit.curve import Curve, RecordedCurve, fit_sensor
 from exu_press.studies.fit.study import Fit
 
@@ -76,7 +76,7 @@ class Problem:
     def point(self, x: Array) -> dict[str, float]:
         """Return the keys' values at a scaled point."""
         return {
-            name: float(varied.at(np.asarray(min(max(share, 0.0), 1.0))))
+            name: float(varied.quantile(np.asarray(min(max(share, 0.0), 1.0))))
             for (name, varied), share in zip(self._keys.items(), x, strict=True)
         }
 
@@ -162,7 +162,7 @@ class Problem:
             ]
             if not np.isfinite(difference).all():
                 raise InputError(
-                    f"{'; '.join(self.evaluation.told())}: no run with a {FINER:g} times as large "
+                    f"{self.evaluation.summary_line()}: no run with a {FINER:g} times as large "
                     f"solver.{name} tells the errors of curves; the cure is narrower ranges, or "
                     "what the runs' reasons say"
                 )
@@ -225,7 +225,7 @@ class Problem:
     def _fit_sensor(self, curve: Curve, scene: Scene) -> tuple[Array, RecordedCurve | None]:
         """Return a curve as measured, and as the sensor would record that of a scene's run."""
         result = Result.load(self._directory / file_of(scene))
-        at, values, unit = computed(curve.file, curve.read, result)
+        at, values, unit = channel_polynomials(curve.file, curve.read, result)
         measured = curve.values(unit)
         model = fit_sensor(curve, measured, at, values)
         return measured, None if model is None else dataclasses.replace(model, unit=unit)

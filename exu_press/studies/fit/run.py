@@ -43,7 +43,9 @@ def fit(study: Fit, directory: str | Path, **how: Any) -> FitReport:
     with Runs(study, directory, report=FitReport, **how) as runs:
 
         def run(scenes: Any) -> Any:
-            return runs.of(scenes, [file_of(scene) for scene in scenes] if study.curve else ())
+            return runs.run_scenes(
+                scenes, [file_of(scene) for scene in scenes] if study.curve else ()
+            )
 
         problem = Problem(study, directory, run)
 
@@ -78,7 +80,7 @@ def fit_problem(problem: Problem, run_with_errors: Any) -> FitReport:
     starts = select_starts(problem, len(names), settings.starts, settings.seed, start)
     if not starts:
         raise InputError(
-            f"{'; '.join(problem.evaluation.told())}: no start; the cure is narrower ranges, or "
+            f"{problem.evaluation.summary_line()}: no start; the cure is narrower ranges, or "
             "what the runs' reasons say"
         )
     first = starts[0]
@@ -93,7 +95,7 @@ def fit_problem(problem: Problem, run_with_errors: Any) -> FitReport:
         minima, diverged = search_minima(problem, starts, step)
     if not minima:
         raise InputError(
-            f"{'; '.join(problem.evaluation.told())}: no search came to an end; the cure is "
+            f"{problem.evaluation.summary_line()}: no search came to an end; the cure is "
             "narrower ranges, or what the runs' reasons say"
         )
     for _ in range(REPEATED_SEARCHES + 1):
@@ -104,7 +106,7 @@ def fit_problem(problem: Problem, run_with_errors: Any) -> FitReport:
             derivative = jacobian(problem, best.x, best.residuals, step)
         except EvaluationError:
             raise InputError(
-                f"all runs beside the best point failed ({'; '.join(problem.evaluation.told())}); "
+                f"all runs beside the best point failed ({problem.evaluation.summary_line()}); "
                 "the cure is narrower ranges"
             ) from None
         intervals = [
@@ -164,7 +166,7 @@ def _report(
         numbers=numbers,
         curves=[(measured, model) for measured, model in curves if model is not None],
         errors=np.abs(problem.errors),
-        run_summary=problem.evaluation.told(),
+        run_summary=problem.evaluation.run_summary(),
     )
 
 

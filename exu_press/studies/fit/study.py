@@ -12,7 +12,7 @@ from exu_press.quantities import quantity_of
 from exu_press.schema.checks import demand_known, key
 from exu_press.schema.table import Table
 from exu_press.studies.base import Range, Study
-from exu_press.studies.base.evaluation import ranged
+from exu_press.studies.base.evaluation import require_key_kinds
 from exu_press.studies.fit.curve import Curve
 from exu_press.studies.fit.measured import MeasuredNumber, dotted_keys
 
@@ -61,7 +61,7 @@ class Fit(Study):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        names = ranged(self, "fit")
+        names = require_key_kinds(self, "fit")
         unders = [*(m.under for m in self.measured), *(c.under for c in self.curve)]
         for under in unders:
             if both := set(under) & set(names):

@@ -61,7 +61,7 @@ def optimise(study: Optimise, directory: str | Path, **how: Any) -> OptimiseRepo
     """
     directory = Path(directory)
     with Runs(study, directory, report=OptimiseReport, **how) as runs:
-        trials = Evaluation(study, study.quantities, runs.of)
+        trials = Evaluation(study, study.quantities, runs.run_scenes)
 
         def run_with_errors(points: Sequence[Point]) -> list[Row]:
             return with_errors_of(study, directory, [study.scene_at(p) for p in points], **how)
@@ -73,7 +73,7 @@ def optimise(study: Optimise, directory: str | Path, **how: Any) -> OptimiseRepo
             raise InputError(_none_within(trials, violations))
         weights = [objective.weight for objective in study.objective]
         best = choose_compromise(values[places], weights)
-        (row,) = runs.of([_finer(study.scene_at(trials.points[places[best]]))])
+        (row,) = runs.run_scenes([_finer(study.scene_at(trials.points[places[best]]))])
     names = list(dict.fromkeys(study.quantities))
     few = sorted({best, *np.linspace(0, len(places) - 1, MOST_CHECKED).astype(int).tolist()})
     rows = run_with_errors([trials.points[places[n]] for n in few])
@@ -85,7 +85,7 @@ def optimise(study: Optimise, directory: str | Path, **how: Any) -> OptimiseRepo
     finer = dict(zip(names, numbers_in(row, names), strict=True))
     report = OptimiseReport(
         study, method, why, trials, places, best, errors,
-        {name: value for name, value in finer.items() if np.isfinite(value)}, trials.told(),
+        {name: value for name, value in finer.items() if np.isfinite(value)}, trials.run_summary(),
     )  # fmt: skip
     report.save(directory)
     return report
@@ -122,7 +122,7 @@ def _search(study: Optimise, trials: Evaluation, run_with_errors: Any) -> tuple[
 
     def point(x: Array) -> dict[str, float]:
         shares = np.clip(x, 0.0, 1.0)
-        return {n: float(r.at(s)) for n, r, s in zip(names, ranges, shares, strict=True)}
+        return {n: float(r.quantile(s)) for n, r, s in zip(names, ranges, shares, strict=True)}
 
     first = spread_points(len(names), settings.trials // SCREEN, settings.seed)
     values, violations = ask([point(x) for x in first])
@@ -164,7 +164,7 @@ def _demand_movement(study: Optimise, trials: Evaluation) -> None:
 
 def _none_within(trials: Evaluation, violations: Array) -> str:
     """Return the message that no run keeps the limits, with the nearest one."""
-    summary = "; ".join(line.strip() for line in trials.told())
+    summary = "; ".join(line.strip() for line in trials.run_summary())
     if not np.isfinite(trials.numbers).all(axis=1).any():
         return f"{summary}: nothing to choose from"
     nearest = int(np.nanargmin(violations))

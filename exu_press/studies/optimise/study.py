@@ -8,7 +8,7 @@ from exu_press.quantities import quantity_of
 from exu_press.schema.checks import key
 from exu_press.schema.table import Table
 from exu_press.studies.base import Range, Study, Values
-from exu_press.studies.base.evaluation import ranged
+from exu_press.studies.base.evaluation import require_key_kinds
 
 __all__ = ["AUTO", "EVOLUTION", "NELDER_MEAD", "NSGA", "TPE", "Limit", "Objective", "Optimise"]
 
@@ -104,7 +104,7 @@ class Optimise(Study):
         super().__post_init__()
         if not self.objective:
             raise InputError('no objective; allowed is [[objective]] quantity = "NAME"')
-        ranged(self, "optimise", (Range, Values))
+        require_key_kinds(self, "optimise", (Range, Values))
         for quantity in self.quantities:
             quantity_of(self.scene, quantity)
         names = [objective.quantity for objective in self.objective]

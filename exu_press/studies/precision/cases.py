@@ -90,7 +90,7 @@ class Case:
         assert self.scene is not None
         return self.scene
 
-    def within(self, amount: Amount) -> Self:
+    def limit_to(self, amount: Amount) -> Self:
         """Return as much of it as is run."""
         scene = self.scene
         if scene is not None:
@@ -127,13 +127,15 @@ class Case:
         late = late_of(run.trajectory, reference.trajectory, run.starts, reference.starts)
         return errors, late
 
-    def stated(self, amount: Amount, horizon: float) -> list[Stated]:
+    def compare_stated_errors(self, amount: Amount, horizon: float) -> list[Stated]:
         """Return the stated errors of runs until the horizon."""
         if self.scene is None:
             return []
-        part = self.scene.replace({"revolutions": self.scene.revolutions * horizon / self.duration})
+        predictable = self.scene.replace(
+            {"revolutions": self.scene.revolutions * horizon / self.duration}
+        )
         finest = amount.loosen * (self.reference_tolerance or FINEST)
-        return stated_errors(self.name, part, amount.stated, finest)
+        return stated_errors(self.name, predictable, amount.stated, finest)
 
 
 def case_of(name: str, scene: Scene) -> Case:

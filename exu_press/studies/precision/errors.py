@@ -48,7 +48,7 @@ class Trajectory:
     force: Array | None = None
     penetration: Array | None = None
 
-    def at(self, instants: Array) -> tuple[Array, Array]:
+    def interpolate(self, instants: Array) -> tuple[Array, Array]:
         """Return position and velocity at other instants, (m,), by cubic Hermite polynomials."""
         position = CubicHermiteSpline(self.time, self.position, self.velocity)
         velocity = CubicHermiteSpline(self.time, self.velocity, self.acceleration)
@@ -56,9 +56,10 @@ class Trajectory:
 
     def until(self, end: float) -> "Trajectory":
         """Return the part before an instant, s."""
-        kept = self.time <= end * (1.0 + 1e-12)
+        is_before = self.time <= end * (1.0 + 1e-12)
         parts: dict[str, Any] = {
-            name: each if each is None else each[kept] for name, each in vars(self).items()
+            name: values if values is None else values[is_before]
+            for name, values in vars(self).items()
         }
         return Trajectory(**parts)
 
@@ -144,7 +145,7 @@ def instants_until(horizon: float) -> Array:
 def errors_of(run: Trajectory, reference: Trajectory, horizon: float) -> Errors:
     """Return the errors of a run that reached its end."""
     instants = instants_until(horizon)
-    (position, velocity), (x, v) = run.at(instants), reference.at(instants)
+    (position, velocity), (x, v) = run.interpolate(instants), reference.interpolate(instants)
     peak, true_peak = (float(np.abs(t.until(horizon).acceleration).max()) for t in (run, reference))
     return Errors(
         float(np.abs(position - x).max()),
@@ -157,7 +158,7 @@ def late_of(
     run: Trajectory,
     reference: Trajectory,
     starts: Sequence[Trajectory] = (),
-    others: Sequence[Trajectory] = (),
+    reference_starts: Sequence[Trajectory] = (),
 ) -> Late | None:
     """Return the figures of a dry run, or None where no surfaces touch.
 
@@ -165,7 +166,7 @@ def late_of(
         run: to be judged.
         reference: the truth until trajectories diverge.
         starts: more of the run, from starts that differ by less than is known.
-        others: the same of the reference.
+        reference_starts: the same of the reference.
     """
     if run.force is None or reference.force is None or run.penetration is None:
         return None
@@ -175,7 +176,7 @@ def late_of(
     same = len(touches) == len(true_touches) > 0
     rms, true_rms = _rms(run), _rms(reference)
     mean, large = _peaks((run, *starts))
-    true_mean, true_large = _peaks((reference, *others))
+    true_mean, true_large = _peaks((reference, *reference_starts))
     return Late(
         impacts=len(touches),
         impact_time=float(np.abs(touches - true_touches).max()) if same else None,
@@ -189,13 +190,13 @@ def late_of(
 
 def _peaks(runs: Sequence[Trajectory]) -> tuple[float, float]:
     """Return mean and 95th percentile of a run's peaks, m/s^2, as means over runs."""
-    found = []
+    statistics = []
     for run in runs:
         count = max(1, round(float(run.time[-1] - run.time[0]) / PEAKS_APART))
         bounds = run.time[0] + PEAKS_APART * np.arange(count)
         peaks = np.maximum.reduceat(np.abs(run.acceleration), np.searchsorted(run.time, bounds))
-        found.append((float(peaks.mean()), float(np.percentile(peaks, 95))))
-    mean, large = np.mean(found, axis=0)
+        statistics.append((float(peaks.mean()), float(np.percentile(peaks, 95))))
+    mean, large = np.mean(statistics, axis=0)
     return float(mean), float(large)
 
 

@@ -61,9 +61,9 @@ def precision_figure(report: PrecisionReport, name: str) -> Figure:
     *axes, key = figure.subplots(1, len(widths), width_ratios=widths)
     if stated:
         _draw_stated(axes[-1], stated)
-    for panel, (error, words) in zip(axes, panels.items(), strict=False):
+    for panel, (error, label) in zip(axes, panels.items(), strict=False):
         _draw(panel, series, error, case)
-        panel.set(title=f"Error of the {words}", xlabel="processor time of the integration, s")
+        panel.set(title=f"Error of the {label}", xlabel="processor time of the integration, s")
     key.axis("off")
     handles: list[Artist] = [
         Line2D([], [], label=s, **_style(s, index)) for index, s in enumerate(_in_order(series))

@@ -1,4 +1,4 @@
-"""One run, timed: the median of several after a warm-up.
+"""One run, time_runs: the median of several after a warm-up.
 
 Processor time is the time of the run's one thread; on a machine with nothing else to do
 it is the wall time, and on a busy one it can still be compared.
@@ -23,10 +23,10 @@ __all__ = [
     "attempt",
     "fixed_steps",
     "measured_of",
-    "moved",
     "run",
     "run_scene",
-    "timed",
+    "shift_start",
+    "time_runs",
     "tolerances",
 ]
 
@@ -98,7 +98,7 @@ class Attempt:
     again: Callable[[int], Measured] | None = field(default=None, repr=False)
 
 
-def timed(attempt: Attempt, repeats: int, longest: float = LONG_RUN) -> Measured:
+def time_runs(attempt: Attempt, repeats: int, longest: float = LONG_RUN) -> Measured:
     """Run an attempt so many times; the trajectory is the first one's.
 
     Args:
@@ -168,10 +168,10 @@ def attempt(solver: str, scene: Scene, setting: str, value: float) -> Attempt:
         setting,
         value,
         run=lambda: run_scene(scene, setting, value),
-        again=lambda number: run_scene(moved(scene, number), setting, value),
+        again=lambda number: run_scene(shift_start(scene, number), setting, value),
     )
 
 
-def moved(scene: Scene, number: int) -> Scene:
+def shift_start(scene: Scene, number: int) -> Scene:
     """Return a scene whose start differs by next to nothing: so many times MOVED."""
     return scene.replace({"start_angle_deg": scene.start_angle_deg + number * MOVED})

@@ -17,7 +17,7 @@ from exu_press.studies.precision.errors import (
     errors_of,
     instants_until,
 )
-from exu_press.studies.precision.measured import moved, run_scene
+from exu_press.studies.precision.measured import run_scene, shift_start
 from exu_press.verification.growth import Growth, growth
 
 __all__ = ["Reference", "closed_form", "divergence", "from_own"]
@@ -107,19 +107,26 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
     instants = instants_until(horizon)
     position, velocity = (
         float(np.abs(f + (f - c) / 3.0 - t).max())  # second order, at step zero
-        for c, f, t in zip(*(run.at(instants) for run in (coarse, fine, tight)), strict=True)
+        for c, f, t in zip(
+            *(run.interpolate(instants) for run in (coarse, fine, tight)), strict=True
+        )
     )
     peak = errors_of(fine, tight, horizon).peak_acceleration  # as sampled; no order to rely on
     difference = Errors(position, velocity, peak)
-    beside = (
-        [moved(scene, -n) for n in range(1, starts + 1)] if diverged.horizon is not None else []
+    neighbour_scenes = (
+        [shift_start(scene, -n) for n in range(1, starts + 1)]
+        if diverged.horizon is not None
+        else []
     )
-    runs = [run_scene(other, "tolerance", LOOSER * tolerance).trajectory for other in beside]
-    others = tuple(run for run in runs if run is not None)
-    return Reference(f"{method}, extrapolated", tight, difference, diverged, others)
+    runs = [
+        run_scene(neighbour, "tolerance", LOOSER * tolerance).trajectory
+        for neighbour in neighbour_scenes
+    ]
+    neighbours = tuple(run for run in runs if run is not None)
+    return Reference(f"{method}, extrapolated", tight, difference, diverged, neighbours)
 
 
-def divergence(scene: Scene, one: Trajectory, other: Trajectory) -> Growth:
+def divergence(scene: Scene, first: Trajectory, second: Trajectory) -> Growth:
     """Return the growth of two trajectories' distance, until they are KNOWN apart."""
     clearances = [joint.clearance for joint in scene.joints.with_clearance.values()]
     clearances += [
@@ -127,8 +134,8 @@ def divergence(scene: Scene, one: Trajectory, other: Trajectory) -> Growth:
     ]
     if not clearances:
         return STAYS
-    there, _ = other.at(np.clip(one.time, other.time[0], other.time[-1]))
-    return growth(one.time, np.abs(one.position - there) / min(clearances), KNOWN)
+    second_position, _ = second.interpolate(np.clip(first.time, second.time[0], second.time[-1]))
+    return growth(first.time, np.abs(first.position - second_position) / min(clearances), KNOWN)
 
 
 def _above(difference: float | None) -> float | None:

@@ -68,7 +68,7 @@ class Row:
         """The larger error of the mean and of the 95th percentile of a dry run's peaks."""
         return None if self.late is None else max(self.late.mean_of_peaks, self.late.large_peaks)
 
-    def resolved(self, error: str) -> float | None:
+    def resolved_error(self, error: str) -> float | None:
         """Return an error, or None where it is missing or smaller than can be told."""
         value: float | None = getattr(self, error)
         return None if error in self.at_most else value
@@ -134,6 +134,8 @@ def order_of(series: Sequence[Row], error: str = "error_position") -> float | No
     points = [
         (math.log(row.value), math.log(value))
         for row in series
-        if row.status == "completed" and (value := row.resolved(error)) is not None and value > 0.0
+        if row.status == "completed"
+        and (value := row.resolved_error(error)) is not None
+        and value > 0.0
     ][-3:]
     return linear_regression(*zip(*points, strict=True)).slope if len(points) > 1 else None

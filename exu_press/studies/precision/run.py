@@ -9,7 +9,7 @@ from typing import Any
 from exu_press.schema.checks import key
 from exu_press.studies.base.command import SceneCommand, SceneStudy
 from exu_press.studies.precision.cases import FULL, QUICK, Amount, Case, case_of
-from exu_press.studies.precision.measured import LONG_RUN, timed
+from exu_press.studies.precision.measured import LONG_RUN, time_runs
 from exu_press.studies.precision.references import Reference
 from exu_press.studies.precision.report import PrecisionReport, machine
 from exu_press.studies.precision.rows import ERRORS, Row, orders_of, row_of
@@ -53,12 +53,12 @@ def precision(
             stated=tuple(stated),
         )
 
-    for case in (whole.within(amount) for whole in cases):
+    for case in (whole.limit_to(amount) for whole in cases):
         reference = case.reference(amount)
         horizon = reference.diverged.horizon or case.duration
         some = _run(case, amount, reference, horizon, quiet)
         rows += some
-        stated += case.stated(amount, horizon)
+        stated += case.compare_stated_errors(amount, horizon)
         described[case.name] = _describe(case, reference, horizon, some)
         after_case(report())
     return report()
@@ -78,7 +78,7 @@ def _run(
             if attempt.solver not in warm:
                 attempt.again(0) if attempt.again else attempt.run()
                 warm.add(attempt.solver)
-            run = timed(attempt, case.repeats or amount.repeats, longest)
+            run = time_runs(attempt, case.repeats or amount.repeats, longest)
             errors, late = case.errors(run, reference, horizon)
             rows.append(row_of(case.name, attempt, run, errors, reference.floor, late))
             progress.update(done + 1)
@@ -89,7 +89,7 @@ def _describe(
     case: Case, reference: Reference, horizon: float, rows: Sequence[Row]
 ) -> dict[str, Any]:
     """Return the entry of a case in precision.json."""
-    is_resolved = any(row.resolved(error) is not None for row in rows for error in ERRORS)
+    is_resolved = any(row.resolved_error(error) is not None for row in rows for error in ERRORS)
     return {
         "title": case.title,
         "scene": None if case.scene is None else case.scene.to_dict(),

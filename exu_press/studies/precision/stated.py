@@ -42,27 +42,30 @@ def stated_errors(
     true = simulate(scene.replace({"solver.tolerance": reference}))
     if not true.completed:
         return []
-    found = []
+    entries = []
     for tolerance in tolerances:
         run = simulate(scene.replace({"solver.tolerance": tolerance}), errors=True, beside=False)
         if not run.completed:
             continue
         every = list(compare_errors(run, true))
         shares = {
-            one.name: (one.stated["error"] / abs(one.value), one.true_error / abs(one.value))
-            for one in every
-            if one.value and one.ratio is not None
+            comparison.name: (
+                comparison.stated["error"] / abs(comparison.value),
+                comparison.true_error / abs(comparison.value),
+            )
+            for comparison in every
+            if comparison.value and comparison.ratio is not None
         }
-        ratios = [one.ratio for one in every if one.ratio is not None]
-        found.append(
+        ratios = [comparison.ratio for comparison in every if comparison.ratio is not None]
+        entries.append(
             Stated(
                 case=case,
                 tolerance=tolerance,
                 figures=len(every),
-                covered=sum(one.is_covered for one in every),
+                covered=sum(comparison.is_covered for comparison in every),
                 ratio=median(ratios) if ratios else None,
                 errors=tuple(shares.values()),
                 peak=shares.get(PEAK_ACCELERATION.name),
             )
         )
-    return found
+    return entries

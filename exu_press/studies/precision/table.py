@@ -97,15 +97,15 @@ def stated_tables(stated: Sequence[Stated]) -> list[Table]:
     """Return how stated errors cover the true ones, where there are any."""
     cells: list[tuple[str, ...]] = [
         (
-            one.case,
-            f"{one.tolerance:g}",
-            str(one.figures),
-            f"{one.covered / one.figures:.1%}",
-            _number(one.ratio, 2),
-            *((_number(e, 2) for e in one.peak) if one.peak else ("-", "-")),
+            entry.case,
+            f"{entry.tolerance:g}",
+            str(entry.figures),
+            f"{entry.covered / entry.figures:.1%}",
+            _number(entry.ratio, 2),
+            *((_number(e, 2) for e in entry.peak) if entry.peak else ("-", "-")),
         )
-        for one in stated
-        if one.figures
+        for entry in stated
+        if entry.figures
     ]
     if not cells:
         return []

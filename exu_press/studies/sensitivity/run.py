@@ -34,7 +34,7 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Sensit
     """
     settings, keys = study.sensitivity, study.keys
     with Runs(study, directory, report=SensitivityReport, **how) as runs:
-        evaluation = Evaluation(study, settings.quantities, runs.of)
+        evaluation = Evaluation(study, settings.quantities, runs.run_scenes)
 
         def evaluate(shares: Array) -> Array:
             return evaluation([study.point_at(share) for share in shares])
@@ -43,7 +43,7 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Sensit
         values = sample(evaluate, len(keys), settings.samples, settings.seed)
         if values is None:
             raise InputError(
-                f"{'; '.join(evaluation.told())}: too few for {settings.samples} samples; the cure "
+                f"{evaluation.summary_line()}: too few for {settings.samples} samples; the cure "
                 "is narrower distributions, or what the runs' reasons say"
             )
     medians = study.scene_at(study.point_at(np.full(len(keys), 0.5)))
@@ -56,7 +56,7 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Sensit
         middle,
         bars,
         [error_in(checked, name) for name in settings.quantities],
-        evaluation.told(),
+        evaluation.run_summary(),
     )
     report.save(Path(directory))
     return report

@@ -10,7 +10,7 @@ from exu_press.quantities import quantity_of
 from exu_press.schema.checks import key
 from exu_press.schema.table import Table
 from exu_press.studies.base import Normal, Range, Study, Values
-from exu_press.studies.base.evaluation import ranged
+from exu_press.studies.base.evaluation import require_key_kinds
 from exu_press.studies.base.study import names_in
 
 __all__ = ["Sensitivity", "SensitivitySettings"]
@@ -58,7 +58,7 @@ class Sensitivity(Study):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        ranged(self, "sensitivity", (Range, Normal))
+        require_key_kinds(self, "sensitivity", (Range, Normal))
         for name in self.sensitivity.quantities:
             quantity_of(self.scene, name)
 
@@ -67,5 +67,5 @@ class Sensitivity(Study):
         point = {}
         for (name, varied), share in zip(self.keys.items(), shares, strict=True):
             assert not isinstance(varied, Values)
-            point[name] = float(varied.at(share))
+            point[name] = float(varied.quantile(share))
         return point

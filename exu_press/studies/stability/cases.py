@@ -47,10 +47,10 @@ def extremes(scene: Scene, name: str) -> tuple[Case, ...]:
     """Return the scene as it is, then with every number that it uses times each of FACTORS."""
     allowed = BUDGET if scene.solver is None else min(scene.solver.max_steps, BUDGET)
     scene = scene.replace({"solver.max_steps": allowed})
-    found = [Case(f"{AS_IT_IS}, {name}", AS_IT_IS, AS_IT_IS, scene)]
+    cases = [Case(f"{AS_IT_IS}, {name}", AS_IT_IS, AS_IT_IS, scene)]
     for key, value in flat(scene.to_dict()).items():
-        kept = {key, key.partition(".")[0]} & NOT_PUSHED
-        if kept or not isinstance(value, float) or value == 0.0:
+        is_fixed = {key, key.partition(".")[0]} & NOT_PUSHED
+        if is_fixed or not isinstance(value, float) or value == 0.0:
             continue
         for factor in FACTORS:
             try:
@@ -58,5 +58,5 @@ def extremes(scene: Scene, name: str) -> tuple[Case, ...]:
             except InputError:
                 continue
             label = f"{factor * value:.3g}"
-            found.append(Case(f"{key} = {label}, {name}", key, label, pushed))
-    return tuple(found)
+            cases.append(Case(f"{key} = {label}, {name}", key, label, pushed))
+    return tuple(cases)

@@ -61,13 +61,13 @@ class Check:
     note: str = ""
 
     @property
-    def passed(self) -> bool:
+    def is_within_limit(self) -> bool:
         """Return whether the figure is finite and not above its limit."""
         return self.value is not None and self.value <= self.limit
 
     def to_dict(self) -> dict[str, Any]:
         """Return the check as it stands in stability.json."""
-        return {**asdict(self), "passed": self.passed}
+        return {**asdict(self), "passed": self.is_within_limit}
 
 
 def checks_of(result: Result) -> list[Check]:
@@ -76,12 +76,12 @@ def checks_of(result: Result) -> list[Check]:
     solver = result.scene.solver
     assert solver is not None
     coarse = COARSE_RESIDUAL * (solver.tolerance or 0.0)
-    fallen = float((np.maximum.accumulate(lost) - lost).max())
+    created = float((np.maximum.accumulate(lost) - lost).max())
     drift, where = max(_drifts(result), default=(0.0, ""))
     checks = [
         _check("energy residual", energy_residual(result) or 0.0, max(RESIDUAL_LIMIT, coarse)),
         _check("constraint drift, m", drift, DRIFT_LIMIT, where),
-        _check("energy created in joints", _ratio(fallen, scale), ENERGY_LIMIT),
+        _check("energy created in joints", _ratio(created, scale), ENERGY_LIMIT),
     ]
     elastic = _elastic_energy(result)
     if elastic is not None:
@@ -110,20 +110,24 @@ def agreement(result: Result, finer: Result) -> Check:
     """
     worst, which = 0.0, ""
     of_finer = finer.info.get("errors", {})
-    for one in compare_errors(result, finer):
-        told, stated = one.stated, one.stated["error"]
-        if not told["determined"]:
-            more = one.reference > one.value
-            stated = 1.5 * (told["high"] - one.value if more else one.value - told["low"])
-        if one.name in of_finer:
-            stated += of_finer[one.name]["error"]
-        allowed = max(stated + one.reading_error, _little(result.scene, one.name, one.reference))
-        if one.true_error == 0.0:
+    for comparison in compare_errors(result, finer):
+        error, stated = comparison.stated, comparison.stated["error"]
+        if not error["determined"]:
+            is_above = comparison.reference > comparison.value
+            bound = error["high"] if is_above else error["low"]
+            stated = 1.5 * (bound - comparison.value if is_above else comparison.value - bound)
+        if comparison.name in of_finer:
+            stated += of_finer[comparison.name]["error"]
+        allowed = max(
+            stated + comparison.reading_error,
+            _little(result.scene, comparison.name, comparison.reference),
+        )
+        if comparison.true_error == 0.0:
             continue  # also of a figure that is zero, with nothing allowed
-        ratio = one.true_error / allowed if allowed else math.inf
+        ratio = comparison.true_error / allowed if allowed else math.inf
         if not ratio <= worst:
-            words = f"{one.value:.5g} +- {told['error']:.2g} for {one.reference:.5g}"
-            worst, which = ratio, f"{one.name}: {words}"
+            text = f"{comparison.value:.5g} +- {error['error']:.2g} for {comparison.reference:.5g}"
+            worst, which = ratio, f"{comparison.name}: {text}"
     return _check(AGREEMENT, worst, OF_BOTH, which)
 
 
@@ -162,17 +166,17 @@ def _drifts(result: Result) -> Iterator[tuple[float, str]]:
 
 def _elastic_energy(result: Result) -> Array | None:
     """Return the elastic energy of all contacts, (n,), J; None where nothing may touch."""
-    total, found = np.zeros_like(result.time), False
+    total, has_contact = np.zeros_like(result.time), False
     for name, joint in result.scene.joints.with_clearance.items():
         if not isinstance(joint, TouchingJoint) or joint.onset is None:
             continue
         law = joint.normal_contact(result.scene.angular_speed)
         if law is None:
             continue
-        found, record = True, result.joints[name]
+        has_contact, record = True, result.joints[name]
         depth = joint.onset - record.gap
         total += [law.elastic_energy(d) for d in depth.tolist()]
-    return total if found else None
+    return total if has_contact else None
 
 
 def _energy_there(result: Result) -> Array:
@@ -182,8 +186,8 @@ def _energy_there(result: Result) -> Array:
     """
     mass = np.array([body.mass for body in mechanism_of(result.scene).bodies])
     height = result.scene.gravity * (result["body_position"][:, :, 1] @ mass)
-    given = kinetic_energy(result.scene) + result["energy_input"]
-    return np.asarray(given - (height - height[0]))
+    supplied = kinetic_energy(result.scene) + result["energy_input"]
+    return np.asarray(supplied - (height - height[0]))
 
 
 def _rounding(scene: Scene, name: str) -> float:

@@ -46,7 +46,7 @@ def judge(case: dict[str, Any]) -> dict[str, Any]:
         return row
     checks = checks_of(result)
     residual = next((c.value for c in checks if c.name == "energy residual"), None)
-    if all(check.passed for check in checks):
+    if all(check.is_within_limit for check in checks):
         reference = simulate(finer(scene))
         if reference.info["status"] in (s.value for s in TOO_FINE):
             reference = simulate(finer(scene, LESS_FINE))
@@ -55,10 +55,10 @@ def judge(case: dict[str, Any]) -> dict[str, Any]:
         else:
             stated = with_errors(result, beside=False)
             check = agreement(stated, reference)
-            if not check.passed:  # as where rounding decides about the errors of both
+            if not check.is_within_limit:  # as where rounding decides about the errors of both
                 check = agreement(stated, with_errors(reference, beside=False))
             checks.append(check)
-    failed = [check for check in checks if not check.passed]
+    failed = [check for check in checks if not check.is_within_limit]
     right = not failed and not row["reason"]
     if failed:
         row["reason"] = "; ".join(
@@ -73,12 +73,12 @@ def judge(case: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def finer(scene: Scene, part: float = 0.1) -> Scene:
+def finer(scene: Scene, share: float = 0.1) -> Scene:
     """Return a scene with a part of the tolerance; a fixed step gives way to a tolerance."""
     solver = scene.solver
     assert solver is not None
     if solver.tolerance is None:
         tolerance = FINER_THAN_A_STEP
     else:
-        tolerance = max(part * solver.tolerance, FINEST)
+        tolerance = max(share * solver.tolerance, FINEST)
     return scene.replace({"solver.tolerance": tolerance, "solver.max_steps": 5 * solver.max_steps})

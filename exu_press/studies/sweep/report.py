@@ -100,7 +100,7 @@ class SweepReport(Report):
     def error(self, name: str, run: int) -> dict[str, Any] | None:
         """Return a number's error, as in a summary, or None."""
         parts = ("error", "determined", "low", "high")
-        columns = [self.columns.get(f"errors.{name}.{part}") for part in parts]
+        columns = [self.columns.get(f"errors.{name}.{entry}") for entry in parts]
         error = {p: c[run] for p, c in zip(parts, columns, strict=True) if c is not None}
         return error if None not in error.values() and len(error) == len(parts) else None
 
@@ -290,7 +290,7 @@ def report_of(study: Sweep, rows: Sequence[Mapping[str, Any]], files: Sequence[s
         rows: as the runs gave them, nested, in the study's order.
         files: where the runs are, or nothing.
     """
-    parts = []
+    runs = []
     for number, (point, scene, row) in enumerate(
         zip(study.points, study.scenes, rows, strict=True)
     ):
@@ -300,11 +300,14 @@ def report_of(study: Sweep, rows: Sequence[Mapping[str, Any]], files: Sequence[s
         if files:
             head["file"] = files[number]
         times = {name: scalars.pop(name) for name in RUN_TIMES if name in scalars}
-        parts.append((head, scalars, times))
+        runs.append((head, scalars, times))
     names = dict.fromkeys(
-        name for column in zip(*parts, strict=True) for part in column for name in part
+        name
+        for column in zip(*runs, strict=True)
+        for columns_of_run in column
+        for name in columns_of_run
     )
-    lines: list[dict[str, Value]] = [{**times, **scalars, **head} for head, scalars, times in parts]
+    lines: list[dict[str, Value]] = [{**times, **scalars, **head} for head, scalars, times in runs]
     return SweepReport(study, {name: tuple(line.get(name) for line in lines) for name in names})
 
 

@@ -35,7 +35,7 @@ def sweep(study: Sweep, directory: str | Path, **how: Any) -> SweepReport:
         digits = len(str(len(study.points)))
         numbers = range(1, len(study.points) + 1)
         files = [f"runs/{n:0{digits}}.nc" for n in numbers] if study.save_runs else []
-        rows = runs.of(study.scenes, files)
+        rows = runs.run_scenes(study.scenes, files)
         with error_prefix(f"{directory / FILE}: not rows of a sweep: "):
             report = report_of(study, rows, files)
         report.save(directory)

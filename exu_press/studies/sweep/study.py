@@ -17,7 +17,7 @@ from exu_press.schema.table import Table
 from exu_press.studies.base import Study
 from exu_press.studies.base.keys import Key, Values
 
-__all__ = ["Sweep", "Way", "grid", "listed", "sample"]
+__all__ = ["Sweep", "Way", "grid", "paired_values", "sample"]
 
 Points = tuple[dict[str, Any], ...]
 
@@ -32,21 +32,21 @@ def grid(keys: Mapping[str, Key]) -> Points:
     ({'speed_rpm': 200, 'crank_pin': 'dry'}, {'speed_rpm': 300, 'crank_pin': 'dry'})
     """
     values = _values(keys, "grid")
-    _check_number(math.prod(len(each) for each in values.values()))
+    _check_number(math.prod(len(key_values) for key_values in values.values()))
     return _points(values, itertools.product(*values.values()))
 
 
-def listed(keys: Mapping[str, Key]) -> Points:
+def paired_values(keys: Mapping[str, Key]) -> Points:
     """Return the first values of all keys, the second ones, and so on.
 
-    >>> listed({"speed_rpm": Values((200, 300)), "crank_pin": Values(("dry", "ideal"))})
+    >>> paired_values({"speed_rpm": Values((200, 300)), "crank_pin": Values(("dry", "ideal"))})
     ({'speed_rpm': 200, 'crank_pin': 'dry'}, {'speed_rpm': 300, 'crank_pin': 'ideal'})
     """
     values = _values(keys, "list")
-    lengths = {name: len(each) for name, each in values.items()}
+    lengths = {name: len(key_values) for name, key_values in values.items()}
     if len(set(lengths.values())) > 1:
-        told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
-        raise InputError(f'[keys]: {told}; allowed with way = "list" are lists of one length')
+        text = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+        raise InputError(f'[keys]: {text}; allowed with way = "list" are lists of one length')
     _check_number(next(iter(lengths.values())))
     return _points(values, zip(*values.values(), strict=True))
 
@@ -56,10 +56,10 @@ def sample(keys: Mapping[str, Key], n: int, seed: int) -> Points:
 
     Source: McKay, Beckman, Conover, Technometrics 21 (1979) 239-245; made by SciPy.
     """
-    for name, each in keys.items():
-        if isinstance(each, Values):
+    for name, variation in keys.items():
+        if isinstance(variation, Values):
             raise InputError(
-                f'keys.{name} = {each.plain()!r:.200}: allowed with way = "sample" is '
+                f'keys.{name} = {variation.plain()!r:.200}: allowed with way = "sample" is '
                 "{low = a, high = b} or {mean = m, deviation = s}"
             )
     _check_number(n)
@@ -67,30 +67,30 @@ def sample(keys: Mapping[str, Key], n: int, seed: int) -> Points:
 
     shares = np.asarray(qmc.LatinHypercube(len(keys), rng=seed).random(n))
     columns = [
-        each.at(column)
-        for each, column in zip(keys.values(), shares.T, strict=True)
-        if not isinstance(each, Values)
+        variation.quantile(column)
+        for variation, column in zip(keys.values(), shares.T, strict=True)
+        if not isinstance(variation, Values)
     ]
     return tuple(
         dict(zip(keys, map(float, row), strict=True)) for row in zip(*columns, strict=True)
     )
 
 
-def _values(keys: Mapping[str, Key], way: str) -> dict[str, tuple[Any, ...]]:
+def _values(keys: Mapping[str, Key], combination: str) -> dict[str, tuple[Any, ...]]:
     """Return the keys' values; raise InputError for a key that has none."""
-    found = {}
-    for name, each in keys.items():
-        if not isinstance(each, Values):
+    values = {}
+    for name, variation in keys.items():
+        if not isinstance(variation, Values):
             raise InputError(
-                f'keys.{name} = {each.plain()}: allowed with way = "{way}" is a list of values; '
-                '[sweep] way = "sample" takes ranges and distributions'
+                f'keys.{name} = {variation.plain()}: allowed with way = "{combination}" is a list '
+                'of values; [sweep] way = "sample" takes ranges and distributions'
             )
-        found[name] = each.values
-    return found
+        values[name] = variation.values
+    return values
 
 
-def _points(values: Mapping[str, Any], each: Any) -> Points:
-    return tuple(dict(zip(values, point, strict=True)) for point in each)
+def _points(values: Mapping[str, Any], combinations: Any) -> Points:
+    return tuple(dict(zip(values, point, strict=True)) for point in combinations)
 
 
 def _check_number(number: int) -> None:
@@ -119,9 +119,9 @@ class Way(Table):
         super().__post_init__()
         for name in ("n", "seed"):
             if (getattr(self, name) is None) == (self.way == SAMPLE):
-                told = "is needed" if self.way == SAMPLE else "is not used"
+                need = "is needed" if self.way == SAMPLE else "is not used"
                 raise InputError(
-                    f'sweep.{name}: {told} with way = "{self.way}"; allowed are way = "{SAMPLE}" '
+                    f'sweep.{name}: {need} with way = "{self.way}"; allowed are way = "{SAMPLE}" '
                     f'with n and seed, "{GRID}" and "{LIST}" without'
                 )
 
@@ -154,7 +154,7 @@ class Sweep(Study):
             assert self.sweep.n is not None
             assert self.sweep.seed is not None
             return sample(self.keys, self.sweep.n, self.sweep.seed)
-        return (grid if self.way == GRID else listed)(self.keys)
+        return (grid if self.way == GRID else paired_values)(self.keys)
 
     @cached_property
     def scenes(self) -> tuple[Scene, ...]:
@@ -163,5 +163,5 @@ class Sweep(Study):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the data that tell this sweep from others."""
-        given = {name: v for name, v in dataclasses.asdict(self.sweep).items() if v is not None}
-        return {**super().to_dict(), "sweep": given}
+        settings = {name: v for name, v in dataclasses.asdict(self.sweep).items() if v is not None}
+        return {**super().to_dict(), "sweep": settings}

@@ -21,7 +21,7 @@ def motion(run, points):
         scene=SCENE, skip=2, points=points, error=1e-3, period=period_of(points, 1e-3, 2),
         exponent=Exponent(-1.0, -1.5, -0.5, (1e-2,), 6),
         figures={"stroke": np.full(6, 0.06), "peak_velocity": scatter},
-        missed={"stroke": 1e-9, "peak_velocity": 1e-3},
+        step_errors={"stroke": 1e-9, "peak_velocity": 1e-3},
         units={"stroke": "m", "peak_velocity": "m/s^2"}, turns=4.0, last=[run],
         transient=np.array([0.1, 0.01]), state={},
     )  # fmt: skip

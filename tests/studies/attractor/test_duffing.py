@@ -9,7 +9,7 @@ from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2
 from scipy.integrate import solve_ivp
 
 from exu_press.integrate import solve_dynamic
-from exu_press.studies.attractor.lyapunov import combined
+from exu_press.studies.attractor.lyapunov import combine_exponents
 
 DAMPING, FORCE = 0.05, 7.5
 """Y. Ueda, J. Stat. Phys. 20 (1979) 181-196."""
@@ -88,7 +88,8 @@ def engine():
     while len(points) < 300:
         x = advanced(x)
         points.append(x)
-    return combined([np.array(each[1:]) for each in growths], distances, 1e-4), np.array(points)
+    exponent = combine_exponents([np.array(each[1:]) for each in growths], distances, 1e-4)
+    return exponent, np.array(points)
 
 
 @pytest.mark.long

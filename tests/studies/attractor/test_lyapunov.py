@@ -10,7 +10,7 @@ from exu_press import InputError, Scene
 from exu_press.cli import main
 from exu_press.quantities import quantities_of
 from exu_press.studies.attractor import attractor
-from exu_press.studies.attractor.lyapunov import combined, exponent_of
+from exu_press.studies.attractor.lyapunov import combine_exponents, exponent_of
 from exu_press.studies.attractor.orbit import NoMotion, Orbit
 
 FILM = Scene(
@@ -42,7 +42,7 @@ def henon(x):
 
 def test_the_logistic_map_has_the_logarithm_of_two():
     growths = [grown(logistic, np.array([0.3]), d, 4000) for d in (1e-6, 1e-7)]
-    found = combined(growths, (1e-6, 1e-7), 1e-15)
+    found = combine_exponents(growths, (1e-6, 1e-7), 1e-15)
     assert found.low < math.log(2.0) < found.high
     assert found.high - found.low < 0.1
     assert found.sign == "chaotic"
@@ -50,7 +50,7 @@ def test_the_logistic_map_has_the_logarithm_of_two():
 
 def test_the_henon_map_has_its_exponent():
     growths = [grown(henon, np.array([0.1, 0.1]), d, 4000) for d in (1e-6, 1e-7)]
-    found = combined(growths, (1e-6, 1e-7), 1e-15)
+    found = combine_exponents(growths, (1e-6, 1e-7), 1e-15)
     assert found.low < 0.4192 < found.high, "Sprott 2003, 5.2"
 
 
@@ -58,7 +58,7 @@ def test_the_henon_map_has_its_exponent():
 def test_nolds_finds_it_in_the_sampled_series(step, start):
     """From one coordinate of 2000 points, by Rosenstein's method, whose own error is 5 %."""
     nolds = pytest.importorskip("nolds")
-    found = combined([grown(step, np.array(start), 1e-6, 4000)], (1e-6,), 1e-15)
+    found = combine_exponents([grown(step, np.array(start), 1e-6, 4000)], (1e-6,), 1e-15)
     x, series = np.array(start), []
     for _ in range(2000):
         x = step(x)
@@ -71,10 +71,12 @@ def test_nolds_finds_it_in_the_sampled_series(step, start):
 
 def test_a_contraction_is_known_down_to_the_error():
     growths = [np.full(40, math.log(0.5)) + 1e-3 * np.arange(40) for _ in range(2)]
-    found = combined(growths, (1e-2, 1e-3), 1e-6)
+    found = combine_exponents(growths, (1e-2, 1e-3), 1e-6)
     assert found.value == pytest.approx(math.log(0.5), abs=0.03)
     assert found.sign == "regular"
-    below = combined([np.full(40, math.log(1e-6 / d)) for d in (1e-2, 1e-3)], (1e-2, 1e-3), 1e-6)
+    below = combine_exponents(
+        [np.full(40, math.log(1e-6 / d)) for d in (1e-2, 1e-3)], (1e-2, 1e-3), 1e-6
+    )
     assert below.low == -math.inf
     assert below.sign == "regular"
 
@@ -86,7 +88,7 @@ def test_an_interval_that_has_not_aligned_holds_the_exponent_that_it_tends_to():
         np.diff(np.log(np.hypot(np.exp(-0.30 * turn), part * np.exp(-0.238 * turn))))
         for part in (0.02, 0.5)
     ]
-    found = combined(growths, (1e-2, 1e-3), 1e-9)
+    found = combine_exponents(growths, (1e-2, 1e-3), 1e-9)
     assert found.low < -0.3 and found.high > -0.245
 
 
@@ -95,7 +97,7 @@ def test_a_distance_within_the_error_is_a_bound_only_with_the_error(distance):
     """Neighbours with an exponent of -0.4 that steps bring together to less than their error."""
     error = 4e-3
     nearer = max(distance * math.exp(-0.4) - 2.0 * error, 1e-4)
-    found = combined([np.full(40, math.log(nearer / distance))], (distance,), error)
+    found = combine_exponents([np.full(40, math.log(nearer / distance))], (distance,), error)
     assert found.low < -0.4 < found.high
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from exu_press import InputError, Scene
 from exu_press.studies.base import Normal, Range, Study, Values
-from exu_press.studies.base.evaluation import Evaluation, error_in, ranged
+from exu_press.studies.base.evaluation import Evaluation, error_in, require_key_kinds
 
 SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.01, settle=0.0)
 ROD, SPEED = "slider_crank.rod_length", "speed_rpm"
@@ -39,8 +39,8 @@ def test_failed_runs_are_counted_and_give_no_number():
     found = evaluation([point(s) for s in (100.0, 300.0, 400.0, 100.0)] + [point(100.0, 0.001)])
     assert found[[0, 3]].tolist() == [[1.0, 7.0], [1.0, 7.0]]
     assert np.isnan(found[[1, 2, 4]]).all()
-    assert (len(runs.scenes), evaluation.asked) == (3, 4)
-    told = evaluation.told()
+    assert (len(runs.scenes), evaluation.number_of_points) == (3, 4)
+    told = evaluation.run_summary()
     assert told[0] == "4 runs: 1 gave numbers, 3 did not"
     assert any("failed: too fast" in line for line in told)
     assert any("too short to have stroke" in line for line in told)
@@ -48,7 +48,7 @@ def test_failed_runs_are_counted_and_give_no_number():
     evaluation([point(100.0)])
     assert len(runs.scenes) == 3
     evaluation([point(300.0, 0.5)])
-    assert evaluation.told()[1] == "  2 x failed; the first: too fast"
+    assert evaluation.run_summary()[1] == "  2 x failed; the first: too fast"
 
 
 def test_a_quantity_that_the_scene_has_not():
@@ -57,11 +57,11 @@ def test_a_quantity_that_the_scene_has_not():
 
 
 def test_kinds_of_keys_that_a_study_takes():
-    assert ranged(STUDY, "x", (Range, Values)) == (ROD, SPEED)
+    assert require_key_kinds(STUDY, "x", (Range, Values)) == (ROD, SPEED)
     with pytest.raises(InputError, match=r"in a file for exu-press fit is \{low = a"):
-        ranged(STUDY, "fit")
+        require_key_kinds(STUDY, "fit")
     normal = Study(scene=SCENE, keys={ROD: {"mean": 0.4, "deviation": 0.01}})
-    assert ranged(normal, "sensitivity", (Range, Normal)) == (ROD,)
+    assert require_key_kinds(normal, "sensitivity", (Range, Normal)) == (ROD,)
 
 
 def test_the_error_of_what_is_not_determined_is_half_its_bounds():

@@ -37,13 +37,13 @@ def test_a_key_given_twice_is_refused():
 def test_shares_and_values_belong_to_each_other(share):
     for each in keys_from(ALL).values():
         if not isinstance(each, Values):
-            value = each.at(np.array([share]))
+            value = each.quantile(np.array([share]))
             assert each.share(value) == pytest.approx([share], abs=1e-9)
             assert each.ends[0] <= value[0] <= each.ends[1]
 
 
 def test_a_normal_distribution_has_its_mean_and_deviation():
     shares = (np.arange(100_000) + 0.5) / 100_000
-    values = Normal(mean=3.0, deviation=0.5).at(shares)
+    values = Normal(mean=3.0, deviation=0.5).quantile(shares)
     assert (values.mean(), values.std()) == (pytest.approx(3.0), pytest.approx(0.5, rel=1e-3))
-    assert Normal(mean=3.0, deviation=0.5, low=2.9).at(shares).min() >= 2.9
+    assert Normal(mean=3.0, deviation=0.5, low=2.9).quantile(shares).min() >= 2.9

@@ -13,12 +13,12 @@ STUDY = Study(scene=SCENE, keys={"speed_rpm": {"low": 100.0, "high": 300.0}})
 def test_calls_share_processes_and_rows(tmp_path):
     scenes = [STUDY.scene_at({"speed_rpm": speed}) for speed in (100.0, 200.0, 300.0)]
     with Runs(STUDY, tmp_path, workers=1) as runs:
-        first = runs.of(scenes[:2])
-        again = runs.of([scenes[2], *scenes[:2]])
+        first = runs.run_scenes(scenes[:2])
+        again = runs.run_scenes([scenes[2], *scenes[:2]])
     assert again[1:] == first
     assert len((tmp_path / FILE).read_text().splitlines()) == 3
     with Runs(STUDY, tmp_path, workers=1) as runs:
-        assert runs.of(scenes) == [*first, again[0]]
+        assert runs.run_scenes(scenes) == [*first, again[0]]
     assert len((tmp_path / FILE).read_text().splitlines()) == 3
 
 
@@ -27,7 +27,7 @@ def test_a_resumed_study_says_once_how_many_runs_it_has(tmp_path, capsys):
     for said in ("", "study: runs that are finished: 2\n"):
         with Runs(STUDY, tmp_path, workers=1, quiet=False) as runs:
             for scene in [*scenes, *scenes]:
-                runs.of([scene])
+                runs.run_scenes([scene])
         assert capsys.readouterr().err == said
 
 

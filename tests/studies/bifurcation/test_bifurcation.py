@@ -1,4 +1,4 @@
-"""Bifurcation studies: branches with carried states, resumption, picture, refusals."""
+"""Bifurcation studies: branches with rescale_state states, resumption, picture, refusals."""
 
 import json
 
@@ -12,7 +12,7 @@ from exu_press.model.state import State
 from exu_press.studies.attractor.orbit import Orbit
 from exu_press.studies.bifurcation import Bifurcation, bifurcation
 from exu_press.studies.bifurcation.figure import bifurcation_figure
-from exu_press.studies.bifurcation.run import carried, run_point
+from exu_press.studies.bifurcation.run import rescale_state, run_point
 
 SHORT = {"skip": 1, "revolutions": 20, "longest": 2}
 SPEEDS = {"speed_rpm": [230.0, 240.0]}
@@ -64,7 +64,7 @@ def test_a_state_fits_another_speed():
     orbit = Orbit(FILM)
     state: State = orbit.state
     orbit.close()
-    now = carried(state, FILM.speed_rpm, 1.01 * FILM.speed_rpm)
+    now = rescale_state(state, FILM.speed_rpm, 1.01 * FILM.speed_rpm)
     faster = Orbit(FILM.replace({"speed_rpm": 1.01 * FILM.speed_rpm}), now)
     before = faster.point() if faster.revolutions else None
     result = faster.advance(recorded=True)

@@ -7,7 +7,7 @@ import pytest
 
 from exu_press import InputError, Scene, simulate
 from exu_press.numerics.piecewise import eno_cubic, evaluate
-from exu_press.studies.curve_file import CurveFile, computed, factor_to, read_curve
+from exu_press.studies.curve_file import CurveFile, channel_polynomials, factor_to, read_curve
 from exu_press.studies.fit.curve import Curve, fit_sensor
 
 AT = np.linspace(0.0, 2.0, 4001)
@@ -98,11 +98,11 @@ def test_a_curve_over_an_angle_that_falls_back_is_refused():
 
     run, most = forth.map_values(swing), np.degrees(forth["crank_angle"][half])
     below = CurveFile("crank_angle", -PLACES, "slider_velocity", "m/s", PLACES)
-    assert len(computed("a.csv", below, run)[0]) == len(run.time)
+    assert len(channel_polynomials("a.csv", below, run)[0]) == len(run.time)
     passed = dataclasses.replace(below, at=np.linspace(0.5, 1.0, len(PLACES)) * most)
     with pytest.raises(InputError, match=rf"turns back at {most:.6g} deg, .* allowed is .* time"):
-        computed("a.csv", passed, run)
-    assert computed("a.csv", passed, forth)[2] == "m/s"
+        channel_polynomials("a.csv", passed, run)
+    assert channel_polynomials("a.csv", passed, forth)[2] == "m/s"
 
 
 @pytest.mark.parametrize(
@@ -142,8 +142,8 @@ def test_values_between_steps_are_those_of_a_finer_record(channel, unit, off):
     few = fine.map_values(lambda _, values: values[::50])
     for over in ("time", "crank_angle"):
         file = CurveFile(over, np.array([0.0]), channel, unit, np.array([0.0]))
-        places, values, _ = computed("a.csv", file, fine)
-        at, polynomials, _ = computed("a.csv", file, few)
+        places, values, _ = channel_polynomials("a.csv", file, fine)
+        at, polynomials, _ = channel_polynomials("a.csv", file, few)
         inside = places[(places > 0.1 * at[-1]) & (places < at[-1])]
         apart = evaluate(at, polynomials, inside) - evaluate(places, values, inside)
         assert np.abs(apart).max() < off

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from exu_press.studies.precision.errors import Errors
-from exu_press.studies.precision.measured import Attempt, Measured, timed
+from exu_press.studies.precision.measured import Attempt, Measured, time_runs
 from exu_press.studies.precision.rows import order_of, orders_of, row_of, series_of
 
 NO_FLOOR = Errors(0.0, 0.0, 0.0)
@@ -21,7 +21,10 @@ def test_errors_below_the_floor_are_raised_to_it_and_marked():
     low = row(1e-3, 1e-9, floor=Errors(1e-8, 1e-10, None))
     assert (low.error_position, low.error_velocity) == (1e-8, 1e-9)
     assert low.at_most == ("error_position",)
-    assert low.resolved("error_position") is None and low.resolved("error_velocity") == 1e-9
+    assert (
+        low.resolved_error("error_position") is None
+        and low.resolved_error("error_velocity") == 1e-9
+    )
 
 
 def test_order_of_a_second_order_method():
@@ -52,7 +55,7 @@ def test_long_runs_and_failed_ones_are_not_repeated():
     def attempt(seconds, status="completed"):
         return Attempt("s", "step", 1.0, lambda: Measured(None, (seconds,), (seconds,), status))
 
-    assert len(timed(attempt(1.0), 3).wall_times) == 3
-    assert len(timed(attempt(100.0), 3).wall_times) == 1
-    assert len(timed(attempt(100.0), 3, longest=math.inf).wall_times) == 3
-    assert len(timed(attempt(1.0, "failed"), 3).wall_times) == 1
+    assert len(time_runs(attempt(1.0), 3).wall_times) == 3
+    assert len(time_runs(attempt(100.0), 3).wall_times) == 1
+    assert len(time_runs(attempt(100.0), 3, longest=math.inf).wall_times) == 3
+    assert len(time_runs(attempt(1.0, "failed"), 3).wall_times) == 1

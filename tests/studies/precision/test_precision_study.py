@@ -79,5 +79,5 @@ def test_stated_errors_stand_beside_the_true_ones(report):
 )
 def test_a_users_scene_gets_the_best_reference_there_is(changes, closed_form):
     """Kinematics where nothing gives, else the package's own tightest run."""
-    case = case_of("mine", Scene(revolutions=0.01, **changes)).within(QUICK)
+    case = case_of("mine", Scene(revolutions=0.01, **changes)).limit_to(QUICK)
     assert ("closed-form" in case.reference(QUICK).method) == closed_form

@@ -77,7 +77,7 @@ def changed(result, **values):
 
 
 def failed(result):
-    return [check.name for check in checks_of(result) if not check.passed]
+    return [check.name for check in checks_of(result) if not check.is_within_limit]
 
 
 def test_each_check_can_fail(run):
@@ -122,7 +122,7 @@ def test_agreement_sees_a_difference_that_is_not_stated(run, channel, factor, na
     told = with_errors(run, beside=False)
     assert agreement(told, run).value == 0.0
     check = agreement(changed(told, **{channel: factor * run[channel]}), run)
-    assert not check.passed
+    assert not check.is_within_limit
     assert check.note.startswith(named)
 
 
@@ -141,7 +141,7 @@ def test_a_difference_that_is_stated_is_right(run):
             "error": half, "determined": determined, "low": value - half, "high": value + half
         }  # fmt: skip
         said = dataclasses.replace(told, info={**told.info, "errors": {"stroke": entry}})
-        assert agreement(said, off).passed is right
+        assert agreement(said, off).is_within_limit is right
     finer = dataclasses.replace(off, info={**off.info, "errors": said.info["errors"]})
     assert agreement(said, finer).value == pytest.approx(0.1 / (1.5 * 0.03 + 0.03), rel=1e-2)
 

@@ -6,7 +6,7 @@ import pytest
 from exu_press import InputError
 from exu_press.studies.base.keys import keys_from
 from exu_press.studies.sweep.report import flat
-from exu_press.studies.sweep.study import grid, listed, sample
+from exu_press.studies.sweep.study import grid, paired_values, sample
 
 
 def test_a_grid_has_every_combination_the_last_key_fastest():
@@ -18,7 +18,7 @@ def test_a_grid_has_every_combination_the_last_key_fastest():
 
 def test_a_list_goes_side_by_side():
     keys = keys_from({"a": [1, 2], "b": ["x", "y"]})
-    assert listed(keys) == ({"a": 1, "b": "x"}, {"a": 2, "b": "y"})
+    assert paired_values(keys) == ({"a": 1, "b": "x"}, {"a": 2, "b": "y"})
 
 
 def test_a_latin_hypercube_has_one_point_in_every_slice():

@@ -89,7 +89,16 @@ simulate(Scene(joints={}, revolutions=1e-3))
 print(*(name for name in sys.modules if name.partition(".")[0] in ("exu_press", "fe_models")))
 """
 
-NOT_OF_AN_IDEAL_RUN = ("film", "oil", "wear", "worn", "flexible", "placed_part", "studies")
+NOT_OF_AN_IDEAL_RUN = (
+    "film",
+    "graphics",
+    "oil",
+    "wear",
+    "worn",
+    "flexible",
+    "placed_part",
+    "studies",
+)
 
 
 def test_an_ideal_rigid_run_imports_what_it_uses():

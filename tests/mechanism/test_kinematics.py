@@ -138,13 +138,6 @@ def test_a_crank_that_cannot_go_round_is_refused_with_angle_and_bodies():
     assert angle == pytest.approx(math.degrees(far) - math.degrees(0.4), abs=0.05)
 
 
-def test_a_rod_too_short_for_its_crank():
-    text = refused(slider_crank(crank=0.1, rod=0.08, at=0.2).require_turning)
-    assert "rod and slider" in text or "slider and rod" in text
-    angle = float(text.split("crank angle ")[1].split(" deg")[0])
-    assert angle == pytest.approx(math.degrees(math.asin(0.8) - 0.2), abs=0.05)
-
-
 def test_a_change_point_is_refused():
     """A parallelogram branches where all links lie in one line."""
     text = refused(four_bar(crank=0.1, coupler=0.35, rocker=0.1, base=0.35).require_turning)
@@ -171,13 +164,16 @@ def test_a_body_too_many():
     assert "rocker" not in text
 
 
-def test_a_joint_too_many():
-    """The rocker is held by a second pivot: nothing may move."""
+def test_a_second_pivot_or_a_guide_of_the_rocker_is_too_many():
     mechanism = four_bar()
-    held = replace(
-        mechanism, joints=(*mechanism.joints, Joint("bolt", (0.3, 0.4), "rocker", GROUND))
-    )
-    assert "hold coupler and rocker more than once" in refused(held.require_turning)
+    bolt = Joint("bolt", (0.3, 0.4), "rocker", GROUND)
+    for extra in (
+        {"joints": (*mechanism.joints, bolt)},
+        {"guides": (Guide("rocker", (1.0, 1.0)),)},
+    ):
+        text = refused(replace(mechanism, **extra).require_turning)
+        assert text.startswith("four_bar: joints and guides hold coupler and rocker more than once")
+        assert "at crank angle 0" in text
 
 
 def test_redundant_loops_that_disagree_are_refused_with_the_bodies():
@@ -190,10 +186,3 @@ def test_redundant_loops_that_disagree_are_refused_with_the_bodies():
     text = refused(replace(mechanism, joints=tuple(wrong)).require_turning)
     assert "other_rod" in text
     assert "do not agree" in text
-
-
-def test_a_guide_and_a_pivot_on_one_body_lock():
-    mechanism = four_bar()
-    text = refused(replace(mechanism, guides=(Guide("rocker", (1.0, 1.0)),)).require_turning)
-    assert text.startswith("four_bar: joints and guides hold coupler and rocker more than once")
-    assert "at crank angle 0.0" in text

@@ -1,14 +1,15 @@
-"""Stroke, dead centres and mechanical advantage against the slider-crank's closed forms."""
+"""Stroke, dead centres, mechanical advantage and transmission angles against closed forms."""
 
 import math
 
 import numpy as np
 import pytest
-from drawings import four_bar, slider_crank
+from drawings import four_bar, slider_crank, stephenson
 
 from exu_press.mechanism import Press, SliderCrank, press
 from exu_press.mechanism import slider_crank as shipped_slider_crank
 from exu_press.mechanism.stroke import stroke_of
+from exu_press.mechanism.transmission import group_equal_angles, transmission_angles
 
 ANGLES = np.radians(np.arange(0.0, 361.0))
 R, L = 0.1, 0.4
@@ -58,3 +59,40 @@ def test_dead_centres_are_those_of_the_mechanism():
     mechanism = press(Press())
     top, bottom = stroke_of(mechanism, ANGLES).dead_centres
     assert (top.angle, bottom.angle) == pytest.approx(mechanism.dead_centres, abs=1e-4)
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.05])
+def test_transmission_angle_of_a_slider_crank(offset):
+    """cos mu = (r sin theta - e) / l."""
+    at = 0.7
+    found = transmission_angles(slider_crank(offset=offset, crank=0.1, rod=0.4, at=at), ANGLES)
+    (values,) = found.values()
+    expected = np.arccos(np.abs(0.1 * np.sin(ANGLES + at) - offset) / 0.4)
+    assert values == pytest.approx(expected, abs=1e-12)
+
+
+def test_transmission_angle_of_a_four_bar():
+    """The law of cosines over the distance of crank pin and pivot."""
+    at, (crank, coupler, rocker, base) = 0.7, (0.1, 0.4, 0.3, 0.35)
+    found = transmission_angles(four_bar(crank, coupler, rocker, base, at), ANGLES)
+    assert list(found) == ["knuckle"]
+    across = crank**2 + base**2 - 2 * crank * base * np.cos(ANGLES + at)
+    cosine = (coupler**2 + rocker**2 - across) / (2 * coupler * rocker)
+    assert found["knuckle"] == pytest.approx(np.arccos(np.abs(cosine)), abs=1e-11)
+
+
+def test_larger_groups_have_no_transmission_angle():
+    assert transmission_angles(stephenson(), ANGLES) == {}
+
+
+def test_dyads_of_a_press_have_transmission_angles():
+    """The right half holds the slider, which holds the left plunger: its link has none."""
+    found = set(transmission_angles(press(Press()), ANGLES))
+    right = {"knuckle_6_right", "plunger_pin_right"}
+    assert found == {"slide_pin", "counterweight_pin", "knuckle_6_left"} | right
+
+
+def test_equal_transmission_angles_are_named_together_smallest_first():
+    values = np.array([1.0, 0.5])
+    found = group_equal_angles({"a": values + 0.1, "left": values, "right": values.copy()})
+    assert [name for name, _ in found] == ["left, right", "a"]

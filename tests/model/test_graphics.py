@@ -85,13 +85,3 @@ def test_the_picture(tmp_path):
     places = np.vstack([shapes[name].outline_at(motion[name].position[0]) for name in plates])
     width, height = np.ptp(places, axis=0)
     assert np.ptp(columns) / np.ptp(rows) == pytest.approx(width / height, rel=0.02)
-
-
-def test_a_run_makes_no_graphics():
-    code = (
-        "import sys; from exu_press import Scene, simulate; "
-        "simulate(Scene(mechanism='slider_crank', revolutions=0.01)); "
-        "print('exu_press.model.graphics' in sys.modules)"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split()[-1] == "False"

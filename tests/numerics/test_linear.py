@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_info
 
 from exu_press.numerics import linear
 from exu_press.numerics.linear import SPARSE_FROM, Equations
+from exu_press.numerics.threads import one_thread
 
 
 def saddle(size):
@@ -35,3 +37,13 @@ def test_many_unknowns_take_the_sparse_way(monkeypatch):
 def test_what_cannot_be_solved_is_told(size, value):
     with pytest.raises(np.linalg.LinAlgError):
         linear.Equations(np.full((size, size), value)).solve(np.zeros(size))
+
+
+def test_linear_algebra_has_one_thread_and_then_its_own_again():
+    def threads():
+        return [library["num_threads"] for library in threadpool_info()]
+
+    before = threads()
+    with one_thread():
+        assert set(threads()) == {1}
+    assert threads() == before

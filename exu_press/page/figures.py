@@ -144,12 +144,12 @@ def _figure(name: str, across: Range1d, up: Range1d, height: int) -> Any:
     borders = {"min_border_left": 74, "min_border_right": 12}
     borders |= {"min_border_top": 4, "min_border_bottom": 4}
     sheets = [InlineStyleSheet(css=SCROLLING)]
-    made = _empty(name, across, up, height, **borders, stylesheets=sheets)
-    let_zoom(made, "width")
-    made.xaxis.ticker = AdaptiveTicker(mantissas=[1, 2, 5], name=f"ticker-{name}")
-    made.xaxis.name = f"x-axis-{name}"
-    made.xaxis.major_label_standoff = 2
-    return made
+    plot = _empty(name, across, up, height, **borders, stylesheets=sheets)
+    let_zoom(plot, "width")
+    plot.xaxis.ticker = AdaptiveTicker(mantissas=[1, 2, 5], name=f"ticker-{name}")
+    plot.xaxis.name = f"x-axis-{name}"
+    plot.xaxis.major_label_standoff = 2
+    return plot
 
 
 def _empty(name: str, across: Range1d, up: Range1d, height: int, **more: Any) -> Any:
@@ -157,13 +157,13 @@ def _empty(name: str, across: Range1d, up: Range1d, height: int, **more: Any) ->
     return figure(name=name, height=height, x_range=across, y_range=up, **bare, **more)
 
 
-def let_zoom(made: Any, dimensions: Literal["width", "both"] = "both") -> None:
+def let_zoom(plot: Any, dimensions: Literal["width", "both"] = "both") -> None:
     """Let a drag zoom a figure, or move it if the page says so, and the wheel with control."""
-    pan = PanTool(dimensions=dimensions, name=f"pan-{made.name}")
-    zoom = BoxZoomTool(dimensions=dimensions, name=f"zoom-{made.name}")
+    pan = PanTool(dimensions=dimensions, name=f"pan-{plot.name}")
+    zoom = BoxZoomTool(dimensions=dimensions, name=f"zoom-{plot.name}")
     wheel = WheelZoomTool(dimensions=dimensions, modifiers={"ctrl": True})
-    made.add_tools(pan, zoom, wheel)
-    made.toolbar.active_drag, made.toolbar.active_scroll = zoom, wheel
+    plot.add_tools(pan, zoom, wheel)
+    plot.toolbar.active_drag, plot.toolbar.active_scroll = zoom, wheel
 
 
 @cache
@@ -175,8 +175,8 @@ def points_and_lines() -> dict[str, Any]:
 def _points() -> Any:
     """Return the figure with a point for every run."""
     across, up = (Range1d(start=0.0, end=1.0, name=f"points-{axis}") for axis in "xy")
-    made = _empty("points", across, up, 380, min_border_left=84)
-    let_zoom(made)
+    plot = _empty("points", across, up, 380, min_border_left=84)
+    let_zoom(plot)
     for name, marker, size, colour in (
         ("others", "circle", 5, FAINT),
         ("runs", "circle", 7, RUN),
@@ -185,10 +185,10 @@ def _points() -> Any:
         empty: dict[str, list[float]] = {n: [] for n in ("x", "y", "low", "high", "colour")}
         source = ColumnDataSource(empty, name=f"points-{name}")
         colour_of: Any = "colour" if name == "runs" else colour
-        made.add_layout(
+        plot.add_layout(
             Whisker(base="x", lower="low", upper="high", source=source, line_color=colour)
         )
-        made.scatter(
+        plot.scatter(
             "x",
             "y",
             source=source,
@@ -200,17 +200,17 @@ def _points() -> Any:
             alpha=0.5 if name == "others" else 0.9,
             name=f"glyphs-{name}",
         )
-    return made
+    return plot
 
 
 def _parallel() -> Any:
     """Return the figure of parallel coordinates: a line for every run over an axis for each key."""
     across = Range1d(start=-0.4, end=1.4, name="parallel-x")
-    made = _empty("parallel", across, Range1d(start=-0.22, end=1.22, name="parallel-y"), 380)
-    made.grid.visible = False
-    made.yaxis.visible = False
-    made.xaxis.ticker = FixedTicker(ticks=[], name="parallel-ticks")
-    made.xaxis.visible = False
+    plot = _empty("parallel", across, Range1d(start=-0.22, end=1.22, name="parallel-y"), 380)
+    plot.grid.visible = False
+    plot.yaxis.visible = False
+    plot.xaxis.ticker = FixedTicker(ticks=[], name="parallel-ticks")
+    plot.xaxis.visible = False
     for name, colour, width, alpha in (
         ("others", FAINT, 0.8, 0.3),
         ("runs", RUN, 1.1, 0.65),
@@ -218,13 +218,13 @@ def _parallel() -> Any:
     ):
         source = ColumnDataSource({"xs": [], "ys": [], "colour": []}, name=f"lines-{name}")
         colour_of = "colour" if name == "runs" else colour
-        made.multi_line(
+        plot.multi_line(
             "xs", "ys", source=source, line_color=colour_of, line_width=width, line_alpha=alpha
         )
     axes = ColumnDataSource({"x": [], "low": [], "high": []}, name="parallel-axes")
-    made.segment("x", "low", "x", "high", source=axes, line_color="#767676", line_width=1.2)
+    plot.segment("x", "low", "x", "high", source=axes, line_color="#767676", line_width=1.2)
     selected_range = ColumnDataSource({"x": [], "low": [], "high": []}, name="parallel-kept")
-    made.segment(
+    plot.segment(
         "x",
         "low",
         "x",
@@ -234,15 +234,15 @@ def _parallel() -> Any:
         line_width=7,
         line_alpha=0.55,
     )
-    words = ColumnDataSource({"x": [], "y": [], "text": [], "align": []}, name="parallel-words")
-    made.text(
+    texts = ColumnDataSource({"x": [], "y": [], "text": [], "align": []}, name="parallel-words")
+    plot.text(
         "x",
         "y",
         "text",
-        source=words,
+        source=texts,
         text_align="center",
         text_baseline="middle",
         text_font_size="11px",
         name="parallel-labels",
     )
-    return made
+    return plot

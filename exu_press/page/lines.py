@@ -56,22 +56,22 @@ def _figure(panel: Panel) -> Any:
 
     from exu_press.page.figures import let_zoom
 
-    made = figure(height=300, sizing_mode="stretch_width", tools=[], toolbar_location=None)
-    let_zoom(made)
+    plot = figure(height=300, sizing_mode="stretch_width", tools=[], toolbar_location=None)
+    let_zoom(plot)
     heights = [y for line in panel.lines for y in (*line.y, *(line.low or ()), *(line.high or ()))]
     if heights:
         margin = 0.08 * (max(heights) - min(heights)) or 0.08 * abs(heights[0]) or 1.0
-        made.y_range = Range1d(start=min(heights) - margin, end=max(heights) + margin)
+        plot.y_range = Range1d(start=min(heights) - margin, end=max(heights) + margin)
     for number, line in enumerate(panel.lines):
         colour = colour_of(number)
         if line.points:
-            made.scatter([*line.x], [*line.y], size=5, color=colour, alpha=0.8)
+            plot.scatter([*line.x], [*line.y], size=5, color=colour, alpha=0.8)
         else:
-            made.line([*line.x], [*line.y], line_color=colour, line_width=1.5)
+            plot.line([*line.x], [*line.y], line_color=colour, line_width=1.5)
         if line.low is not None and line.high is not None:
             bars = {"x": [*line.x], "low": [*line.low], "high": [*line.high]}
             source = ColumnDataSource(bars)
-            made.add_layout(
+            plot.add_layout(
                 Whisker(base="x", lower="low", upper="high", source=source, line_color=colour)
             )
-    return made
+    return plot

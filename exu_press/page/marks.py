@@ -79,16 +79,16 @@ def values_on(result: Result, curve: Curve, *, as_read: bool = False) -> Array:
 
 def peaks(result: Result, curves: Iterable[Curve]) -> dict[str, dict[str, Any]]:
     """Return, by curve, the peak that a quantity states, with its error and its bounds, SI."""
-    known = values_of(result)
-    peak_of_curve = {}
+    values_by_name = values_of(result)
+    marks = {}
     for curve in curves:
-        value = known.get(curve.peak)
+        value = values_by_name.get(curve.peak)
         if value is None or value.value is None:
             continue
         values = values_on(result, curve, as_read=True)
         at = int(np.argmin(values) if curve.least else np.argmax(np.abs(values)))
         sign = -1.0 if values[at] < 0.0 <= value.value else 1.0
-        peak_of_curve[curve.name] = {
+        marks[curve.name] = {
             "at": float(result.time[at]),
             "value": sign * float(value.value),
             "low": None if value.low is None else sign * float(value.low),
@@ -97,4 +97,4 @@ def peaks(result: Result, curves: Iterable[Curve]) -> dict[str, dict[str, Any]]:
             "determined": value.determined,
             "quantity": value.name,
         }
-    return peak_of_curve
+    return marks

@@ -57,17 +57,17 @@ def _label(body: str) -> str:
     """Return a body's name as it stands beside it; "" where the other side has it."""
     if body.endswith("_left"):
         return ""
-    words = joint_in_words(body.removesuffix("_right"))
-    return words[:1].lower() + words[1:]
+    label = joint_in_words(body.removesuffix("_right"))
+    return label[:1].lower() + label[1:]
 
 
 def _joint(result: Result, mechanism: Mechanism, name: str) -> dict[str, Any]:
     """Return a joint's place and properties."""
     record = result.joints[name]
     joint = next(joint for joint in mechanism.joints if joint.name == name)
-    (body, point), (bearing, there) = mechanism.ends(joint)
+    (body, point), (bearing, bearing_point) = mechanism.ends(joint)
     if body == GROUND:
-        body, point = bearing, there
+        body, point = bearing, bearing_point
     return {
         "name": name,
         "label": joint_in_words(name),

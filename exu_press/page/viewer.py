@@ -163,9 +163,9 @@ def _first(results: Mapping[str, Result], curves: Mapping[str, list[Curve]]) -> 
     richest = max(results.values(), key=lambda result: len(result.clearance_joints))
     names = richest.clearance_joints or tuple(richest.joints)
     drawn, _ = busiest([richest], sorted(names), "force", 1)
-    known = {curve.name for curve_list in curves.values() for curve in curve_list}
+    available = {curve.name for curve_list in curves.values() for curve in curve_list}
     preferred = [*FIRST, *(f"{name}_force" for name in drawn)]
-    return [name for name in preferred if name in known] or sorted(known)[:1]
+    return [name for name in preferred if name in available] or sorted(available)[:1]
 
 
 LAYOUT = """

@@ -27,16 +27,13 @@ def test_all_three_agree_on_a_constant_acceleration(acceleration):
     assert differentiated_peak(TIME, position, velocity) == pytest.approx(5.0)
 
 
-def test_an_impact_is_spread_over_the_window():
+@pytest.mark.parametrize(
+    ("begin", "window", "mean"), [(0.0312345, 1e-3, 100.0), (0.03, 5e-4, 200.0), (0.03, 5e-5, 1e3)]
+)
+def test_an_impact_is_spread_over_the_window(begin, window, mean):
     """1000 m/s^2 over 0.1 ms is 100 m/s^2 over 1 ms, wherever the window may fall."""
-    velocity, _ = pulse(1000.0, 0.0312345, 1e-4)
-    assert mean_peak(TIME, velocity) == pytest.approx(100.0, rel=1e-3)
-
-
-def test_window_can_be_chosen():
-    velocity, _ = pulse(1000.0, 0.03, 1e-4)
-    assert mean_peak(TIME, velocity, window=5e-4) == pytest.approx(200.0, rel=1e-3)
-    assert mean_peak(TIME, velocity, window=5e-5) == pytest.approx(1000.0, rel=1e-3)
+    velocity, _ = pulse(1000.0, begin, 1e-4)
+    assert mean_peak(TIME, velocity, window=window) == pytest.approx(mean, rel=1e-3)
 
 
 def test_mean_is_the_jump_of_velocity_over_the_window():
@@ -61,17 +58,12 @@ def test_mean_about_the_peak_of_a_load():
     assert mean_peak_of(time[:1], time[:1]) is None
 
 
-def test_second_difference_of_an_impact_at_a_sample():
-    """A step of velocity dv on a sample reads dv * rate."""
-    velocity, position = pulse(1000.0, 0.03 - 5e-5, 1e-4)
+@pytest.mark.parametrize(("middle", "expected"), [(0.03, 100.0), (0.0305, 50.0)])
+def test_second_difference_of_an_impact_depends_on_where_samples_are(middle, expected):
+    """A step of velocity dv on a sample reads dv * rate, one between two samples half of it."""
+    velocity, position = pulse(1000.0, middle - 5e-5, 1e-4)
     read = differentiated_peak(TIME, position, velocity)
-    assert read == pytest.approx(100.0, rel=0.03)
-
-
-def test_second_difference_of_an_impact_between_samples_is_half():
-    velocity, position = pulse(1000.0, 0.0305 - 5e-5, 1e-4)
-    read = differentiated_peak(TIME, position, velocity)
-    assert read == pytest.approx(50.0, rel=0.03)
+    assert read == pytest.approx(expected, rel=0.03)
 
 
 def test_samples_of_a_part_are_those_of_the_whole():
@@ -100,17 +92,16 @@ def test_record_need_not_be_evenly_spaced_nor_start_at_zero():
 
 
 def test_records_that_are_too_short_have_no_answer():
-    short = TIME[:50]  # 0.5 ms
-    assert mean_peak(short, short) is None
-    assert differentiated_peak(short, short, short) is None
-    assert differentiated_peak(TIME[:150], TIME[:150], TIME[:150]) is None
-
-
-def test_shortest_records_that_have_one():
-    exact = TIME[:101]  # 1 ms
-    assert mean_peak(exact, 5.0 * exact) == pytest.approx(5.0)
-    exact = TIME[:201]  # three samples
-    assert differentiated_peak(exact, 2.5 * exact**2, 5.0 * exact) == pytest.approx(5.0)
+    """A mean over 1 ms needs 1 ms, a second difference three samples."""
+    for end, mean, second in (
+        (50, None, None),
+        (101, 5.0, None),
+        (150, 5.0, None),
+        (201, 5.0, 5.0),
+    ):
+        time = TIME[:end]
+        assert mean_peak(time, 5.0 * time) == pytest.approx(mean)
+        assert differentiated_peak(time, 2.5 * time**2, 5.0 * time) == pytest.approx(second)
 
 
 def test_a_record_read_in_parts_has_the_same_means(monkeypatch):

@@ -58,19 +58,3 @@ def test_without_xarray_it_says_so(result, monkeypatch):
     monkeypatch.setitem(sys.modules, "xarray", None)
     with pytest.raises(InputError, match="needs the package xarray"):
         result.to_xarray()
-
-
-def test_scalars_as_a_frame(result, data):
-    scalars = [name for name, values in data.items() if values.dims == ("time",)]
-    frame = data[scalars].to_dataframe()
-    assert frame.index.name == "time" and len(frame) == len(result.time)
-    assert frame["slider_position"].min() == result["slider_position"].min()
-
-
-def test_summary_as_a_frame(result):
-    pandas = pytest.importorskip("pandas")
-    frame = pandas.DataFrame(result.summary()["quantities"]).T
-    assert (
-        frame.loc["peak_acceleration.mean_1ms", "value"]
-        == result.quantity("peak_acceleration.mean_1ms").value
-    )

@@ -84,11 +84,13 @@ def test_errors_stand_in_the_summary_and_in_the_file(tmp_path):
 
 
 def test_motions_that_part_leave_bounds(result):
-    """RefinementRuns whose journal is elsewhere: what happens later is not determined."""
-    other = simulate(result.scene.replace({"joints.crank_pin.clearance": 2e-4}))
-    told = errors_of(result, [(4.0, other)])
-    assert told["horizon"] is not None
-    assert not told["errors"]["joints.crank_pin.peak_force"]["determined"]
+    """What happens later is not determined; magnitudes are not below zero, and energies may be."""
+    other = simulate(result.scene.replace({"joints.crank_pin.clearance": 4e-4}))
+    stated = errors_of(result, [(4.0, other)])
+    assert stated["horizon"] is not None
+    assert not stated["errors"]["joints.crank_pin.peak_force"]["determined"]
+    assert stated["errors"]["peak_acceleration.mean_1ms"]["low"] == 0.0
+    assert stated["errors"]["energy.stored"]["low"] < 0.0
 
 
 def test_errors_go_with_the_tolerance_until_journals_are_apart(result):
@@ -191,14 +193,6 @@ def test_a_peak_may_be_exceeded_after_the_horizon_although_it_was_in_no_run(resu
     assert force["low"] == pytest.approx(peak, rel=0.02)
     assert force["high"] > 1.3 * peak
     assert not force["determined"]
-
-
-def test_magnitudes_are_not_below_zero_and_energies_may_be(result):
-    """The bounds of two runs that have nothing in common are wide."""
-    other = simulate(result.scene.replace({"joints.crank_pin.clearance": 4e-4}))
-    errors = errors_of(result, [(4.0, other)])["errors"]
-    assert errors["peak_acceleration.mean_1ms"]["low"] == 0.0
-    assert errors["energy.stored"]["low"] < 0.0
 
 
 @pytest.mark.parametrize(
@@ -406,3 +400,36 @@ def test_the_vibration_behind_a_slow_cut_is_within_its_error():
     told = simulate(scene, errors=True, beside=False).quantity("joints.wrist_pin.peak_force")
     assert told.low < 168368.54 < told.high
     assert told.error < 0.02 * told.value
+
+
+CHAOTIC = Scene.from_dict(
+    {
+        "mechanism": "eccentric_press",
+        "speed_rpm": 327.1655547459466,
+        "revolutions": 3.0,
+        "start_angle_deg": 270.74765147729784,
+        "joints": {"shaft": {"kind": "dry", "clearance": 8.736209995142197e-05}},
+        "contact": {"restitution": 0.9398828529733374},
+        "friction": {"law": "none"},
+    }
+)
+"""One of the random ones (seed [4, 104] of the calibration)."""
+
+
+@pytest.mark.long
+def test_figures_that_finer_runs_scatter_are_not_determined():
+    """The run ends 0.24 clearances from one at half the tolerance, 0.44 and 0.67 from those at a
+    tenth and a thirtieth. Their figures are here, the coarser one's first.
+    """
+    result = simulate(CHAOTIC, errors=True, beside=False)
+    assert result.info["horizon"] is not None
+    for name in ("drive.mean_power", "energy.input"):
+        assert not result.quantity(name).determined
+    finer = {
+        "drive.mean_power": (-2.63318, -9.09821),
+        "peak_velocity": (1.05789, 1.05681),
+        "peak_acceleration.differentiated_1khz": (63.3721, 63.3770),
+    }
+    for name, values in finer.items():
+        found = result.quantity(name)
+        assert all(found.low <= value <= found.high for value in values), name

@@ -1,14 +1,21 @@
 """A wanted error finds its tolerance; where none does, the distribution is told."""
 
+import dataclasses
 import functools
+import math
 
 import pytest
 
-from exu_press import InputError, Scene
+from exu_press import InputError, Scene, simulate
 from exu_press.cli import main
 from exu_press.verification import within
-from exu_press.verification.distribution import distributions
-from exu_press.verification.within import COARSE, find_tolerance
+from exu_press.verification.distribution import Distribution, distributions
+from exu_press.verification.within import (
+    COARSE,
+    AchievedAccuracy,
+    accuracy_lines,
+    find_tolerance,
+)
 
 NAME = "peak_acceleration.resolved"
 
@@ -58,3 +65,41 @@ def test_a_figure_that_is_not_there_is_refused_before_the_runs(monkeypatch):
     monkeypatch.setattr(within, "simulate_with_errors", lambda *_, **__: pytest.fail("it ran"))
     with pytest.raises(InputError, match="colour"):
         find_tolerance(scene, 0.9, "colour")
+
+
+SPREAD = {5.0: (90.0, 80.0, 95.0), 50.0: (200.0, 190.0, 210.0), 95.0: (500.0, 450.0, 600.0)}
+
+
+@pytest.fixture(scope="module")
+def calm():
+    """Return a run that knows no horizon."""
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.2)
+    run = simulate(scene)
+    return dataclasses.replace(run, info={**run.info, "horizon": None, "lyapunov_exponent": None})
+
+
+def test_a_tolerance_that_delivers_is_named(calm):
+    (line,) = accuracy_lines(AchievedAccuracy(calm, 3.3e-5, {}), 0.01)
+    assert line == "every figure asked for within 1 %: tolerance 3.3e-05"
+
+
+def test_what_no_tolerance_delivers_is_told_with_its_distribution(calm):
+    missed = {NAME: Distribution(63, (220.0, 5.0), (120.0, 9.0), SPREAD), "energy.dissipated": None}
+    assert accuracy_lines(AchievedAccuracy(calm, 1e-6, missed), 0.001) == [
+        f"{NAME}: not within 0.1 %, down to a tolerance of 1e-06",
+        "  over 63 revolutions: 5 % below 90 (80 to 95); 50 % below 200 (190 to 210); "
+        "95 % below 500 (450 to 600)",
+        "energy.dissipated: not within 0.1 %, down to a tolerance of 1e-06",
+        "  no distribution: it adds up, or one revolution does not have it",
+    ]
+
+
+def test_where_the_motion_is_chaotic_the_horizon_is_told(calm):
+    """240 rpm: 1.44 deg a millisecond; exp(1000 t) is tenfold in 2.3 ms."""
+    info = {**calm.info, "horizon": 0.004, "lyapunov_exponent": 1000.0}
+    chaotic = dataclasses.replace(calm, info=info)
+    line, _, _ = accuracy_lines(AchievedAccuracy(chaotic, 1e-6, {NAME: None}), 0.01)
+    assert "from t = 4 ms on, 6 deg of the crank after the start" in line
+    assert "grow tenfold in 2.3 ms" in line
+    impacts = calm.quantity("joints.crank_pin.impacts").value
+    assert f"{math.exp(1000.0 * calm.time[-1] / impacts):.2g}-fold an impact" in line

@@ -6,7 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from sphinx_parts.scripts import NUMBERS, ROOT, SavedPictures, gallery_sources
+from sphinx_parts.scripts import NUMBERS, ROOT, gallery_sources
 
 metadata = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 release_table = metadata["tool"]["exu_press"]["release"]
@@ -58,8 +58,7 @@ sphinx_gallery_conf = {
     "filename_pattern": r"\.py$",  # all of them run
     "within_subsection_order": "FileNameSortKey",
     "default_thumb_file": str(NUMBERS),
-    "image_scrapers": (SavedPictures(),),
-    "reset_argv": "sphinx_parts.scripts.quick",
+    "image_scrapers": (),
     "reset_modules": (),
     "write_computation_times": False,
     "download_all_examples": False,

@@ -7,6 +7,7 @@ below has it between two lines that end in `release: begin` and `release: end`, 
 Run with: python scripts/write_release.py
 """
 
+import argparse
 import json
 import re
 import tomllib
@@ -158,6 +159,7 @@ def release_text(file: str, release: Release) -> str:
 
 def main() -> None:
     """Write the files."""
+    argparse.ArgumentParser(description=__doc__).parse_args()
     release = read_release()
     for file in BLOCKS:
         (ROOT / file).write_text(release_text(file, release), encoding="utf-8")

@@ -35,7 +35,7 @@ def test_builds_without_a_warning(tmp_path):
         check=False,
     )
     assert done.returncode == 0, done.stderr
-    assert (tmp_path / "site" / "gallery" / "run_press.html").exists()
+    assert (tmp_path / "site" / "gallery" / "01_ideal_press.html").exists()
     live = (tmp_path / "site" / "live" / "press.html").read_text(encoding="utf-8")
     assert 'id="viewer"' in live
     seen = (tmp_path / "site" / "howto" / "see.html").read_text(encoding="utf-8")

@@ -51,8 +51,6 @@ def test_wrong_input_is_refused_in_one_line(script, options, named, tmp_path):
         ("sweep_clearance", [], "4 runs: 4 completed", "sweep_clearance/sweep.png"),
         ("sweep_speed", [], "2 runs: 2 completed", "sweep_speed/sweep.png"),
         ("sweep_blanking_force", [], "2 runs: 2 completed", "sweep_blanking_force/sweep.png"),
-        ("run_press", [], "stroke", "run_press/slider.png"),
-        ("compare_variants", [], "dry", "compare_variants/compare_slider.png"),
         ("my_own_part", [], "mass 1.8840 kg", "my_own_part/modes.png"),
         (
             "stability",
@@ -99,16 +97,6 @@ def test_fixed_steps_have_second_order(tmp_path):
     printed = run("error_vs_runtime.py", tmp_path)
     (orders,) = re.findall(r"my_slider_crank  fixed step +step +(\S+)", printed)
     assert float(orders) == pytest.approx(2.0, abs=0.3)
-
-
-@pytest.mark.long
-def test_joint_in_your_model(tmp_path):
-    """A rod that falls from the horizontal swings through with 5/2 of its weight."""
-    printed = run("joint_in_your_model.py", tmp_path, quick=False)
-    film, force = map(float, re.findall(r"([\d.]+) (?:um|N)", printed))
-    assert 0.0 < film < 50.0
-    assert force == pytest.approx(2.5 * 10.0 * 9.81, rel=0.01)
-    assert len((SCRIPTS / "joint_in_your_model.py").read_text("utf-8").splitlines()) <= 30
 
 
 @pytest.mark.long

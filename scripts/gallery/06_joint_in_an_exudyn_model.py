@@ -1,7 +1,5 @@
 """A lubricated joint in an Exudyn model that knows no press: a pendulum in its bearing."""
 
-import argparse
-
 import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
@@ -9,7 +7,6 @@ import numpy as np
 from exu_press import add_joint_sensor, add_lubricated_revolute, solve_dynamic
 from exu_press.laws.film import finite
 
-argparse.ArgumentParser(description=__doc__).parse_args()
 mbs = exu.SystemContainer().AddSystem()
 ground = mbs.AddObject(items.ObjectGround())
 node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[0.5, 0.0, 0.0]))

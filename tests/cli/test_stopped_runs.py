@@ -13,7 +13,12 @@ from exu_press.cli import main
 from exu_press.result import run
 from exu_press.result.checkpoint import checkpoint_directory
 
-SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=1.25)
+SCENE = Scene(
+    mechanism="slider_crank",
+    joints={"crank_pin": "dry"},
+    revolutions=1.25,
+    solver={"tolerance": 1e-2},
+)
 
 HELD = """
 import pathlib, sys, time

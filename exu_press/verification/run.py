@@ -27,6 +27,7 @@ from exu_press.verification.estimate import (
 from exu_press.verification.reading import (
     add_energy_residual,
     add_start_overshoot,
+    add_work_between_steps,
     average_neighbours,
     enlarge_reversing_forces,
     read_a_revolution_earlier,
@@ -63,6 +64,7 @@ READINGS = (
     (OF_READING, add_start_overshoot),
     (1.0, enlarge_reversing_forces),
     (1.0, add_energy_residual),
+    (1.0, add_work_between_steps),
     (1.0, read_a_revolution_earlier),
     (1.0, with_next_temperatures),
 )

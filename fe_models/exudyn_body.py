@@ -58,6 +58,11 @@ class FlexibleBody:
     points: dict[str, int]
     point_positions: Mapping[str, Sequence[float]]
 
+    @property
+    def nodes(self) -> list[int]:
+        """Numbers of its nodes: of the frame, and of the modes if there are any."""
+        return [self.node_rigid, *([] if self.node_modes is None else [self.node_modes])]
+
     def add_point_marker(self, mbs: Any, *points: str) -> int:
         """Add a position marker on one of the body's `points`, or their mean.
 

@@ -6,7 +6,7 @@ from functools import lru_cache
 from typing import Any, ClassVar
 
 from exu_press.errors import InputError
-from exu_press.mechanism.draw import meet, middle, onto
+from exu_press.mechanism.construction import intersect_links, midpoint, point_on_vertical
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point, steel_cube
 from exu_press.schema.checks import key
@@ -138,7 +138,7 @@ def press(size: Press) -> Mechanism:
     slider_bottom = bottom - drop - size.link_7_length - size.plunger_length
 
     shaft, pin = (0.0, 0.0), (0.0, size.crank_radius)
-    slide = onto("press.linkage_length", pin, size.linkage_length, 0.0, -1)
+    slide = point_on_vertical("press.linkage_length", pin, size.linkage_length, 0.0, -1)
     middle_of_linkage = 0.5 * (pin[1] + slide[1]) - size.linkage_mass_offset
     crank_inertia = size.crank_mass * size.crank_radius**2 / 12
     rod_inertia = size.linkage_mass * size.linkage_length**2 / 12
@@ -162,7 +162,7 @@ def press(size: Press) -> Mechanism:
     for side, sign in SIDES.items():
         x = sign * size.pivot_distance
         pivot = (x, pivot_y)
-        knuckle = meet(
+        knuckle = intersect_links(
             "press.link_5_length, link_6_length",
             slide,
             size.link_5_length,
@@ -170,7 +170,7 @@ def press(size: Press) -> Mechanism:
             size.link_6_length,
             -sign,
         )
-        foot = onto("press.link_7_length", knuckle, size.link_7_length, x, -1)
+        foot = point_on_vertical("press.link_7_length", knuckle, size.link_7_length, x, -1)
         ball_y = foot[1] - size.plunger_length
         link_5, link_6, link_7 = f"link_5_{side}", f"link_6_{side}", f"link_7_{side}"
         plunger = f"plunger_{side}"
@@ -203,7 +203,7 @@ def press(size: Press) -> Mechanism:
     if isinstance(weight, Counterweight):
         name, length = "press.counter_linkage_length", weight.counter_linkage_length
         counter_pin = (0.0, -weight.counter_eccentricity)
-        counterweight = onto(name, counter_pin, length, 0.0, +1)
+        counterweight = point_on_vertical(name, counter_pin, length, 0.0, +1)
         bodies += [
             _rod("counter_linkage", weight.counter_linkage_mass, counter_pin, counterweight),
             _block(
@@ -236,7 +236,7 @@ def press(size: Press) -> Mechanism:
 def _rod(name: str, mass: float, start: Point, end: Point) -> Body:
     angle = math.atan2(end[1] - start[1], end[0] - start[0])
     inertia = mass * math.dist(start, end) ** 2 / 12
-    return Body(name, mass, inertia, middle(start, end), angle)
+    return Body(name, mass, inertia, midpoint(start, end), angle)
 
 
 def _block(name: str, mass: float, inertia: float | None, centre: Point) -> Body:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, ClassVar
 
-from exu_press.mechanism.draw import middle, onto
+from exu_press.mechanism.construction import midpoint, point_on_vertical
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, steel_cube
 from exu_press.schema.checks import key
@@ -54,13 +54,13 @@ def slider_crank(size: SliderCrank) -> Mechanism:
         InputError: its links do not meet.
     """
     pin = (0.0, size.crank_radius)
-    wrist = onto("slider_crank.rod_length", pin, size.rod_length, 0.0, -1)
+    wrist = point_on_vertical("slider_crank.rod_length", pin, size.rod_length, 0.0, -1)
     inertia = size.slider_inertia or steel_cube(size.slider_mass)
     return Mechanism(
         name="slider_crank",
         bodies=(
             Body("crank", size.crank_mass, size.crank_inertia),
-            Body("rod", size.rod_mass, size.rod_inertia, middle(pin, wrist), -math.pi / 2),
+            Body("rod", size.rod_mass, size.rod_inertia, midpoint(pin, wrist), -math.pi / 2),
             Body("slider", size.slider_mass, inertia, wrist),
         ),
         joints=(

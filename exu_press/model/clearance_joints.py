@@ -24,7 +24,7 @@ def add_clearance_joint(system: System, joint: Joint, kind: SceneJoint) -> Clear
     """Add a joint with clearance."""
     journal, bearing = (_end(system, joint, *end) for end in system.mechanism.ends(joint))
     if not joint.spherical or not isinstance(kind, TouchingJoint):
-        worn = _worn(system, joint, kind)
+        worn = _worn_surfaces(system, joint, kind)
         interfaces = interfaces_of(joint, kind, system.scene)
         return add_revolute(system.mbs, journal, bearing, interfaces, worn=worn)
     speed = system.scene.angular_speed
@@ -49,7 +49,7 @@ def add_clearance_joint(system: System, joint: Joint, kind: SceneJoint) -> Clear
 
 
 def interfaces_of(joint: Joint, kind: SceneJoint, scene: Scene) -> list[InterfaceLaw]:
-    """Return the surfaces of a joint with clearance of a scene, in its plane."""
+    """Return the interface laws of a joint with clearance, in its plane."""
     if isinstance(kind, CustomJoint):
         return list(kind.interfaces())
     assert isinstance(kind, TouchingJoint)
@@ -65,18 +65,18 @@ def interfaces_of(joint: Joint, kind: SceneJoint, scene: Scene) -> list[Interfac
     return interfaces
 
 
-def _worn(system: System, joint: Joint, kind: SceneJoint) -> "WornSurfaces | None":
+def _worn_surfaces(system: System, joint: Joint, kind: SceneJoint) -> "WornSurfaces | None":
     """Return the wear of a joint's surfaces beyond an even clearance, or None."""
     profiles = None if kind.worn is None else kind.worn.profiles()
     if profiles is None:
         return None
     from exu_press.joints.worn import WornSurfaces
 
-    turned = [
-        0.0 if body == GROUND else system.rigid[body].turned
+    angles = [
+        0.0 if body == GROUND else system.rigid[body].frame_angle
         for body in (joint.journal, joint.bearing)
     ]
-    return WornSurfaces(*profiles, *turned)
+    return WornSurfaces(*profiles, *angles)
 
 
 def _end(system: System, joint: Joint, body: str, point: Point) -> Any:

@@ -28,7 +28,7 @@ def add_guide_friction(system: System, guide: Guide, numbers: Mapping[str, int])
         body = system.flexible[guide.body]
         values, rows = guided_motion(mbs, body, system.parts[guide.body])
         offset = values - system.ideal[guide.body].position[0]
-        nodes = [body.node_rigid, *([] if body.node_modes is None else [body.node_modes])]
+        nodes = body.nodes
     else:
         nodes, rows = [system.rigid[guide.body].node], np.eye(3)
     side: SideForce

@@ -38,7 +38,7 @@ def _add_single_axis(system: System, joint: Joint, axis: SingleAxis) -> int:
         return _add_flexible_single_axis(system, joint, axis, flexible[0])
     local, angle = point, axis.angle
     if body != GROUND:
-        local, angle = system.rigid[body].local(point), angle + system.rigid[body].turned
+        local, angle = system.rigid[body].local(point), angle + system.rigid[body].frame_angle
     frame = exu.HT().Set(RotationMatrixZ(angle), [*local, 0.0])
     marker = MarkerBodyRigid(bodyNumber=system.bodies[body], localHT=frame)
     constraint = ObjectJointGeneric(

@@ -31,11 +31,11 @@ class RigidBody:
         reference: x, y and angle (m, m, rad) from which they count.
         node: number of Exudyn's node.
         number: of Exudyn's object.
-        turned: angle of the body's frame in that of Exudyn's object, rad.
+        frame_angle: angle of the body's frame in that of Exudyn's object, rad.
     """
 
     coordinates: tuple[str, ...] = ("x", "y", "angle")
-    turned = 0.0
+    frame_angle = 0.0
 
     def __init__(
         self, mbs: exu.MainSystem, body: Body, start: Motion, reference: Array | None = None
@@ -116,7 +116,7 @@ class SlidingBody(_OneCoordinate):
         self.coordinates = (("x", "y")[column],)
         self._along = np.eye(3)[column]
         super().__init__(mbs, body, start, reference)
-        self.turned = float(self.reference[2] - math.atan2(self._along[1], self._along[0]))
+        self.frame_angle = float(self.reference[2] - math.atan2(self._along[1], self._along[0]))
 
     def _item(self, body: Body) -> Any:
         (x, y, _), along = self.reference, self._along

@@ -99,7 +99,7 @@ def go_on_from(model: Model, state: State) -> Model:
         clock.recall(memory)
     for name, (temperature, pressure) in state.get("films", {}).items():
         if name in model.warm:
-            model.warm[name].put(temperature, pressure)
+            model.warm[name].set_state(temperature, pressure)
     if model.start_stop is not None and "start_stop" in state:
         model.start_stop.recall(state["start_stop"])
     remembered = tuple(state["clocks"])

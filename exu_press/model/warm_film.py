@@ -1,4 +1,4 @@
-"""A film whose oil warms: its temperature, from the heat of the revolutions before."""
+"""A film whose oil warms: its temperature by the heat balance of earlier revolutions."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -20,27 +20,27 @@ from exu_press.scene.joint import Joint, unworn
 __all__ = ["Heat", "WarmFilm", "warm_films"]
 
 AVERAGED = 4
-"""A temperature follows from the last revolution, or from the mean of the last quarter of those so
-far where no two revolutions are alike."""
+"""The temperature follows from the last revolution; where revolutions differ, from the mean of the
+last quarter of them."""
 
-SETTLED = 0.05
-"""Relative change of power and side flow from revolution to revolution, below which a film has
-settled: a journal that sinks for many revolutions changes them long before its temperature."""
+STEADY_CHANGE = 0.05
+"""Relative change of power and side flow per revolution of a steady film. A journal that sinks for
+many revolutions changes them long before the temperature."""
 
 LEAST_SLOPE, LARGEST_SLOPE = -0.5, 0.75
-"""Share of a step from the film's temperature to the one that the heat asks for.
-It is not 0 as the journal sinks when the oil thins, and as friction in contacts does not fall."""
+"""Bounds of the derivative of the balance's temperature by the film's. It is not 0, as the journal
+sinks when the oil thins, and as friction in contacts does not fall."""
 
 
 @dataclass(frozen=True)
 class Heat:
-    """A film's revolution.
+    """Heat of a film in a revolution.
 
     Attributes:
         power: dissipated, mean, W.
         flow: out at both ends, mean, m^3/s.
         pressure: force over length times diameter, mean, Pa.
-        viscosity: that it had, Pa s.
+        viscosity: of the oil in the revolution, Pa s.
     """
 
     power: float
@@ -51,26 +51,26 @@ class Heat:
 
 @dataclass
 class WarmFilm:
-    """A film of a run, with the temperature that it has at present.
+    """A film of a run, with its present temperature.
 
     Attributes:
         joint: with its oil.
-        interface: of the film, which has the viscosity.
+        interface: of the film.
         temperature: deg C.
         pressure: that thickens the oil, Pa.
-        before: its revolutions so far.
-        asked: temperature in the last revolution, and the one that its heat asked for, deg C.
+        history: of earlier revolutions.
+        last_balance: temperature in the last revolution, and that of its heat balance, deg C.
     """
 
     joint: LubricatedJoint
     interface: FilmInterface
     temperature: float
     pressure: float = 0.0
-    before: list[Heat] = field(default_factory=list)
-    asked: tuple[float, float] | None = None
+    history: list[Heat] = field(default_factory=list)
+    last_balance: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
-        """Find the side flow."""
+        """Take oil and side flow of the film."""
         film, joint = self.joint.film, self.joint
         assert isinstance(film, JournalFilm)
         assert film.oil is not None and film.length is not None
@@ -79,11 +79,11 @@ class WarmFilm:
 
     @property
     def viscosity(self) -> float:
-        """Return the viscosity of the oil in the film, Pa s."""
+        """Viscosity of the oil in the film, Pa s."""
         return self.oil.viscosity(self.temperature, self.pressure)
 
-    def put(self, temperature: float, pressure: float) -> None:
-        """Go on with another temperature, deg C, and another pressure, Pa."""
+    def set_state(self, temperature: float, pressure: float) -> None:
+        """Set temperature, deg C, and pressure, Pa."""
         self.temperature, self.pressure = temperature, pressure
         joint = self.joint
         size = self._length, joint.radius, joint.clearance
@@ -113,29 +113,29 @@ class WarmFilm:
         return lengths(force) / area
 
     @property
-    def settled(self) -> bool:
-        """Whether heat and temperature stay as they are in the last revolutions, or their means."""
-        count = self._averaged
-        recent, earlier = self.before[-count:], self.before[-2 * count : -count]
-        if not earlier or self.asked is None or not _alike(recent, earlier):
+    def is_steady(self) -> bool:
+        """Whether heat and temperature of the last revolutions, or their means, are constant."""
+        count = self._averaged_count
+        recent, earlier = self.history[-count:], self.history[-2 * count : -count]
+        if not earlier or self.last_balance is None or not _are_alike(recent, earlier):
             return False
-        return abs(self.temperature - self.asked[0]) <= STEADY
+        return abs(self.temperature - self.last_balance[0]) <= STEADY
 
     @property
-    def _averaged(self) -> int:
-        """Number of the last revolutions from whose mean the temperature follows."""
-        if _alike(self.before[-1:], self.before[-2:-1]):
+    def _averaged_count(self) -> int:
+        """Number of the last revolutions whose mean determines the temperature."""
+        if _are_alike(self.history[-1:], self.history[-2:-1]):
             return 1
-        return max(1, len(self.before) // AVERAGED)
+        return max(1, len(self.history) // AVERAGED)
 
-    def balanced(self, last: Heat) -> tuple[float, float]:
-        """Return temperature, deg C, and pressure, Pa, at which the film gets rid of its heat.
+    def balance_heat(self, last: Heat) -> tuple[float, float]:
+        """Return temperature, deg C, and pressure, Pa, of the film's heat balance.
 
-        The motion of the last revolution is held, or the mean of several where revolutions are not
-        alike. A secant through the last two foretells how it will change with the temperature.
+        With the motion of the last revolution, or the mean of several where revolutions differ. A
+        secant through the last two balances predicts the influence of the temperature on it.
         """
-        self.before.append(last)
-        recent = self.before[-self._averaged :]
+        self.history.append(last)
+        recent = self.history[-self._averaged_count :]
         per_viscosity = _mean([heat.power / heat.viscosity for heat in recent])
         pressure = _mean([heat.pressure for heat in recent])
         oil = self.oil
@@ -147,54 +147,46 @@ class WarmFilm:
             oil.frame,
             lambda temperature: oil.viscosity(temperature, pressure),
         )
-        before, self.asked = self.asked, (self.temperature, balance)
-        if before is None or len(recent) > 1 or balance == math.inf:
+        previous, self.last_balance = self.last_balance, (self.temperature, balance)
+        if previous is None or len(recent) > 1 or balance == math.inf:
             return balance, pressure
-        moved = self.temperature - before[0]
-        slope = (balance - before[1]) / moved if moved else 0.0
+        change = self.temperature - previous[0]
+        slope = (balance - previous[1]) / change if change else 0.0
         slope = min(max(slope, LEAST_SLOPE), LARGEST_SLOPE)
-        foretold = self.temperature + (balance - self.temperature) / (1.0 - slope)
-        return min(max(foretold, min(oil.supply_celsius, oil.frame)), HOTTEST), pressure
+        predicted = self.temperature + (balance - self.temperature) / (1.0 - slope)
+        return min(max(predicted, min(oil.supply_celsius, oil.frame)), HOTTEST), pressure
 
 
-def _alike(recent: Sequence[Heat], earlier: Sequence[Heat]) -> bool:
-    """Return whether power and side flow of revolutions are those of earlier ones, on average."""
+def _are_alike(recent: Sequence[Heat], earlier: Sequence[Heat]) -> bool:
+    """Return whether mean power and side flow of revolutions are those of earlier ones."""
     if not recent or not earlier:
         return False
-    for read in (_power, _flow):
-        now, then = _mean([read(heat) for heat in recent]), _mean([read(heat) for heat in earlier])
-        if abs(now - then) > SETTLED * abs(now):
+    for name in ("power", "flow"):
+        now, then = (_mean([getattr(h, name) for h in heats]) for heats in (recent, earlier))
+        if abs(now - then) > STEADY_CHANGE * abs(now):
             return False
     return True
-
-
-def _power(heat: Heat) -> float:
-    return heat.power
-
-
-def _flow(heat: Heat) -> float:
-    return heat.flow
 
 
 def warm_films(
     joints: Mapping[str, ClearanceJoint], described: Mapping[str, Joint]
 ) -> dict[str, WarmFilm]:
-    """Return the films whose oil warms, each as its oil is supplied.
+    """Return name -> the film whose oil warms, at its supply temperature.
 
     Args:
         joints: name -> joint with clearance.
-        described: the same as the scene has them.
+        described: name -> the scene's joint.
     """
-    found = {}
+    films = {}
     for name, joint in joints.items():
         kind = described[name]
         if isinstance(kind, LubricatedJoint) and kind.film.oil is not None:
             assert isinstance(joint, InterfaceJoint)
-            (film,) = (one for one in joint.interfaces if isinstance(one, FilmInterface))
-            round_one = unworn(kind)
-            assert isinstance(round_one, LubricatedJoint)
-            found[name] = WarmFilm(round_one, film, kind.film.oil.supply_celsius)
-    return found
+            (film,) = (law for law in joint.interfaces if isinstance(law, FilmInterface))
+            unworn_kind = unworn(kind)
+            assert isinstance(unworn_kind, LubricatedJoint)
+            films[name] = WarmFilm(unworn_kind, film, kind.film.oil.supply_celsius)
+    return films
 
 
 def _mean(values: Sequence[float]) -> float:

@@ -85,7 +85,7 @@ def _needs_revolution(model: Model, scene: Scene, remaining: float) -> bool:
     completed = scene.revolutions - remaining + _negligible_rest(scene)
     if not scene.settled or completed < scene.settled:
         return False
-    return any(not film.settled for film in model.warm.values())
+    return any(not film.is_steady for film in model.warm.values())
 
 
 def _negligible_rest(scene: Scene) -> float:

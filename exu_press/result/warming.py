@@ -59,13 +59,13 @@ def update_film_temperatures(model: Model, block: Result) -> Result:
             for values in (block[f"{name}_side_flow"], film.mean_pressure(block[f"{name}_force"]))
         )
         heat = Heat(float(block[f"{name}_loss"][-1]) / duration, flow, pressure, film.viscosity)
-        temperature, pressure = film.balanced(heat)
+        temperature, pressure = film.balance_heat(heat)
         if not math.isfinite(temperature):
             reason = _reason_of_breakdown(name, heat, film.oil.conductance, float(time[-1]))
             warnings.warn(f"film broke down: {reason}", stacklevel=5)
             info = {**info, "status": SolverStatus.FILM_BROKE_DOWN.value, "reason": reason}
             continue
-        film.put(temperature, pressure)
+        film.set_state(temperature, pressure)
     films = {name: (film.temperature, film.pressure) for name, film in model.warm.items()}
     if "state" in info:
         info = {**info, "state": {**info["state"], "films": films}}

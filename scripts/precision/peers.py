@@ -207,7 +207,7 @@ def peer_attempts(model: CompiledModel, tolerances: Iterable[float]) -> list[Att
 
 
 def _time(peer: Peer, model: CompiledModel, tolerance: float, _number: int = 0) -> Measured:
-    """Integrate as it is time_runs; once more from the same start, whatever its number."""
+    """Integrate as it is timed; once more from the same start, whatever its number."""
     evaluations, reason = None, ""
     with _silent_libraries():
         start, cpu_start = time.perf_counter(), time.process_time()
@@ -221,7 +221,7 @@ def _time(peer: Peer, model: CompiledModel, tolerance: float, _number: int = 0) 
 
 
 def _measure(peer: Peer, model: CompiledModel, tolerance: float) -> Measured:
-    """Integrate as it is time_runs, then for the result."""
+    """Integrate as it is timed, then for the result."""
     run = _time(peer, model, tolerance)
     if run.status != "completed":
         return run

@@ -189,13 +189,6 @@ def test_a_measurement_that_fits_no_run_is_refused_before_others(
     assert not (tmp_path / "out").exists()
 
 
-def test_a_measurement_alone_is_refused(tmp_path, capsys):
-    measured = tmp_path / "measured.csv"
-    measured.write_text("time (s),slider_velocity (m/s)\n0,0\n1,1\n2,2\n3,3\n")
-    assert main(["compare", str(measured)]) == 2
-    assert "a measurement alone; allowed are scenes or results" in capsys.readouterr().err
-
-
 def test_pictures_of_two_mechanisms(mine, tmp_path):
     arguments = ["compare", str(mine), "press", "--set", "revolutions=0.01", "--quiet"]
     assert main([*arguments, "--no-error", "--out", str(tmp_path)]) == 0
@@ -219,6 +212,8 @@ def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
     out = tmp_path / "out"
     result = tmp_path / "one"
     assert main(["run", str(mine), *QUICK, "--quiet", "--out", str(result)]) == 0
+    curve = tmp_path / "measured.csv"
+    curve.write_text("time (s),slider_velocity (m/s)\n0,0\n1,1\n2,2\n3,3\n")
     ideal = tmp_path / "ideal.toml"
     ideal.write_text('mechanism = "four_bar"\n')
     for arguments, message in (
@@ -226,6 +221,7 @@ def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
         (["press", "no_such_file.toml"], "no_such_file.toml: cannot be read"),
         (["press", str(tmp_path / "none.nc")], "none.nc: cannot be read"),
         ([str(result)], "a result alone; allowed are two or more, or a scene alone"),
+        ([str(curve)], "a measurement alone; allowed are scenes or results beside it"),
         ([str(result)] * 2 + ["--set", "gravity=0"], "--set gravity=0: changes scenes, and none"),
     ):
         assert main(["compare", *arguments, "--out", str(out)]) == 2

@@ -59,22 +59,6 @@ def test_a_number_that_no_values_give_is_told(tmp_path, capsys):
     assert "no values of the keys within their ranges give the measured numbers" in said
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
-        ("uncertainty = 300.0", "", "measured.uncertainty: missing"),
-        ("starts = 1", "starts = 0", "fit.starts = 0"),
-        ("joints.wrist_pin.peak_force", "joints.wrist.peak_force", "did you mean"),
-        ("low = 800.0, high = 2000.0", "low = 0.0, high = 2000.0", "allowed is 0 < low < high"),
-    ],
-)
-def test_what_is_refused(tmp_path, capsys, old, new, said):
-    assert run(tmp_path, STUDY.replace(old, new)) == 2
-    shown = capsys.readouterr().err
-    assert said in shown
-    assert len(shown.splitlines()) == 1
-
-
 def test_no_run_gives_a_number(tmp_path, capsys):
     assert run(tmp_path, STUDY.replace("[scene]", "[scene]\nsolver.max_steps = 2", 1)) == 2
     assert "0 gave numbers" in capsys.readouterr().err

@@ -34,17 +34,3 @@ def test_a_scene_of_the_users_own(tmp_path, capsys):
     assert all(row.keys() >= COLUMNS for row in report["rows"])
     assert report["machine"]["processor"] and report["machine"]["versions"]["exudyn"]
     assert (tmp_path / "o" / "precision_mine.png").stat().st_size > 10_000
-
-
-@pytest.mark.parametrize(
-    ("arguments", "named"),
-    [
-        (["nowhere.toml"], "nowhere.toml"),
-        (["press", "--set", "speed_rpm=-1"], "speed_rpm"),
-    ],
-)
-def test_wrong_input_is_refused_in_one_line(arguments, named, capsys, tmp_path):
-    assert main(["precision", *arguments, "--out", str(tmp_path)]) == 2
-    message = capsys.readouterr().err
-    assert named in message and message.count("\n") == 1
-    assert not list(tmp_path.iterdir())

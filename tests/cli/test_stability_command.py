@@ -2,8 +2,6 @@
 
 import json
 
-import pytest
-
 from exu_press import Scene
 from exu_press.cli import main
 from exu_press.studies.stability import Row, StabilityReport
@@ -38,11 +36,8 @@ def test_a_wrong_case_makes_the_command_fail(tmp_path, monkeypatch, capsys):
     assert "wrong: b" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    ("arguments", "named"),
-    [(["--key", "nothing"], "--key nothing"), (["--workers", "0"], "workers = 0")],
-)
-def test_wrong_input_is_refused_in_one_line(arguments, named, tmp_path, capsys):
-    assert main(["stability", *SCENE, *arguments, "--out", str(tmp_path / "out")]) == 2
+def test_an_axis_that_the_scene_does_not_have(tmp_path, capsys):
+    assert main(["stability", *SCENE, "--key", "nothing", "--out", str(tmp_path / "out")]) == 2
     message = capsys.readouterr().err
-    assert named in message and message.count("\n") == 1
+    assert "--key nothing: allowed are" in message and message.count("\n") == 1
+    assert not (tmp_path / "out").exists()

@@ -41,12 +41,6 @@ def test_wrong_options_are_status_2_in_one_line(
     assert not list(tmp_path.iterdir())
 
 
-def test_a_file_that_is_no_result(tmp_path, capsys):
-    (tmp_path / "run.nc").write_text("nothing")
-    assert main(["view", str(tmp_path / "run.nc"), "--save", str(tmp_path / "x.gif")]) == 2
-    assert "not a result of exu_press" in capsys.readouterr().err
-
-
 def test_a_directory_of_many_runs(tmp_path, capsys):
     (tmp_path / "comparison.json").write_text("{}")
     assert main(["view", str(tmp_path), "--save", str(tmp_path / "x.gif")]) == 2

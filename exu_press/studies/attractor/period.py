@@ -32,18 +32,18 @@ class Period:
     """After how many revolutions a motion comes back.
 
     Attributes:
-        revolutions: the least number; None where there is none up to `most`, or it is not told.
-        told: whether the points tell it: False where the error is too large, or the motion has not
+        revolutions: the least number; None where there is none up to `most`, or it is undecided.
+        is_decided: False where the error is too large, or the motion has not
             settled.
-        why: reason why it cannot be told, or nothing.
+        why: reason why it is undecided, or nothing.
         most: up to which number was looked.
         distances: (most,) largest distance of points 1, 2, ... revolutions apart.
         error: of a point, by which they were judged.
-        finer: factor on the tolerance that would tell; 1.0 where it is told.
+        finer: factor on the tolerance that would decide it; 1.0 where it is decided.
     """
 
     revolutions: int | None
-    told: bool
+    is_decided: bool
     why: str
     most: int
     distances: Array
@@ -51,8 +51,8 @@ class Period:
     finer: float = 1.0
 
     def __str__(self) -> str:
-        if not self.told:
-            return f"not told apart ({self.why})"
+        if not self.is_decided:
+            return f"undecided ({self.why})"
         if self.revolutions is None:
             return f"none up to {self.most} revolutions"
         return f"{self.revolutions} revolution{'s' if self.revolutions > 1 else ''}"

@@ -49,7 +49,7 @@ class AttractorReport(Report):
     def failures(self) -> list[str]:
         """Reasons why there are fewer revolutions, or no period."""
         period = self.motion.period
-        undecided = [] if period.told else [f"the period is {period}"]
+        undecided = [] if period.is_decided else [f"the period is {period}"]
         return [self.motion.stopped, *undecided] if self.motion.stopped else undecided
 
     def tables(self) -> list[Table]:
@@ -95,7 +95,7 @@ class AttractorReport(Report):
             f"  points 1 revolution apart differ by up to {period.distances[0]:.2g}, known within "
             f"{motion.error:.2g} (clearances)",
         ]
-        if not period.told and period.finer < 1.0:
+        if not period.is_decided and period.finer < 1.0:
             solver = self.scene.solver
             assert solver is not None
             name = "step" if solver.tolerance is None else "tolerance"

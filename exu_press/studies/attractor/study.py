@@ -41,7 +41,7 @@ NOISE = 1e-12
 FEWEST = 3
 """Revolutions after the transient, without which nothing is known."""
 
-SHOWN = 4
+LAST = 4
 """Revolutions at the end whose channels are kept for the pictures."""
 
 
@@ -58,11 +58,11 @@ class Attractor:
         exponent: largest Lyapunov exponent.
         figures: quantity -> its value in each revolution, (n,); channel -> its value on the
             section.
-        step_errors: of these, error of each by the steps.
+        step_errors: error of each of these by the integration's steps.
         units: of these.
         turns: revolutions in a second; a motor's in the mean.
         last: records of the last revolutions.
-        transient: (skip,) distance of each point before from the last one.
+        transient: (skip,) distance of each point of the transient from the last point.
         state: on the section, at the end.
         stopped: why there are fewer revolutions than asked for, or nothing.
     """
@@ -110,7 +110,7 @@ class Attractor:
             "section_deg": self.scene.start_angle_deg,
             "period": {
                 "revolutions": self.period.revolutions,
-                "told": self.period.told,
+                "decided": self.period.is_decided,
                 "in_words": str(self.period),
                 "distances": self.period.distances.tolist(),
                 "error": self.error,
@@ -157,9 +157,9 @@ def attractor(
         revolutions: after the transient.
         skip: revolutions of the transient.
         names: of quantities whose values in each revolution are kept, and of channels (NAME.x is a
-            column), kept on the section; the quantities of the headline unless told.
+            column), kept on the section; the headline quantities by default.
         most: revolutions up to which a period is looked for.
-        start: state on the section to begin with; the scene's own start unless told.
+        start: state on the section to begin with; the scene's own start by default.
         quiet: False shows the progress.
 
     Raises:
@@ -184,7 +184,7 @@ def attractor(
     neighbours = [Orbit(scene) for _ in DISTANCES]
     finer_orbit, pushed = Orbit(finer(scene)), Orbit(_perturbed_scene(scene))
     begin = min(1, skip - 1)
-    measured = {skip, skip + 1, *(skip + int(part * revolutions) for part in LATER)}
+    checked = {skip, skip + 1, *(skip + int(share * revolutions) for share in LATER)}
     transient_points: list[Array] = []
     points: list[Array] = []
     values: list[dict[str, float]] = []
@@ -201,18 +201,18 @@ def attractor(
     with Progress("attractor", total, "revolutions", quiet=quiet) as progress:
         try:
             for done in range(total):
-                is_measured = done == begin or done in measured
+                is_checked = done == begin or done in checked
                 if done == begin:
                     pushed.set_state(orbit.state)
-                if is_measured:
+                if is_checked:
                     finer_orbit.set_state(orbit.state)
                 result = orbit.advance(recorded=done >= skip)
                 if done == skip - 1:
                     start_time = orbit.state["time"]
-                finer_result = finer_orbit.advance(recorded=done >= skip) if is_measured else None
+                finer_result = finer_orbit.advance(recorded=done >= skip) if is_checked else None
                 if done > begin:
-                    grown = [
-                        _grown(orbit, *pair) for pair in zip(neighbours, DISTANCES, strict=True)
+                    growth_of_each = [
+                        _growth(orbit, *pair) for pair in zip(neighbours, DISTANCES, strict=True)
                     ]
                 if done == begin:  # towards states that fit all constraints
                     pushed.advance()
@@ -221,8 +221,8 @@ def attractor(
                 (points if done >= skip else transient_points).append(orbit.point())
                 if result is not None:
                     values.append(read(result))
-                    last = [*last[-SHOWN + 1 :], result]
-                    for series, growth in zip(growths, grown, strict=True):
+                    last = [*last[-LAST + 1 :], result]
+                    for series, growth in zip(growths, growth_of_each, strict=True):
                         series.append(growth)
                 if finer_result is not None and values:
                     finest = read(finer_result)
@@ -240,7 +240,7 @@ def attractor(
     for system in (orbit, finer_orbit, pushed, *neighbours):
         system.close()
     # the first growth is from a state that did not fit its constraints
-    settled = [np.array(system[begin == skip - 1 :]) for system in growths]
+    settled = [np.array(series[begin == skip - 1 :]) for series in growths]
     error = max(*point_errors, NOISE)
     if len(values) >= 2 * BATCHES:
         exponent = combine_exponents(settled, DISTANCES, error)
@@ -249,7 +249,7 @@ def attractor(
     section = np.array(points)
     point_error = error * _error_amplification(exponent)
     most = min(most, len(section) // 3)
-    figures = {name: np.array([system.get(name, math.nan) for system in values]) for name in names}
+    figures = {name: np.array([v.get(name, math.nan) for v in values]) for name in names}
     return Attractor(
         scene=scene,
         skip=skip,
@@ -259,7 +259,7 @@ def attractor(
         exponent=exponent,
         figures=figures,
         step_errors={
-            name: _figure_error([system[name] for system in differences], figures[name], exponent)
+            name: _figure_error([d[name] for d in differences], figures[name], exponent)
             for name in names
         },
         units=channels | {name: placed.quantity.unit for name, placed in quantities.items()},
@@ -272,10 +272,10 @@ def attractor(
 
 
 def _figure_error(differences: Sequence[float], values: Array, exponent: Exponent) -> float:
-    """Return what steps miss of a figure: in a revolution, and by the state that it begins in.
+    """Return the error of a figure: of a revolution's own steps, and of the state it begins in.
 
-    Errors of the state are those of all revolutions before. Where neighbours part, the scatter of
-    the figure has them; where they may, they do not move it by more than it scatters.
+    The state has the errors of all earlier revolutions. Where neighbours diverge, the figure's
+    scatter contains them; where they may diverge, they move it by no more than it scatters.
     """
     own = discretization_error(differences)
     inherited = _error_amplification(exponent) * own
@@ -285,23 +285,23 @@ def _figure_error(differences: Sequence[float], values: Array, exponent: Exponen
 
 
 def _perturbed_scene(scene: Scene) -> Scene:
-    """Return a scene that differs a little, to begin a neighbour in another direction.
+    """Return a scene that differs a little, to displace a neighbour in another direction.
 
-    Two that begin in one may both follow for long a direction that grows less than another one.
+    Two neighbours in one direction may both follow for long one that grows less than others do.
     """
     speed = scales(scene).speed
     assert speed is not None
     return scene.replace({"gravity": scene.gravity + PUSH * speed * scene.angular_speed})
 
 
-def _grown(orbit: Orbit, neighbour: Orbit, distance: float) -> float:
-    """Advance a neighbour; return how its distance has grown, and bring it back to `distance`."""
+def _growth(orbit: Orbit, neighbour: Orbit, distance: float) -> float:
+    """Advance a neighbour, bring it back to `distance`; return the logarithm of its growth."""
     neighbour.advance()
     return math.log(_bring_back(orbit, neighbour, neighbour, distance) / distance)
 
 
 def _bring_back(orbit: Orbit, neighbour: Orbit, direction: Orbit, distance: float) -> float:
-    """Put a neighbour at a distance from the orbit, towards another one; return how far that is."""
+    """Put a neighbour at a distance from the orbit, towards another one; return their distance."""
     distance_before = max(float(np.linalg.norm(direction.point() - orbit.point())), NOISE)
     neighbour.set_state(orbit.towards(direction.state, distance / distance_before))
     return distance_before

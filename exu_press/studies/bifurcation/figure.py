@@ -50,15 +50,15 @@ def bifurcation_figure(report: BifurcationReport) -> Figure:
                 np.full(len(section), value), section[:, 0], marker, color=colour, markersize=3,
                 linestyle="", alpha=0.7,
             )  # fmt: skip
-            known = row["period"] if row["told"] else None
-            at = known or study.bifurcation.longest + (1 if row["told"] else 2)
-            period.plot(value, at, marker, color=colour if row["told"] else GREY)
+            known = row["period"] if row["decided"] else None
+            at = known or study.bifurcation.longest + (1 if row["decided"] else 2)
+            period.plot(value, at, marker, color=colour if row["decided"] else GREY)
             mean, low, high = row["exponent"]
             exponent.plot(value, mean, marker, color=colour, markersize=4)
             exponent.vlines(value, mean if low is None else low, high, color=colour, linewidth=1.0)
     last = own.longest
     ticks = list(range(1, last + 1))
-    period.set_yticks([*ticks, last + 1, last + 2], [*map(str, ticks), "none", "not told"])
+    period.set_yticks([*ticks, last + 1, last + 2], [*map(str, ticks), "none", "undecided"])
     period.set_ylim(0.5, last + 2.5)
     period.set_ylabel("period")
     exponent.axhline(0.0, color=COLOURS["vermilion"], linewidth=0.9)
@@ -114,7 +114,7 @@ def period_map_figure(report: BifurcationReport) -> Figure:
 
 
 def _periods(panel: Axes, rows: list[list[Row]], longest: int) -> None:
-    """Draw each period in its colour, with its number; "-" is none, "?" not told, "x" failed."""
+    """Draw each period in its colour, with its number; "-" is none, "?" undecided, "x" failed."""
     colours = [*PATH_COLOURS(np.linspace(0.25, 1.0, longest)), COLOURS["vermilion"], "w", SHADE]
     signs = [*map(str, range(1, longest + 1)), "-", "?", "x"]
     numbers = np.array([[_colour_index(row, longest) for row in line] for line in rows])
@@ -131,7 +131,7 @@ def _periods(panel: Axes, rows: list[list[Row]], longest: int) -> None:
     meanings = [
         *(f"{n + 1}" for n in range(longest)),
         f"none up to {longest}",
-        "not told",
+        "undecided",
         "failed",
     ]
     there = sorted(set(numbers.ravel().tolist()))
@@ -149,7 +149,7 @@ def _colour_index(row: Row, longest: int) -> int:
     """Return the index of a run's colour."""
     if row["status"] != "completed":
         return longest + 2
-    if not row["told"]:
+    if not row["decided"]:
         return longest + 1
     return int(row["period"] or longest + 1) - 1
 

@@ -148,7 +148,7 @@ class BifurcationReport(Report):
     def to_xarray(self) -> Any:
         """Return every point as an `xarray.Dataset` over way, keys, revolution and coordinate.
 
-        A point that failed is NaN. A period is 0 where there is none, and NaN where it is not told.
+        A point that failed is NaN. A period is 0 where there is none, NaN where undecided.
         An exponent is per revolution; its lower end is NaN where only an upper bound is known.
 
         Raises:
@@ -176,7 +176,7 @@ class BifurcationReport(Report):
                 index += [] if branch.second is None else [study.seconds.index(branch.second)]
                 points[tuple(index)] = row["points"]
                 ends = [np.nan if end is None else end for end in row["exponent"]]
-                period = (row["period"] or 0) if row["told"] else np.nan
+                period = (row["period"] or 0) if row["decided"] else np.nan
                 for name, entry in zip(figures, (period, row["error"], *ends), strict=True):
                     figures[name][tuple(index)] = entry
         variables = {name: (tuple(axes), values) for name, values in figures.items()}

@@ -117,7 +117,7 @@ def run_point(arguments: dict[str, Any]) -> dict[str, Any]:
             and "speed", the one at which it was found; or None.
 
     Returns:
-        status, reason, points (n, k), period (None where there is none), told, in_words, error,
+        status, reason, points (n, k), period (None where there is none), decided, in_words, error,
         exponent: [value, low or None, high] per revolution, motion, state.
     """
     scene, start = scene_from(arguments), arguments["start"]
@@ -138,7 +138,7 @@ def run_point(arguments: dict[str, Any]) -> dict[str, Any]:
         "reason": "",
         "points": motion.points.tolist(),
         "period": motion.period.revolutions,
-        "told": motion.period.told,
+        "decided": motion.period.is_decided,
         "in_words": str(motion.period),
         "finer": motion.period.finer,
         "error": motion.error,

@@ -1,4 +1,4 @@
-"""One run, time_runs: the median of several after a warm-up.
+"""One run, timed: the median of several after a warm-up.
 
 Processor time is the time of the run's one thread; on a machine with nothing else to do
 it is the wall time, and on a busy one it can still be compared.

@@ -19,7 +19,7 @@ def repeated(pattern, count=60, noise=0.0):
 @pytest.mark.parametrize("period", [1, 2, 3, 8])
 def test_a_pattern_has_its_period(period):
     found = period_of(repeated(RANDOM.uniform(size=period), noise=0.2 * ERROR), ERROR, 16)
-    assert (found.revolutions, found.told) == (period, True)
+    assert (found.revolutions, found.is_decided) == (period, True)
 
 
 def test_chaos_has_none():
@@ -27,16 +27,16 @@ def test_chaos_has_none():
     for _ in range(80):
         x.append(4.0 * x[-1] * (1.0 - x[-1]))
     found = period_of(np.array(x)[:, None], ERROR, 16)
-    assert (found.revolutions, found.told) == (None, True)
+    assert (found.revolutions, found.is_decided) == (None, True)
     assert str(found) == "none up to 16 revolutions"
 
 
 def test_what_the_error_hides_is_not_told_apart():
     """Points that alternate by five times their error may be one point or two."""
     found = period_of(repeated([0.0, 5.0 * ERROR / np.sqrt(2.0)], noise=1.5 * ERROR), ERROR, 8)
-    assert not found.told
+    assert not found.is_decided
     assert 0.1 < found.finer < 1.0
-    assert "not told apart (points lie" in str(found)
+    assert "undecided (points lie" in str(found)
     finer = period_of(repeated([0.0, 5.0 * ERROR / np.sqrt(2.0)]), ERROR / 100.0, 8)
     assert finer.revolutions == 2
 
@@ -44,7 +44,7 @@ def test_what_the_error_hides_is_not_told_apart():
 def test_a_motion_that_still_settles_is_not_told():
     points = repeated([1.0]) + np.exp(-0.05 * np.arange(60))[:, None]
     found = period_of(points, 1e-6, 8)
-    assert not found.told
+    assert not found.is_decided
     assert "skip more revolutions" in str(found)
 
 
@@ -57,7 +57,7 @@ def test_what_diverges_has_no_period_within_a_large_error():
     points = 1e-3 * np.random.default_rng(1).normal(size=(40, 2))
     assert str(period_of(points, error=0.005, most=4)) == "1 revolution"
     told = period_of(points, error=0.005, most=4, diverging=True)
-    assert not told.told and told.revolutions is None
+    assert not told.is_decided and told.revolutions is None
     assert "neighbours part" in str(told) and told.finer < 1.0
 
 
@@ -65,7 +65,7 @@ def test_an_error_as_large_as_the_clearance_tells_no_period():
     """Points all over the clearance lie within three times such an error, too."""
     points = np.random.default_rng(1).uniform(-0.5, 0.5, size=(40, 2))
     told = period_of(points, error=2.0, most=4)
-    assert not told.told and told.revolutions is None
+    assert not told.is_decided and told.revolutions is None
     assert told.finer == pytest.approx(0.05, rel=0.01)
     assert "clearances apart, with an error of 2" in str(told)
 
@@ -75,5 +75,5 @@ def test_points_that_scatter_within_a_large_error_are_not_the_same(scatter, erro
     """A dry press with 20 um scatters by a tenth of that: "1 revolution" for an error of 4 %."""
     points = scatter / 3.0 * np.random.default_rng(1).uniform(-1.0, 1.0, size=(40, 2))
     told = period_of(points, error=error, most=4)
-    assert not told.told and told.revolutions is None
+    assert not told.is_decided and told.revolutions is None
     assert 0.0 < told.finer * error <= 0.01

@@ -1,4 +1,4 @@
-"""Bifurcation studies: branches with rescale_state states, resumption, picture, refusals."""
+"""Bifurcation studies: branches with carried states, resumption, picture, refusals."""
 
 import json
 
@@ -113,8 +113,7 @@ def test_the_command(tmp_path, capsys):
         ({"revolutions": [1.0, 2.0]}, {}, "keys.revolutions: bifurcation.skip and bifurcation"),
         ({"speed_rpm": [240.0, 230.0]}, {}, "keys.speed_rpm: allowed are numbers that increase"),
         (SPEEDS, {"revolutions": 20, "longest": 8}, "allowed are at least 24, for periods up to 8"),
-        (SPEEDS, {"way": "sideways"}, "way = 'sideways': allowed is one of 'up and down'"),
-        (SPEEDS, {"skip": 0}, "skip = 0: allowed is a whole number >= 1"),
+        ({**SPEEDS, "film.viscosity": [0.1], "gravity": [9.0]}, {}, "is one key, or two for a map"),
     ],
 )
 def test_refused(keys, own, words):

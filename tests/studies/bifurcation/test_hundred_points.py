@@ -39,7 +39,7 @@ def map_point(arguments):
         "reason": "",
         "points": points,
         "period": 1,
-        "told": True,
+        "decided": True,
         "in_words": "1 revolution",
         "finer": 1.0,
         "error": 1e-9,

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from slider_cranks import FILM
 
-from exu_press import InputError
 from exu_press.studies.bifurcation import Bifurcation, BifurcationReport, Branch, bifurcation
 from exu_press.studies.bifurcation.figure import period_map_figure
 
@@ -13,10 +12,10 @@ KEYS = {"joints.crank_pin.clearance": [5e-5, 1e-4, 2e-4], "speed_rpm": [200.0, 2
 
 
 def row(period, told=True, value=0.25):
-    words = "not told apart (why)" if not told else f"{period} revolutions"
+    words = "undecided (why)" if not told else f"{period} revolutions"
     return {
         "status": "completed", "reason": "", "points": np.full((20, 4), value).tolist(),
-        "period": period, "told": told, "in_words": words, "error": 1e-3,
+        "period": period, "decided": told, "in_words": words, "error": 1e-3,
         "exponent": [-1.0, None, -0.5], "motion": "regular", "state": {},
     }  # fmt: skip
 
@@ -72,13 +71,8 @@ def test_the_map_shows_each_cell(report):
     }  # fmt: skip
     assert [label.get_text() for label in periods.get_xticklabels()] == ["50", "100", "200"]
     legend = [text.get_text() for text in periods.get_legend().get_texts()]
-    assert legend == ["1", "2", "-: none up to 2", "?: not told", "x: failed"]
+    assert legend == ["1", "2", "-: none up to 2", "?: undecided", "x: failed"]
     assert np.isnan(np.ma.filled(exponents.images[0].get_array(), np.nan)[0, 0])
-
-
-def test_three_keys_are_refused():
-    with pytest.raises(InputError, match="allowed in a file for exu-press bifurcation is one key"):
-        Bifurcation(scene=FILM, keys={**KEYS, "film.viscosity": [0.1]}, bifurcation=SHORT)
 
 
 @pytest.mark.long

@@ -75,20 +75,12 @@ def test_a_time_limit_does_not_make_another_study():
             "keys.speed_rpm: low = 2, high = 1: allowed is low < high",
         ),
         (
-            SCENE + "[keys]\nspeed_rpm = {low = 0, high = 1, log = true}\n",
-            "keys.speed_rpm: low = 0, high = 1: allowed is 0 < low < high",
-        ),
-        (
             SCENE + "[keys]\nspeed_rpm = {low = 200, high = 300}\n",
             'keys.speed_rpm = .*: allowed with way = "grid" is a list of values',
         ),
         (
             SCENE + SAMPLE + "[keys]\nspeed_rpm = [200, 300]\n",
             'keys.speed_rpm = .200, 300.: allowed with way = "sample" is',
-        ),
-        (
-            SCENE + SAMPLE + "[keys]\nspeed_rpm = {mean = 200, deviation = 0}\n",
-            "keys.speed_rpm: deviation = 0.0: allowed is a number > 0",
         ),
         (
             SCENE + SAMPLE + "[keys]\nspeed_rpm = {mean = 200, deviation = 9, low = 300}\n",
@@ -102,18 +94,10 @@ def test_a_time_limit_does_not_make_another_study():
             SCENE + "[sweep]\nway = 'sample'\nn = 3\n[keys]\nspeed_rpm = {low = 1, high = 2}\n",
             "sweep.seed: is needed",
         ),
-        (SCENE + "[sweep]\nway = 'grib'\n[keys]\nspeed_rpm = [1]\n", "sweep.way = 'grib'"),
         (
             SCENE + LIST + "[keys]\nspeed_rpm = [1]\ngravity = [9, 8]\n",
             "speed_rpm has 1, gravity has 2",
         ),
-        (
-            SCENE + "[keys]\nspeed_rpm = [1]\n[sweap]\nn = 1\n",
-            "sweap = .*: unknown key .did you mean .sweep...; allowed are scene, ",
-        ),
-        ("time_limit = 0\n" + SCENE + "[keys]\nspeed_rpm = [1]\n", "time_limit = 0.*: allowed"),
-        ("save_runs = 1\n" + SCENE + "[keys]\nspeed_rpm = [1]\n", "save_runs = 1: allowed is"),
-        (SCENE + "[keys]\nspeed = [1.0]\n", "run with speed = 1.0: speed = 1.0: unknown key"),
         (
             SCENE + '[keys]\nspeed_rpm = [200.0, -1.0]\n"film.viscosity" = [0.1]\n',
             r"run with speed_rpm = -1\.0, film\.viscosity = 0\.1: speed_rpm = -1\.0: allowed",
@@ -122,7 +106,6 @@ def test_a_time_limit_does_not_make_another_study():
             SCENE + '[keys]\njoints.crank_pin = ["ideal"]\nfilm.viscosity = [0.1]\n',
             "not used by this",
         ),
-        ("[scene]\nspeed = 1\n[keys]\nspeed_rpm = [1]\n", "speed = 1: unknown key"),
         ("scene = [", "not a TOML file"),
         ('scene = "nowhere.toml"\n[keys]\nspeed_rpm = [1]\n', "nowhere.toml: cannot be read"),
     ],

@@ -4,6 +4,7 @@ import math
 import numbers
 import sys
 from dataclasses import dataclass
+from functools import cached_property
 
 from exu_press.errors import InputError
 from exu_press.quantities.cost import COSTS
@@ -86,7 +87,7 @@ class QuantityAt:
     quantity: Quantity
     owner: str = ""
 
-    @property
+    @cached_property
     def name(self) -> str:
         """Its full name."""
         return self.quantity.full_name(self.owner)

@@ -26,8 +26,9 @@ THICKER = 1.5
 """Viscosity at the largest force over that at the mean one."""
 
 
-def oil_warnings(result: Result) -> Iterator[str]:
+def oil_warnings(run: Reading) -> Iterator[str]:
     """Yield films that have not found their temperature, or in which an oil's law is stretched."""
+    result = run.run
     if not result.completed:
         return
     added = result.info.get("added_revolutions", 0)
@@ -38,15 +39,15 @@ def oil_warnings(result: Result) -> Iterator[str]:
         )
     for name, joint in result.scene.joints.items():
         if isinstance(joint, LubricatedJoint) and f"{name}_temperature" in result:
-            yield from _settling(result, name)
+            yield from _settling(run, name)
             yield from _outside(result, name, joint)
 
 
-def _settling(result: Result, name: str) -> Iterator[str]:
+def _settling(run: Reading, name: str) -> Iterator[str]:
     """Yield a film that still warms."""
-    run, label = Reading(result), name.replace("_", " ")
+    label = name.replace("_", " ")
     change, balance = film_change(run, name), film_balance(run, name)
-    now = float(result[f"{name}_temperature"][-1])
+    now = float(run.run[f"{name}_temperature"][-1])
     if change is not None and abs(change) > STEADY:
         yield (
             f"{label}: the film is at {now:.1f} deg C, and the heat of the last revolution asks "

@@ -15,7 +15,6 @@ from exu_press.quantities.reading import Reading
 from exu_press.quantities.start_stop import still_turns
 from exu_press.quantities.value import values_of
 from exu_press.result import JointRecord, Result
-from exu_press.result.windows import settled_part
 from exu_press.scene import DryJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.assumptions import assumed
 from exu_press.scene.joint import Joint
@@ -53,7 +52,7 @@ def summary(result: Result) -> dict[str, Any]:
         "status": info["status"],
         "reason": info["reason"],
         "end_time": info["end_time"],
-        "warnings": figures["warnings"] if figures else run_warnings(result),
+        "warnings": figures["warnings"] if figures else run_warnings(run),
         "assumed": assumed(result.scene),
         "read_from": figures["read_from"]
         if figures
@@ -86,8 +85,9 @@ def _strokes(result: Result, run: Reading) -> list[dict[str, float]]:
     ]
 
 
-def run_warnings(result: Result) -> list[str]:
+def run_warnings(run: Reading) -> list[str]:
     """Return the warnings of summary.json: about the run's quantities, then about its scene."""
+    result = run.run
     texts, scene = [], result.scene
     residual = energy_residual(result)
     if result.info["own_items"]:
@@ -97,7 +97,7 @@ def run_warnings(result: Result) -> list[str]:
             f"the energy balance misses {residual:.2g} of the energy: try a smaller "
             "solver.tolerance or solver.step"
         )
-    for name, joint in settled_part(result).joints.items():
+    for name, joint in run.result.joints.items():
         if joint.kind == "lubricated":
             ratio = float(joint.distance.max() / joint.clearance)
             if ratio > NEARLY_TOUCHING:
@@ -106,7 +106,7 @@ def run_warnings(result: Result) -> list[str]:
                     "for smooth surfaces are hardly valid there"
                 )
         texts += _penetration_warnings(name, joint, scene.joints[name])
-    if scene.drive is not None and scene.drive.stops and still_turns(Reading(result)):
+    if scene.drive is not None and scene.drive.stops and still_turns(run):
         speed = float(result["crank_speed"][-1]) * 30.0 / math.pi
         texts.append(
             f"the press does not stand behind its last stop: the crank turns at {speed:.3g} rpm at "
@@ -114,7 +114,7 @@ def run_warnings(result: Result) -> list[str]:
         )
     return [
         *texts,
-        *oil_warnings(result),
+        *oil_warnings(run),
         *_redundancy_warnings(scene),
         *_solid_warnings(result),
         *scene_warnings(scene),

@@ -39,11 +39,12 @@ def shown_value(quantity: Quantity, value: Value) -> str:
 
 def comparison_cells(results: Mapping[str, Result]) -> list[list[str]]:
     """Return the lines of a table as texts: the head, then a quantity a line, one column a run."""
-    runs = {label: values_of(result) for label, result in results.items()}
+    readings = {label: Reading(result) for label, result in results.items()}
+    runs = {label: values_of(result, readings[label]) for label, result in results.items()}
     cells = [
         ["", *results],
         ["status", *(str(result.info["status"]) for result in results.values())],
-        ["read from revolutions", *map(_span, results.values())],
+        ["read from revolutions", *map(_span, readings.values())],
         [HORIZON, *(uncertain(r.info.get("horizon"), None, 1e3) for r in results.values())],
     ]
     unit = ""
@@ -75,8 +76,8 @@ def run_lines(result: Result) -> list[str]:
     return comparison_lines({"": result})[1:]
 
 
-def _span(result: Result) -> str:
-    begin, end = Reading(result).span
+def _span(run: Reading) -> str:
+    begin, end = run.span
     start = "" if begin > 1e-3 else ", with the start"
     return f"{begin:.3g} to {end:.3g}{start}"
 

@@ -6,6 +6,7 @@ import pytest
 from exu_press import Scene, simulate
 from exu_press.quantities import quantities_of, values_of
 from exu_press.quantities.joints import contacts, share_of_contact
+from exu_press.quantities.reading import Reading
 from exu_press.quantities.summary import run_warnings
 
 FILM = {"kind": "lubricated", "film": {"at_contact": "mixed", "roughness": 1e-6}}
@@ -104,7 +105,7 @@ def test_the_start_that_is_excluded_is_not_warned_of():
         )
 
     for turns, expected in ((0.5, False), (1.5, True)):
-        told = run_warnings(closer(turns))
+        told = run_warnings(Reading(closer(turns)))
         assert any("eccentricity ratio up to 0.990" in text for text in told) == expected
 
 

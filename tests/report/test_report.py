@@ -11,6 +11,7 @@ from PIL import Image
 from exu_press.cli import main
 from exu_press.errors import InputError
 from exu_press.plots.words import joint_in_words
+from exu_press.quantities.reading import Reading
 from exu_press.quantities.summary import run_warnings
 from exu_press.report import Kind, find_output
 from exu_press.report.run import joint_table
@@ -143,11 +144,11 @@ def test_a_sweep_shows_every_run(parsed):
 def test_warnings_of_doubtful_runs(outputs):
     result = Result.load(outputs["run"] / "run.nc")
     given = result.scene.replace({"film.law": "finite"})
-    assert run_warnings(replace(result, scene=given)) == []
+    assert run_warnings(Reading(replace(result, scene=given))) == []
     pin = result["crank_pin_eccentricity"]
     pin = pin * (0.99e-4 / np.linalg.norm(pin, axis=1).max())
     off = {"energy_input": result["energy_input"] + 1e6, "crank_pin_eccentricity": pin}
-    energy, film = run_warnings(replace(result.with_values(off), scene=given))
+    energy, film = run_warnings(Reading(replace(result.with_values(off), scene=given)))
     assert re.search(r"the energy balance misses \S+ of the energy", energy)
     assert film.startswith("crank pin: eccentricity ratio up to 0.990")
 
@@ -160,7 +161,10 @@ def test_a_flywheel_is_no_part_of_the_solid_that_a_crank_is():
     crank = result.scene.press
     arm = crank.crank_mass * crank.crank_radius**2 / 12
     solid = {"mass": crank.crank_mass, "inertia": arm, "centre_of_mass": [0.0, 0.0], "modes": 1}
-    assert run_warnings(replace(result, info={**result.info, "solids": {"crank": solid}})) == []
+    assert (
+        run_warnings(Reading(replace(result, info={**result.info, "solids": {"crank": solid}})))
+        == []
+    )
 
 
 def test_the_file_names_the_kind(outputs, tmp_path):

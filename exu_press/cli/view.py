@@ -14,7 +14,7 @@ __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
 EXAMPLE = "exu-press view out/press/run.nc --from 0.03 --to 0.05 --save animation.gif"
 
-OF_ANIMATIONS = ("at", "slow", "frames", "fps", "colour", "exaggerate")
+ANIMATION_OPTIONS = ("at", "slow", "frames", "fps", "colour", "exaggerate")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -84,7 +84,7 @@ def _open(options: argparse.Namespace) -> int:
     from exu_press.cli.report import tell_extra
     from exu_press.report.shown import open_file, write_page
 
-    for option in OF_ANIMATIONS:
+    for option in ANIMATION_OPTIONS:
         if (value := getattr(options, option)) is not None:
             raise InputError(f"--{option} {value}: allowed with --save; in the page it is chosen")
     kind, file = find_output(Path(options.path))
@@ -97,7 +97,7 @@ def _open(options: argparse.Namespace) -> int:
 
 
 def _page_of(file: Path) -> Path:
-    """Return where the page of a result goes: beside it, elsewhere where that is not allowed."""
+    """Return the file of a result's page: beside it, or temporary where that is read-only."""
     beside = file.parent / "report.html"
     if os.access(file.parent, os.W_OK):
         return beside
@@ -105,7 +105,7 @@ def _page_of(file: Path) -> Path:
 
 
 def _run_in(path: Path) -> Path:
-    """Return the result file that is meant."""
+    """Return the run's result file at a path."""
     kind, file = find_output(path)
     if kind is not Kind.RUN:
         raise InputError(f"{path}: holds {file.name}, many runs; allowed is one of them, a run.nc")

@@ -1,4 +1,4 @@
-"""Why a refinement did not converge, in words."""
+"""Messages that say why a refinement did not converge."""
 
 import itertools
 import math
@@ -40,10 +40,11 @@ def why_not_converged(refinement: Refinement) -> str:
     worst = int(refinement.differences(*levels[-2:]).max(axis=0).argmax())
     pairs = [(refinement.differences(*pair), *pair) for pair in itertools.pairwise(levels[-3:])]
     last = [f"{d[:, worst].max():.2g} from {a.steps} to {b.steps} steps" for d, a, b in pairs]
+    name = refinement.variables.names[worst]
     return (
         f"the last two levels agree within the tolerance up to {agreed_until(refinement):.4g} s; "
-        f"most differs the {refinement.variables.names[worst]}, over its scale by "
-        f"{', by '.join(last)}; {_cause(refinement)}"
+        f"the largest difference over its scale is that of the {name}: {', '.join(last)}; "
+        f"{_cause(refinement)}"
     )
 
 

@@ -1,4 +1,4 @@
-"""Levels of rising numbers of steps, until the stated error of the last one is in the tolerance."""
+"""Refinement: runs with rising numbers of steps, until the stated error is within the tolerance."""
 
 import itertools
 import math
@@ -26,13 +26,13 @@ ALIGNED = 1.35
 
 @dataclass
 class Refinement:
-    """Levels of a system, and what they tell."""
+    """Levels of a system, and the error that follows from them."""
 
     runs: Levels
     variables: Variables
     tolerance: float
     users: int  # the user's own number of steps
-    rows: int  # of output, that he asks for
+    rows: int  # of output that the settings ask for
     max_steps: int  # of all levels together
     levels: list[Level] = field(default_factory=list)  # the last ones, the coarsest first
     failures: list[Level] = field(default_factory=list)  # at which the solver gave up
@@ -63,7 +63,7 @@ class Refinement:
                 spare.end()
 
     def meets_tolerance(self) -> bool:
-        """Return whether the finest level has the tolerance."""
+        """Return whether the finest level is within the tolerance."""
         if self.judgement is None or self.remembers:
             return False
         return self.judgement.decided and self.judgement.error <= self.tolerance
@@ -80,10 +80,10 @@ class Refinement:
 
     def differences(self, first: Level, second: Level) -> Array:
         """Return the differences of two levels over the scales, (instants, quantities)."""
-        apart = difference.differences(first.samples, second.samples, self.variables)
+        relative = difference.differences(first.samples, second.samples, self.variables)
         scales = self.scales()
-        apart[:, scales > 0.0] /= scales[scales > 0.0]
-        return apart
+        relative[:, scales > 0.0] /= scales[scales > 0.0]
+        return relative
 
     def solver_gives_up(self) -> bool:
         """Return whether the solver gave up at the last level, and that had many steps."""
@@ -92,7 +92,7 @@ class Refinement:
         return last > finest and last >= GIVE_UP * self.users
 
     def _run_last(self, steps: int, *, repeats: bool) -> Level:
-        """Return the level that the system holds; one that repeats another must be like it."""
+        """Run a level on the user's system; compare it with the one that it repeats, if any."""
         level = self.runs.run(steps)
         if repeats and not level.failure:
             copy, self.levels[-1] = self.levels[-1], level
@@ -103,7 +103,7 @@ class Refinement:
         return level
 
     def _keep(self, *levels: Level) -> None:
-        """Keep levels, and judge the last one where three can decide."""
+        """Keep levels, and judge the last one where three have short enough steps."""
         for level in levels:
             self.cost.append((level.steps, level.seconds))
             (self.failures if level.failure else self.levels).append(level)

@@ -1,6 +1,6 @@
 """The error of a run: its difference from the same run with finer steps, in a copy of the process.
 
-Nothing within a run tells how far the motion amplifies what its steps miss, as impacts do.
+A run itself does not show how far its motion amplifies local errors, as impacts do.
 """
 
 import dataclasses
@@ -23,7 +23,7 @@ from fe_models.processes import Child, ChildError
 __all__ = ["Run", "Watch", "with_error"]
 
 FINER = 0.25
-"""Tolerance of the finer run over the run's; errors of velocities go with it."""
+"""Tolerance of the finer run over that of the run; errors of velocities are proportional."""
 
 AMPLIFIED, INSTANTS = 10.0, 100
 """Tolerances above which a motion amplifies errors, and number of instants that are compared."""
@@ -64,7 +64,7 @@ class SampledVelocities:
         return watch_and_sample
 
     def _sample(self, time: float) -> None:
-        """Keep what lies within the step that ends in the current state at a time, s."""
+        """Keep velocities at the instants within the step that ends at a time, s."""
         v1, a1 = np.array(self._state.velocities), np.array(self._state.accelerations)
         while self._last is not None and len(self.rows) < INSTANTS:
             begin, v0, a0 = self._last
@@ -91,7 +91,7 @@ def with_error(
     """Return how a run ended, with its error where it got to its end.
 
     Raises:
-        InputError: no finer run in a copy of this process would tell.
+        InputError: the steps are fixed, or this process cannot be copied.
     """
     if tolerance is None:
         raise InputError(
@@ -127,7 +127,7 @@ def with_error(
 
 
 def _refuse_uncopied(mbs: exu.MainSystem) -> None:
-    """Refuse to copy this process where the copy would not do."""
+    """Refuse a process that cannot be copied."""
     if sys.platform != "linux":
         raise InputError(
             "errors = True: allowed on Linux, where a copy of the process does the finer run; "
@@ -136,8 +136,8 @@ def _refuse_uncopied(mbs: exu.MainSystem) -> None:
     container: Any = mbs.GetSystemContainer()
     if container.renderer.IsActive():
         raise InputError(
-            "errors = True: allowed without a window, which the copy of the process has not: stop "
-            "the renderer"
+            "errors = True: allowed without a window, as a copy of the process has none: stop the "
+            "renderer"
         )
 
 
@@ -154,7 +154,7 @@ def _answer(copy: Child) -> Answer:
 
 
 def _write_nothing(mbs: exu.MainSystem, settings: exu.SimulationSettings) -> None:
-    """Leave all files to the run itself."""
+    """Switch off all files; the run itself writes them."""
     output = settings.solution
     output.file.write = output.restart.write = False
     output.recordImagesInterval = -1.0
@@ -176,7 +176,7 @@ def _rows(mbs: exu.MainSystem) -> list[Array]:
 
 
 def _error(task: Task, motion: SampledVelocities, answer: Answer) -> RunError:
-    """Return the error of a run by its motion's differences from that of a finer one."""
+    """Return the error of a run from its differences to the finer run."""
     reason, finer, sensors = answer
     coverage, scales = task.tuning.coverage, task.scales
     errors = coverage * np.array(

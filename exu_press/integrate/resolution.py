@@ -10,13 +10,13 @@ __all__ = ["ImpactResolution", "UnresolvedImpact"]
 
 @dataclass(frozen=True)
 class UnresolvedImpact:
-    """The worst step of a run that its steps do not resolve.
+    """The step with the largest jump of an inertia force, in a run whose impacts are not resolved.
 
     Attributes:
         time: where the step ends, s.
         step: its size, s.
-        node: whose inertia force jumps, counted as in the problem.
-        jump: of that force, over the largest one of the run.
+        node: index of the system's node whose inertia force jumps.
+        jump: change of that force over the largest one of the run.
     """
 
     time: float
@@ -26,17 +26,18 @@ class UnresolvedImpact:
 
 
 class ImpactResolution:
-    """Follows the inertia forces of all bodies: do the steps resolve the impacts?
+    """Measures from the inertia forces of all bodies whether steps resolve the impacts.
 
-    A step of any size gets through an impact, and determines its peak. Resolved, a force rises over
-    several steps: the largest change of an inertia force m |a| within one counts, over the largest.
-    Against a tolerance of 1e-5 on presses and slider-cranks, steps of 1e-3 to 1e-5 s: above 0.8 the
-    joints' peak forces were off by 9 to 90 %, between 0.65 and 0.8 by 2 to 17 %.
+    A step of any size passes an impact, but then its size determines the peak. In an impact that is
+    resolved the force rises over several steps. The measure is the largest change of an inertia
+    force m |a| within one step over the largest inertia force of the run. On presses and
+    slider-cranks, with steps of 1e-3 to 1e-5 s against a tolerance of 1e-5, joints' peak forces
+    were off by 9 to 90 % where it was above 0.8, and by 2 to 17 % between 0.65 and 0.8.
 
-    Loads may jump themselves: a jump that changes no speed by a tenth of the tolerance is none of
-    the step's; with clearance joints, whose largest forces may be those of slight impacts, by a
-    hundredth. Joints bear weights as well: where all inertia forces are smaller, a jump is judged
-    against the largest weight.
+    A load may jump itself: a jump that changes each speed by less than a tenth of the tolerance is
+    ignored; with clearance joints, whose largest forces may be those of slight impacts, by less
+    than a hundredth. Where all inertia forces are smaller than the largest weight, which joints
+    bear as well, a jump is judged against that weight.
     """
 
     def __init__(self, task: Task) -> None:
@@ -58,7 +59,7 @@ class ImpactResolution:
         self._last, self._started, self._ring = accelerations, [], 1.0
 
     def accept(self, time: float, step: float, accelerations: list[float]) -> None:
-        """Look at an accepted step (s), and where it ends (s)."""
+        """Measure an accepted step (s) that ends at a time (s)."""
         last, self._last = self._last, accelerations
         inertias, masses, ends = self._scales.inertias, self._scales.masses, self._scales.ends
         first = not self._started

@@ -1,6 +1,6 @@
-"""How a run ended, in words: when, where, why, and what to try.
+"""How a run ended: status and a message that says when, where, why, and what to try.
 
-The words of `Advice` are for any system; a scene's own (`exu_press.solving`) name its keys.
+`Advice` words messages for any system; that of a scene (`exu_press.solving`) names its keys.
 """
 
 import math
@@ -17,20 +17,20 @@ from exu_press.joints.joint import ClearanceJoint
 __all__ = ["ARRIVED", "Advice", "termination"]
 
 SPENT = 1e-3
-"""Film thickness over clearance at which a run that gets no further has lost its film."""
+"""Film thickness over clearance below which a run that stops has lost its film."""
 
 EXUDYN_ENDS = 1e-10
-"""Before its end, at most how early Exudyn ends a run, s."""
+"""Largest time by which Exudyn ends a run early, s."""
 
 ARRIVED = "arrived"
 """A watch's word for a run that has reached its aim: it is completed."""
 
 
 class Advice:
-    """Words for the places and the settings of a system."""
+    """Parts of messages: location, joint, setting and cure, for any system."""
 
     def __init__(self, system: System, by_tolerance: bool) -> None:
-        """Speak of a system, stepped by tolerance or with fixed steps."""
+        """Word messages about a system, stepped by tolerance or with fixed steps."""
         self.system, self.by_tolerance = system, by_tolerance
 
     @property
@@ -60,7 +60,7 @@ class Advice:
         return f"an earlier end time, a larger {self.setting} or max_steps"
 
     def long(self, step: float, joint: ClearanceJoint | None) -> str:
-        """Return why a run is long, of its mean step, s, and the joint that limits most steps."""
+        """Return why a run takes long: its mean step, s, and the joint that limits most steps."""
         words = f"steps of {step:.2g} s"
         if joint is not None:
             words += f", as {self.joint(joint)} needs them{self.stiff(joint)}"
@@ -81,7 +81,7 @@ class Advice:
         return f"another {self.setting}, or a tolerance instead"
 
     def redundancy(self, redundant: int) -> str:
-        """Return what helps where so many constraints say the same as others."""
+        """Return the cure for a number of redundant constraints."""
         return (
             f"{redundant} constraint{'s say' if redundant > 1 else ' says'} the same as others: "
             "leave out the redundant ones, or settings.linearSolver.solverType = EigenDense with "
@@ -89,16 +89,16 @@ class Advice:
         )
 
     def cause(self) -> str:
-        """Return what is known of the system that explains why it does not get on, or nothing."""
+        """Return a possible cause of failed steps that lies in the system, or nothing."""
         moved = self.system.rates_not_provided or _has_pre_step_function(self.system)
         return " (or no offset that jumps)" if moved else ""
 
     def resolution(self, worst: UnresolvedImpact) -> str:
-        """Return what resolves a run that leapt over its impacts."""
+        """Return the cure for steps that do not resolve an impact."""
         return f"a {self.setting} ten times smaller"
 
     def about_outcome(self, outcome: Outcome) -> Iterator[str]:
-        """Say of an outcome what a script may go on without looking at."""
+        """Yield warnings about an outcome, as a script may not look at it."""
         if outcome.status not in (SolverStatus.COMPLETED, SolverStatus.INTERRUPTED):
             yield f"{outcome.status.value}: {outcome.reason}"
         error = outcome.error
@@ -113,17 +113,17 @@ class Advice:
             )
 
     def about_start(self, task: Task, changes: tuple[float, float]) -> Iterator[str]:
-        """Say how far a start was moved, m and m/s, if by more than errors may be."""
+        """Yield a warning of a start that was moved by more than the tolerance, in m and m/s."""
         (moved, changed), scales = changes, task.scales
         if max(moved / scales.length, changed / (scales.speed or 1.0)) > task.tolerance:
             yield (
                 "the start did not fit joints and prescribed motions: positions were changed by "
-                f"up to {moved:.2g} m, velocities by up to {changed:.2g} m/s, by as little as can "
-                "be; give initial values that fit"
+                f"up to {moved:.2g} m, velocities by up to {changed:.2g} m/s, the least that fits; "
+                "give initial values that fit"
             )
 
     def about_system(self, *, held: bool) -> Iterator[str]:
-        """Say what no error is estimated for; a pre-step function's output may be meant to jump."""
+        """Yield a warning of parts without an estimated error; held outputs are meant to jump."""
         system = self.system
         unfollowed = [*system.contacts]
         if len(system.current.first_order):

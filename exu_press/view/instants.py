@@ -39,7 +39,7 @@ class Instants:
         return len(self.time)
 
     def steps_since_last(self, frame: int) -> slice:
-        """Return the steps after the frame before, at least one."""
+        """Return the steps since the previous frame, at least one."""
         last = int(self.step[frame])
         first = last if self.still or not frame else int(self.step[frame - 1]) + 1
         return slice(min(first, last), last + 1)

@@ -19,7 +19,7 @@ FINEST = 1e-8
 TOO_FINE = (SolverStatus.STEP_TOO_SMALL, SolverStatus.NOT_CONVERGED)
 
 LESS_FINE = 0.5
-"""Part of the tolerance for the finer run where a tenth cannot be had, as says its status."""
+"""Fraction of the tolerance for the finer run, where one with a tenth of it stops early."""
 
 FINER_THAN_A_STEP = 1e-5
 """Tolerance of the run that one with a fixed step is compared with."""
@@ -74,7 +74,7 @@ def judge(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def finer(scene: Scene, share: float = 0.1) -> Scene:
-    """Return a scene with a part of the tolerance; a fixed step gives way to a tolerance."""
+    """Return a scene with a share of its tolerance; a fixed step is replaced by a tolerance."""
     solver = scene.solver
     assert solver is not None
     if solver.tolerance is None:

@@ -50,6 +50,7 @@ class GuideFriction(CustomKind, Table):
 
     table: ClassVar[str] = "guide"
     law_kind: ClassVar[str] = ""
+    law_type: ClassVar[type[FrictionLaw]]
     law_keys: ClassVar[tuple[str, ...]] = ()
     """The other keys of the law, which are in [friction]."""
 
@@ -59,10 +60,20 @@ class GuideFriction(CustomKind, Table):
         if "mu_static" in keys and "mu_kinetic" in keys:
             demand_static_friction(self.table, keys["mu_static"], keys["mu_kinetic"])
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return how another process builds this one, whose class no module has."""
+        keys = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        return guide_friction, (self.law_type, keys)
+
     @property
     def kind(self) -> str:
         """Name of the law."""
         return self.law_kind
+
+
+def guide_friction(law: type[FrictionLaw], keys: Mapping[str, Any]) -> GuideFriction:
+    """Return the friction of guides for a law with these keys."""
+    return _of_guides(law)(**keys)
 
 
 def _keys_of_guides(law: type[FrictionLaw]) -> type[GuideFriction]:
@@ -78,7 +89,7 @@ def _keys_of_guides(law: type[FrictionLaw]) -> type[GuideFriction]:
         metadata["meaning"] = metadata["meaning"].partition(";")[0]
         copied: Any = dataclasses.field(default=default, metadata=metadata)
         own.append((field.name, field.type, copied))
-    namespace = {"law_kind": kind_name(law), "law_keys": tuple(others)}
+    namespace = {"law_kind": kind_name(law), "law_type": law, "law_keys": tuple(others)}
     kind: type[GuideFriction] = dataclasses.make_dataclass(
         f"GuideFriction{law.__name__}",
         own,

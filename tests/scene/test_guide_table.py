@@ -1,5 +1,7 @@
 """The [guide] table, the load's eccentricity and the counterweight's switch."""
 
+import pickle
+
 import pytest
 
 from exu_press import InputError, Scene
@@ -125,3 +127,9 @@ def test_a_press_that_loses_its_counterweight_loses_its_keys():
     assert bare == Scene(press={"counterweight": False})
     with pytest.raises(InputError, match="counterweight_mass"):
         bare.replace({"press.counterweight_mass": 900.0})
+
+
+def test_a_scene_with_rubbing_guides_gets_to_another_process():
+    """The keys of its law are of a class that is made when the law is."""
+    scene = Scene(joints={}, guide={"friction": "stribeck", "mu_kinetic": 0.08, "mu_static": 0.1})
+    assert pickle.loads(pickle.dumps(scene)) == scene

@@ -106,9 +106,3 @@ def test_slider_position_where_dry_with_strong_friction_and_a_soft_bristle():
     friction = tuple(STRONG_FRICTION.items())
     error = exudyn("lugre", 1e-5, friction) - radau("lugre", 1e-8, friction)
     assert np.abs(error).max() < 1e-6
-
-
-@pytest.mark.long
-def test_friction_is_seen_at_the_slider():
-    """The bounds above mean something: leaving friction out is an error twenty times as large."""
-    assert np.abs(radau("none", 1e-8) - radau("lugre_steady", 1e-8)).max() > 2e-5

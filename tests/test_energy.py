@@ -59,18 +59,6 @@ def test_balance_with_blanking(variant):
     assert result.quantity("energy.residual").value < 1e-3
 
 
-@pytest.mark.parametrize("law", ["pi_film", "short"])
-def test_balance_of_other_films(law):
-    scene = with_steps(SLIDER_CRANK[2], film={"law": law})
-    assert run(scene).quantity("energy.residual").value < 1e-3
-
-
-@pytest.mark.parametrize("law", ["none", "lugre"])
-def test_balance_of_other_frictions(law):
-    scene = with_steps(SLIDER_CRANK[1], friction={"law": law})
-    assert run(scene).quantity("energy.residual").value < 1e-3
-
-
 @functools.cache
 def revolution(pin):
     scene = {"mechanism": "slider_crank", "joints": {"crank_pin": pin}, "solver": {"step": 1e-4}}

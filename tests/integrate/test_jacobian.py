@@ -7,10 +7,7 @@ import pytest
 from patched import PATCHED
 
 from exu_press import Scene, simulate
-from exu_press.integrate import jacobian as module
 from exu_press.integrate import predictor
-from exu_press.integrate.jacobian import FlexibleJacobian
-from exu_press.result import record
 from exu_press.scene import flexible_press
 
 NGSOLVE = pytest.mark.skipif(find_spec("ngsolve") is None, reason="flexible parts need NGSolve")
@@ -47,28 +44,3 @@ def test_no_alternation_grows_from_what_newtons_method_leaves_in_the_constraints
     assert result.completed, result.summary()["reason"]
     force = result["counterweight_pin_force"][:, 1]
     assert np.abs(np.diff(force, 2)).max() < 0.05 * np.abs(force).max()
-
-
-@NGSOLVE
-@PATCHED
-def test_one_serves_several_steps_and_changes_no_answer(monkeypatch):
-    made, own = [], FlexibleJacobian._compute
-
-    def counted(*arguments):
-        made[-1] += 1
-        return own(*arguments)
-
-    monkeypatch.setattr(FlexibleJacobian, "_compute", counted)
-    runs = []
-    for same in (-1.0, module.SAME):
-        monkeypatch.setattr(module, "SAME", same)
-        scene = Scene(bodies=flexible_press(modes=4), revolutions=0.03, solver={"tolerance": 3e-4})
-        model = scene.build()
-        made.append(0)
-        runs.append(record(model, model.solve()))
-    fresh, kept = runs
-    assert made[0] >= fresh.info["steps"]
-    assert made[1] < 0.6 * kept.info["steps"]
-    assert kept.info["newton_iterations"] < 1.25 * fresh.info["newton_iterations"]
-    forces = [np.abs(run.joints["crank_pin"].force).max() for run in runs]
-    assert forces[1] == pytest.approx(forces[0], rel=2e-3)

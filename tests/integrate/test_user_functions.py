@@ -162,34 +162,6 @@ def test_events_restart_nothing():
     assert velocity(mbs) == pytest.approx(-20.0 * np.sin(20.0), abs=0.1)
 
 
-def test_what_of_a_system_is_not_followed_is_said_in_one_warning():
-    """A pendulum in a dry bearing, with first-order coordinates and a contact of Exudyn's."""
-    mbs = pendulum("dry")
-    pressure = mbs.AddNode(
-        items.NodeGenericODE1(
-            referenceCoordinates=[0.0], initialCoordinates=[1.0], numberOfODE1Coordinates=1
-        )
-    )
-    mbs.AddObject(
-        items.ObjectGenericODE1(nodeNumbers=[pressure], systemMatrix=[[-1.0]], rhsVector=[0.0])
-    )
-    gap = mbs.AddNode(items.NodeGenericData(initialCoordinates=[1.0], numberOfDataCoordinates=1))
-    ends = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
-        for number in (mbs.AddNode(items.NodePointGround()), 0)
-    ]
-    contact = {"contactStiffness": 1e5, "offset": -1.0, "name": "stop"}
-    mbs.AddObject(items.ObjectContactCoordinate(markerNumbers=ends, nodeNumber=gap, **contact))
-    mbs.Assemble()
-    with pytest.warns(UserWarning) as caught:
-        outcome = solve_dynamic(mbs, settings(0.5))
-    assert outcome.status is SolverStatus.COMPLETED
-    (warning,) = caught
-    for named in ("stop (ContactCoordinate)", "first-order coordinates", "numberOfSteps"):
-        assert named in str(warning.message)
-    assert mbs.systemData.GetODE1Coordinates()[0] == pytest.approx(np.exp(-0.5), rel=1e-3)
-
-
 @pytest.mark.parametrize("bearing", ["dry", "lubricated"])
 def test_a_slow_pendulum_in_its_bearing_follows_a_torque_that_jumps(bearing):
     """By less than a tenth of a radian; nor is the jump an impact that steps do not resolve."""

@@ -11,7 +11,6 @@ from scipy.integrate import solve_ivp
 from solving import completed, planar_body, recorded
 from state_in import state_in
 
-from exu_press import InputError
 from exu_press.joints import add_guideway_contact, add_guideway_film, add_joint_sensor
 from exu_press.joints.ends import BodyEnd
 from exu_press.joints.guideway_film import GuidewayFilm
@@ -207,28 +206,3 @@ def test_it_sinks_as_the_closed_form_of_a_squeeze_says():
     tanh = np.tanh(0.5 * math.pi * odd / ratio)
     f = 1.0 - 192.0 * ratio / math.pi**5 * (tanh / odd**5).sum()
     assert rate == pytest.approx(2.0 * 2e4 / (VISCOSITY * WIDTH**3 * LENGTH * f), rel=1e-2)
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"viscosity": 0.0}, "viscosity = 0"),
-        ({"asperity_onset": 3e-5}, "asperity_onset = 3e-05: allowed is a number > 0 and below the"),
-        ({"face_width": 1e-4}, "width / length"),
-        ({"direction": (0.0, 0.0)}, "allowed is a direction"),
-    ],
-)
-def test_what_is_refused(change, message):
-    mbs = exu.SystemContainer().AddSystem()
-    body, _ = planar_body(mbs, 1.0, 1.0)
-    given = {
-        "middle": (0.0, 0.0),
-        "direction": (1.0, 0.0),
-        "clearance": CLEARANCE,
-        "length": LENGTH,
-        "face_width": WIDTH,
-        "viscosity": VISCOSITY,
-        "asperity_onset": ONSET,
-    }
-    with pytest.raises(InputError, match=message):
-        add_guideway_film(mbs, (body, (-0.15, 0.0)), (body, (0.15, 0.0)), **{**given, **change})

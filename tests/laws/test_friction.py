@@ -188,37 +188,3 @@ def test_stribeck_limits() -> None:
     assert friction(10.0) == (pytest.approx(0.3), pytest.approx(0.02))  # kinetic and viscous
     flat = stribeck(0.1, 0.1, 0.1, 2.0, 1e-3)
     assert flat(2e-3) == pytest.approx(coulomb(0.1, 1e-3)(2e-3))
-
-
-CURVE = {"mu_static": 0.2, "mu_kinetic": 0.1, "stribeck_velocity": 0.01, "stribeck_exponent": 2.0}
-SMOOTH = {**CURVE, "regularisation_velocity": 1e-3}
-BRISTLE = {**CURVE, "sigma_0": 1e5, "sigma_1": 400.0, "sigma_2": 0.0}
-
-
-@pytest.mark.parametrize(
-    ("law", "good", "name", "value"),
-    [
-        (coulomb, {"mu_kinetic": 0.1, "regularisation_velocity": 1e-3}, "mu_kinetic", -0.1),
-        (
-            coulomb,
-            {"mu_kinetic": 0.1, "regularisation_velocity": 1e-3},
-            "regularisation_velocity",
-            0.0,
-        ),
-        (stribeck, SMOOTH, "mu_static", 0.05),
-        (stribeck, SMOOTH, "mu_kinetic", 0.0),
-        (stribeck, SMOOTH, "stribeck_velocity", 0.0),
-        (stribeck, SMOOTH, "stribeck_exponent", 0.0),
-        (stribeck, SMOOTH, "regularisation_velocity", math.nan),
-        (stribeck, SMOOTH, "viscous", -1.0),
-        (lugre_steady, {**SMOOTH, "sigma_2": 0.0}, "sigma_2", -1.0),
-        (LuGre, BRISTLE, "mu_static", math.inf),
-        (LuGre, BRISTLE, "sigma_0", 0.0),
-        (LuGre, BRISTLE, "sigma_1", -1.0),
-        (LuGre, BRISTLE, "sigma_2", math.nan),
-    ],
-)
-def test_bad_parameters_are_refused_by_name(law, good, name: str, value: float) -> None:
-    law(**good)
-    with pytest.raises(ValueError, match=rf"^{name} = {value!r}: allowed .*{name}"):
-        law(**{**good, name: value})

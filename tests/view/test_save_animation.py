@@ -7,7 +7,7 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from exu_press.errors import InputError
-from exu_press.view import instants, moment, save_animation, save_picture
+from exu_press.view import instants, save_animation
 from exu_press.view.joint_panel import FORCE
 
 
@@ -38,12 +38,6 @@ def test_numbered_frames(runs, animation, tmp_path):
     paths = save_animation(animation(runs["ideal"], shown), tmp_path / "f_%02d.png")
     assert [path.name for path in paths] == ["f_00.png", "f_01.png", "f_02.png"]
     assert len({path.read_bytes() for path in paths}) == 3
-
-
-def test_one_picture(runs, animation, tmp_path):
-    path = save_picture(animation(runs["ideal"], moment(runs["ideal"])), 1, tmp_path / "p.png")
-    with Image.open(path) as image:
-        assert image.size == (1920, 1080)
 
 
 @pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="ffmpeg is not installed")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from exu_press.laws.catalogue import FILM_LAWS
-from exu_press.laws.film import film_scale, finite, pi_film, short, with_asperities
+from exu_press.laws.film import finite, pi_film, with_asperities
 
 LAWS = {name: entry.factory(0.4) for name, entry in FILM_LAWS.items()} | {
     "finite_1": finite(1.0),
@@ -93,19 +93,3 @@ def test_finite_at_rest_and_along_either_axis(law, eps):
     for eps_dot, eps_w in ((0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (-1.0, 0.0), (1e-200, 0.0)):
         assert all(map(math.isfinite, law(eps, eps_dot, eps_w)))
     assert abs(law(eps, 0.0, 0.0)[0]) < 1e-90
-
-
-@pytest.mark.parametrize(
-    ("build", "message"),
-    [
-        (lambda: short(0.0), "length_to_diameter = 0.0"),
-        (lambda: short(math.nan), "length_to_diameter = nan"),
-        (lambda: finite(0.05), r"length_to_diameter = 0.05: allowed 0.1 <= .* <= 4"),
-        (lambda: finite(5.0), "length_to_diameter = 5.0"),
-        (lambda: with_asperities(pi_film(), 1.0), "onset_ratio = 1.0"),
-        (lambda: film_scale(0.4, -0.1, 0.07, 1e-4), "length = -0.1"),
-    ],
-)
-def test_refused_by_name(build, message):
-    with pytest.raises(ValueError, match=message):
-        build()

@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from independent.pad_pressure import end_forces
 
-from exu_press import InputError
 from exu_press.laws.film import pad_with_asperities
 from exu_press.laws.film.plane_pad import plane_pad
 
@@ -141,12 +140,3 @@ def test_outside_it_is_not_a_number():
             state[i] = bad
             assert all(map(math.isnan, law(*state)))
     assert all(map(math.isnan, pad_with_asperities(law, ONSET)(math.nan, GAP, 0.0, 0.0, 0.0)))
-
-
-def test_what_is_refused():
-    with pytest.raises(InputError, match=r"width / length = 0\.001"):
-        plane_pad(1.0, 1e-3)
-    with pytest.raises(InputError, match=r"length"):
-        plane_pad(0.0, 0.1)
-    with pytest.raises(InputError, match=r"onset"):
-        pad_with_asperities(plane_pad(1.0, 0.1), 0.0)

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from independent.reduced_slider_crank import ReducedSliderCrank
 
-from exu_press import InputError, Scene
+from exu_press import Scene
 from exu_press.mechanism.press import PAPER_LAWS
-from precision.compiled import compile_model, has_numba
 from precision.reduced import numbers_of, rate_of, start_of
 
 PINS = {"dry": "lugre_steady", "lubricated": "pinkus"}
@@ -37,29 +36,3 @@ def test_rates_equal_those_of_the_independent_model(pin):
     other = ReducedSliderCrank(PINS[pin])
     for x in states(pin):
         assert rate(1e-5, *x.tolist()) == pytest.approx(other.rate(1e-5, x.tolist()), rel=1e-9)
-
-
-@pytest.mark.skipif(not has_numba(), reason="numba is not installed")
-def test_compiled_is_the_same():
-    dry = scene("dry")
-    plain, _ = rate_of(dry)
-    model = compile_model(dry)
-    assert model.compiled
-    out = np.empty(4)
-    for x in states("dry", 10):
-        model.fill(1e-5, x, out)
-        assert out == pytest.approx(plain(1e-5, *x.tolist()), rel=1e-9)
-        assert model.rate(1e-5, x) == pytest.approx(out, rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"friction": {"law": "lugre"}},
-        {"contact": {"damping": "flores"}},
-        {"load": {"blanking": {"kind": "blanking", "force": 1e3}}},
-    ],
-)
-def test_what_is_not_reduced_is_refused(changes):
-    with pytest.raises(InputError, match="reduced model"):
-        numbers_of(scene("dry", **changes))

@@ -76,6 +76,13 @@ class InterfaceLaw:
         """Return the derivatives of the force that goes with an response of the laws, SI."""
         raise NotImplementedError
 
+    def normal_partials(
+        self, response: Response, e: float, omega_j: float, omega_b: float
+    ) -> tuple[float, float]:
+        """Return the derivatives of f_n by |e| (N/m) and d|e|/dt (N s/m)."""
+        by_e, by_e_dot = self.partials(response, e, omega_j, omega_b)[0][:2]
+        return by_e, by_e_dot
+
     def arms(self, e: float) -> Arms:
         """Return a_J, a_B (m) and their derivatives; of the point half-way between the centres."""
         return -0.5 * e, -0.5 * e, -0.5, -0.5
@@ -190,6 +197,12 @@ class DryInterface(InterfaceLaw):
                 drag * (self.radius + e),
             ),
         )
+
+    def normal_partials(
+        self, response: Response, e: float, omega_j: float, omega_b: float
+    ) -> tuple[float, float]:
+        """Return the derivatives of f_n by |e| and d|e|/dt, which the contact law gave."""
+        return -response[3], -response[4]
 
     def arms(self, e: float) -> Arms:
         """Return the moment arms of the contact point about the two centres."""
@@ -480,7 +493,7 @@ class InterfaceJoint:
         stiffness = damping = 0.0
         for interface, load in zip(self.interfaces, self._loads, strict=True):
             if load is not None:
-                by_e, by_e_dot = interface.partials(load[4], e, w_j, w_b)[0][:2]
+                by_e, by_e_dot = interface.normal_partials(load[4], e, w_j, w_b)
                 stiffness -= by_e
                 damping -= by_e_dot
         return damping / stiffness if stiffness > 0.0 else 0.0

@@ -46,6 +46,7 @@ def test_wrong_input_is_refused_in_one_line(script, options, named, tmp_path):
         ("benchmark_joint_cost", [], "chain, user functions", None),
         ("benchmark_modes", [], "ratio", None),
         ("benchmark_sweep", [], "sweep, 2 workers", None),
+        ("benchmark_step", [], "over the first: minimum", None),
         ("flexible_convergence", ["--out", "out"], "error 0.01", None),
         ("flexible_parts", ["--out", "out"], "second shapes", None),
         ("sweep_clearance", [], "4 runs: 4 completed", "sweep_clearance/sweep.png"),

@@ -17,9 +17,7 @@ COARSEST = 8  # the user's own number of steps over that of the coarsest level, 
 FACTORS = 2, 8  # least and largest factor to the next level's number of steps
 MARGIN = 0.7  # error over the tolerance at which the last level is aimed
 AT_ONCE = 4  # largest factor to the last level: orders of coarse levels do not hold further
-# times the user's own number of steps, after which differences that do not fall, or a solver that
-# always gives up, end the refinement
-GIVE_UP = 16
+GIVE_UP = 16  # times the user's own number of steps, after which a refinement that fails ends
 # factor up to which a number of steps is raised so that rows of output are at equal distances
 ALIGNED = 1.35
 

@@ -64,14 +64,14 @@ def solve_dynamic(
     of coordinates), as rounding alone moves what is smaller.
 
     Earlier levels run in copies of this process: functions that remember begin afresh. The system,
-    its sensors and its files hold the last one. No level has fewer steps than an eighth of the
-    settings' `numberOfSteps`. One in which a body turns by more than
-    0.5 rad a step, or an oscillation above the tolerance has fewer than 10 steps in a period,
-    decides nothing. Three levels whose observed order lies between 0.5 and 4 decide.
+    its sensors and its files hold the last one. No level has fewer steps than an eighth of
+    `numberOfSteps`. One in which a body turns by more than 0.5 rad a step, or an oscillation above
+    the tolerance has fewer than 10 steps in a period, decides nothing. Three levels whose observed
+    order lies between 0.5 and 4 decide.
 
     Args:
         system: assembled; or a function that builds and returns one, for each level anew.
-        settings: Exudyn's. Steps are constant, whatever `adaptiveStep` is.
+        settings: Exudyn's. Steps are constant: `adaptiveStep`, its default, is off in levels.
         tolerance: relative, from 1e-8 to 0.1; with clearance joints, None takes fixed steps.
         errors: whether error-controlled steps state their error. A refinement always does: that of
             all coordinates is relative, those of sensors and their peaks are in their units.

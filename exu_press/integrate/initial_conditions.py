@@ -50,12 +50,7 @@ class ConsistentInitialization:
         self._a = np.array(self._current.accelerations)
 
     def fit(self) -> tuple[Array, Array] | None:
-        """Let the start fit the constraints.
-
-        Returns:
-            The accelerations, and what of their rate the constraints prescribe; None where there is
-            nothing to fit.
-        """
+        """Fit the start; return accelerations and what of their rate is prescribed, if any."""
         if not (self._task.system.nodes and self._constraints.count):
             return None
         self._linearise()
@@ -119,11 +114,8 @@ class ConsistentInitialization:
     def _project(self, vector: Array, missing: Callable[[Array], Array], order: int) -> Array:
         """Return the nearest vector, in the kinetic norm, with which nothing is missing.
 
-        A relative change by FITS is rounding, and one that rounded differences make; so is one that
-        does not shrink.
-
         Of velocities or accelerations, with a function for what the constraints' rates of an order
-        are off by; itself where it fits.
+        are off by. A relative change by FITS is rounding, and so is one that does not shrink.
         """
         last = earlier = math.inf
         fits, least = FITS[order], self._roundoff(order)

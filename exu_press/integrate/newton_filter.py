@@ -54,9 +54,7 @@ class NewtonFilter:
         self.refresh()
         if self._roundoff < 0.0:
             size, count = len(self._jacobian), self._solver.GetAEsize()
-            inexact = np.full(count, self._rounding * self._scales.length)
-            if count:
-                inexact += self._violations_at_start(count)
+            inexact = self._rounding * self._scales.length + self._violations_at_start(count)
             try:
                 of_constraints = np.eye(size, count, count - size)
                 moved = np.abs(self._equations.solve(of_constraints)[: self._size]) @ inexact
@@ -72,10 +70,10 @@ class NewtonFilter:
         self._positions[:] = self._start
         self._data.SetTime(self._start_time)
         self._solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=False)
-        violations: Array = np.abs(np.array(self._solver.GetSystemResidual())[-count:])
+        residual = np.array(self._solver.GetSystemResidual())
         self._positions[:] = end
         self._data.SetTime(time)
-        return violations
+        return np.asarray(np.abs(residual[len(residual) - count :]))
 
     def filter_change(self, change: list[float]) -> list[float]:
         """Return what the Jacobian at hand leaves of a change of all coordinates."""

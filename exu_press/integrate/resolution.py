@@ -48,9 +48,7 @@ class ImpactResolution:
         self._last: list[float] = []
         # A stiff film that starts from rest makes the accelerations ring; that is no impact.
         self._started: list[float] = []
-        self._ring = 1.0
-        self._largest = 0.0
-        self._steps = 0
+        self._ring, self._largest, self._steps = 1.0, 0.0, 0
         # jump, end and size of the step (s), node, and half the change of speed in the step (m/s)
         self._jumps: list[tuple[float, float, float, int, float]] = []
 

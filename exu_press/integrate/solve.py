@@ -122,10 +122,7 @@ def solve_dynamic(
     messages = list(words.about_system(held=hold))
 
     def run(
-        tolerance: float | None,
-        watch: Callable[[float], str],
-        max_steps: int,
-        quiet: bool,
+        tolerance: float | None, watch: Callable[[float], str], max_steps: int, quiet: bool
     ) -> tuple[Outcome, Task]:
         task = Task(system, settings, tolerance, scales, tuning, absolute)
         functions = UserFunctions(system, task.start, (sample or 0.0) * (not task.fixed))

@@ -12,14 +12,7 @@ from exu_press.errors import InputError
 from exu_press.joints.user_force import UserForceElement, user_force_of
 from exu_press.numerics.arrays import Array
 
-__all__ = [
-    "FLEXIBLE",
-    "MODES",
-    "Node",
-    "State",
-    "System",
-    "modal_item",
-]
+__all__ = ["FLEXIBLE", "MODES", "Node", "State", "System", "modal_item"]
 
 FLEXIBLE = "FFRFreducedOrder"
 """Type of flexible bodies in floating frames, which have modes."""
@@ -35,17 +28,8 @@ LIE_GROUP = "RigidBodyRotVecLG"
 COUNTS_TURNS = "ConnectorTorsionalSpringDamper"
 """Connector whose data variable is its angle beyond a turn, which jumps nowhere."""
 
-RIGID_OR_MODAL = (
-    "Ground",
-    "Mass1D",
-    "RotationalMass1D",
-    "MassPoint",
-    "MassPoint2D",
-    "RigidBody",
-    "RigidBody2D",
-    FLEXIBLE,
-    "ConnectorDistance",
-)
+RIGID_BODIES = "Ground Mass1D RotationalMass1D MassPoint MassPoint2D RigidBody RigidBody2D"
+RIGID_OR_MODAL = *RIGID_BODIES.split(), FLEXIBLE, "ConnectorDistance"
 """Objects whose stiffness and damping, if they have any, belong to modes and do not change.
 
 Constraints have none, and most are joints by their names."""

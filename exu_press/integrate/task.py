@@ -16,14 +16,7 @@ from exu_press.errors import InputError
 from exu_press.integrate.scales import ErrorScales, RunningScales
 from exu_press.integrate.system import System
 
-__all__ = [
-    "SAME",
-    "SolverTuning",
-    "Task",
-    "inertia_factor",
-    "prepared_settings",
-    "refuse_unusable",
-]
+__all__ = ["SAME", "SolverTuning", "Task", "inertia_factor", "prepared_settings", "refuse_unusable"]
 
 SAME = 1e-6
 """Steps that differ by less, relative, are one size: the clock's last digits."""
@@ -148,6 +141,8 @@ class Task:
         fixed: whether steps are of one size.
         start, end: of the run, s.
         smallest, first, largest: step, s; usual is the size of the longest ones of such a motion.
+        shortest_first: size of a first step that can be repeated with smaller ones, s; in shorter
+            steps rounding turns the forces of films.
         no_shorter: up to which a step cannot be shorter, s: it is the difference of two times,
             whose last digits are rounded.
         spectral_radius: at infinity, of generalized-alpha.
@@ -174,7 +169,7 @@ class Task:
         self.largest = largest = (self.end - self.start) / integration.numberOfSteps
         self.usual = scales.step or largest
         self.smallest = integration.minimumStepSize
-        room = 10.0 * self.smallest  # to repeat a first step in
+        self.shortest_first = room = 10.0 * self.smallest
         if self.fixed:
             self.smallest = largest / MOST_HALVED
             self.first = max(2.0 * self.smallest, room) if system.has_film else largest

@@ -190,11 +190,8 @@ class VariableStepCorrection:
     def _least(self, project: Callable[[Array], Array], lengths: Array, state: Array) -> Array:
         """Return the least changes of positions and velocities that constraints ask for, (2, n).
 
-        The directions are those of the last Jacobian, perhaps a degree of the crank away, and the
-        violations those of this very state, so that a few iterations lead to it.
-
-        Of the state at the step's beginning, (3, n), by a projection of violations of constraints
-        with directions of length 1, which had lengths (count,).
+        Directions, which had these lengths (count,), are those of the last Jacobian; violations are
+        those of the state (3, n) at the step's beginning: a few iterations lead to it.
         """
         position, velocity = self._current.positions, self._current.velocities
         now = self._data.GetTime()

@@ -7,9 +7,6 @@ from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["FilmForceError"]
 
-SHORTEST = 10.0
-"""Over the smallest step: in shorter ones rounding turns the forces of films."""
-
 
 class FilmForceError:
     """Deviation of a film's force F from the line between a step's ends, over its limit.
@@ -30,7 +27,7 @@ class FilmForceError:
     def __init__(self, task: Task, joint: ClearanceJoint) -> None:
         """Follow the force of a lubricated joint."""
         self.joint, self._tolerance = joint, task.tolerance
-        self._shortest, self._taken_back = SHORTEST * task.smallest, task.tuning.taken_back
+        self._shortest, self._taken_back = task.shortest_first, task.tuning.taken_back
         self._start_force: tuple[float, ...] = ()
         self._now: tuple[float, ...] = ()
         self._change: tuple[float, ...] = ()  # in the step before

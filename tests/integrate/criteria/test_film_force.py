@@ -14,7 +14,7 @@ pytestmark = PATCHED
 
 TOLERANCE = 1e-3
 SMALLEST = 1e-8
-TASK = SimpleNamespace(tolerance=TOLERANCE, smallest=SMALLEST, tuning=SolverTuning())
+TASK = SimpleNamespace(tolerance=TOLERANCE, shortest_first=10.0 * SMALLEST, tuning=SolverTuning())
 
 
 def error_of(before, after, step=1e-4):

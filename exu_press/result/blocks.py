@@ -1,4 +1,4 @@
-"""One run in blocks: of a long one, memory holds one at a time; where oil warms, revolutions."""
+"""A run in blocks: one at a time is in memory, or one is a revolution where oil warms."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -20,7 +20,7 @@ from exu_press.terminal.progress import Progress
 __all__ = ["MOST_ADDED", "block_by_block"]
 
 MOST_ADDED = 12
-"""Revolutions that are added at most until films have settled."""
+"""Revolutions added at most until films have settled."""
 
 
 def block_by_block(
@@ -81,7 +81,7 @@ def block_by_block(
 
 
 def _needs_revolution(model: Model, scene: Scene, remaining: float) -> bool:
-    """Return whether revolutions of a scene are about to be read while films have not settled."""
+    """Return whether quantities would be read from revolutions before films have settled."""
     completed = scene.revolutions - remaining + _negligible_rest(scene)
     if not scene.settled or completed < scene.settled:
         return False
@@ -89,7 +89,7 @@ def _needs_revolution(model: Model, scene: Scene, remaining: float) -> bool:
 
 
 def _negligible_rest(scene: Scene) -> float:
-    """Return the revolutions below which nothing is left of a run."""
+    """Return the remaining revolutions below which a run is complete."""
     return max(1e-9 * scene.revolutions, SHORTEST_RUN * scene.speed_rpm / 60.0)
 
 

@@ -1,4 +1,4 @@
-"""The blocks of a long run on disk, which stay there if its process is killed."""
+"""Checkpoints of long runs: blocks on the disk, which a killed process leaves."""
 
 import json
 import shutil
@@ -42,7 +42,7 @@ MARK, WORDS = (
 
 
 class Blocks(TypedDict):
-    """What a head says of the channels beside it.
+    """Entries of a head about the channels beside it.
 
     Attributes:
         count: instants of finished blocks.

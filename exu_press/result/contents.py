@@ -1,4 +1,4 @@
-"""Contents of a result, on which all of its readers rely."""
+"""Contents of a result, checked."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -42,7 +42,7 @@ class Contents:
 
 
 def _check(result: Contents) -> None:
-    """Raise InputError for the first thing in which a result contradicts itself or its scene."""
+    """Raise InputError where a result contradicts itself or its scene."""
     status = result.info["status"]
     if status not in (member.value for member in SolverStatus):
         allowed = ", ".join(repr(member.value) for member in SolverStatus)

@@ -1,4 +1,4 @@
-"""The channels that a run's file keeps, with the quantities read of all."""
+"""The decimated copy of a run that its file keeps, with the quantities of the whole run."""
 
 import dataclasses
 from collections.abc import Iterable, Mapping

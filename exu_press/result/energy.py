@@ -1,4 +1,4 @@
-"""The energy balance of a run: mechanical energy, work of loads, and the sums of all recorders."""
+"""The energy balance of a run, and the energies that recorders need for it."""
 
 from collections.abc import Iterable, Mapping
 
@@ -19,7 +19,7 @@ CHANNELS = Declarations(
 
 
 def record(run: Recording) -> Record:
-    """Return the sums of all recorders before; none with own items, whose energy is not known."""
+    """Return the sums of all preceding recorders; none with own items, whose energy is unknown."""
     if run.model.own_items:
         return Record({})
     supplied, stored, dissipated = map(

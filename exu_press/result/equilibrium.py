@@ -1,7 +1,6 @@
 """Forces of ideal guides and pivots, by the equilibrium of their bodies.
 
-Such a body has one coordinate (`exu_press.model.rigid_body`), so that no constraint tells the
-force.
+Such a body has one coordinate (`exu_press.model.rigid_body`), so that no constraint has the force.
 """
 
 from collections.abc import Mapping, Sequence
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["record"]
 
 JointOnBody = tuple[str, float, Point]
-"""A joint on a body, the sign with which its force acts there, and where in the body's frame."""
+"""Name of a joint on a body, sign of its force there, and its point in the body's frame."""
 
 
 def record(run: Recording) -> Record:

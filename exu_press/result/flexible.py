@@ -87,7 +87,7 @@ def _solid(placed: "PlacedPart") -> Solid:
 
 
 def _relative_motion(placed: "PlacedPart", name: str, q: Array) -> dict[str, Channel]:
-    """Return how far the two joints of a body move and turn apart."""
+    """Return elongation and bending between the two joints of a body."""
     first, second = (placed.reduced.interface(faces[0]) for faces in placed.faces.values())
     along = (second.axis - first.axis)[:2]
     along = along / np.linalg.norm(along)
@@ -99,9 +99,9 @@ def _relative_motion(placed: "PlacedPart", name: str, q: Array) -> dict[str, Cha
 def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:
     """Return the displacement of a joint by each mode, against the body's pivot, (2, modes).
 
-    In the solid's frame: less a rigid body's motion on the line between the faces of the pivot,
-    and as the driven face turns, or else that of the pivot. The mean-axis frame itself moves with
-    the modes, so that a force across the press's throw seems to bend it by 14 % less, one along it
+    In the solid's frame, relative to a rigid body that follows the line between the pivot's faces
+    and rotates with the driven face, or else with the pivot. The mean-axis frame itself moves with
+    the modes: relative to it, a force across the press's throw bends it by 14 % less, one along it
     by 5 % more.
     """
     reduced = placed.reduced
@@ -159,7 +159,7 @@ def modal(model: Model, name: str, reduced: "ReducedPart", count: int) -> tuple[
 
 
 def _inertia_of_modes(reduced: "ReducedPart") -> Array:
-    """Return each mode's part of the moment of inertia about the frame's z axis, (modes,).
+    """Return the change of the moment of inertia about z by each mode, (modes,).
 
     It is twice the integral of x u_x + y u_y over the mass.
     """
@@ -170,7 +170,7 @@ def _inertia_of_modes(reduced: "ReducedPart") -> Array:
 def _rigid_energy(model: Model, name: str, reduced: "ReducedPart") -> Array:
     """Return kinetic and potential energy of the undeformed body, (n,), J.
 
-    In space: where forces leap, the frame of a bending crank shaft tilts.
+    In space, as the frame of a bending crank shaft tilts at sudden forces.
     """
     height, velocity, omega = point_motion(model, name, reduced.centre_of_mass)
     c = reduced.centre_of_mass

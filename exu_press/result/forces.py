@@ -1,4 +1,4 @@
-"""Forces that press the mechanism's frame, and shake it."""
+"""Force on the frame, and shaking force."""
 
 from collections.abc import Collection, Mapping
 

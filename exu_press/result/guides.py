@@ -67,7 +67,7 @@ def record(run: Recording) -> Record:
 
 
 def _elastic(run: Recording) -> Record:
-    """Return the losses of elastic guides, and the forces of those that no sensor has."""
+    """Return the losses of elastic guides, and the forces of those without a sensor."""
     model, time = run.model, run.time
     channels: dict[str, Channel] = {}
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
@@ -88,7 +88,7 @@ def _elastic(run: Recording) -> Record:
                 stored += 0.5 * spring.stiffness * deflection**2
                 loss += work(time, spring.damping * rate, rate)
                 reactions[quantity] = -(spring.stiffness * deflection + spring.damping * rate)
-        if guide.body in model.parts:  # of others sensors tell it
+        if guide.body in model.parts:  # others have sensors
             channels |= guide_channels(model.mechanism, guide.body, **reactions)
         channels |= guide_channels(model.mechanism, guide.body, loss=loss)
         dissipated += loss

@@ -1,4 +1,4 @@
-"""One joint during a run."""
+"""One joint over a run."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

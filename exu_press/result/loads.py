@@ -1,4 +1,4 @@
-"""Channels of loads: forces, moments, and the work that they put in."""
+"""Channels of loads: force, moment and work."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ CHANNELS = Declarations(
 
 
 def record(run: Recording) -> Record:
-    """Return force, moment (where the load acts beside the middle) and work of every load."""
+    """Return force, work and, beside the centre of mass, moment of every load."""
     model, time, scene = run.model, run.time, run.model.scene
     channels: dict[str, Channel] = {}
     all_work = np.zeros_like(time)

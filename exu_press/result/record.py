@@ -1,4 +1,4 @@
-"""The result of an integrated model: every recorder in turn."""
+"""The result of an integrated model, from all recorders."""
 
 import functools
 import importlib.metadata
@@ -84,7 +84,7 @@ def _info(model: Model, outcome: Outcome) -> Info:
 
 @functools.cache
 def _versions() -> Mapping[str, str]:
-    """Return the versions behind a result; looking them up takes a tenth of a short run."""
+    """Return the versions of Python and packages; looking them up takes a tenth of a short run."""
     packages = ("exu-press", "exudyn", "numpy", "scipy")
     installed = {name: importlib.metadata.version(name) for name in packages}
     return {"python": platform.python_version(), **installed}

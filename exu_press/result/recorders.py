@@ -1,4 +1,4 @@
-"""The recorders of a run in their order, and the channels that they declare."""
+"""The recorders in their order, and the channels that they declare."""
 
 from collections.abc import Callable, Iterator
 from importlib import import_module
@@ -37,12 +37,12 @@ RECORDERS: dict[str, Callable[[Scene], object]] = {
     "drive": _always,
     "energy": _always,
 }
-"""Modules of `exu_press.result` -> whether a scene has what they record. They have `record(run)`,
-which reads what those before have recorded, and CHANNELS that they declare."""
+"""Module of `exu_press.result` -> whether a scene has what it records. Each has `record(run)`,
+which may read channels of preceding ones, and CHANNELS that it declares."""
 
 
 def recorders(scene: Scene | None = None) -> Iterator[Any]:
-    """Yield the modules that record the runs of a scene, or of any."""
+    """Yield the modules that record the runs of a scene, or of any scene."""
     for name, records in RECORDERS.items():
         if scene is None or records(scene):
             yield import_module(f"exu_press.result.{name}")

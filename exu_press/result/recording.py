@@ -1,4 +1,4 @@
-"""What a recorder reads of an integrated model, and what it returns."""
+"""Input and output of a recorder."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -17,15 +17,15 @@ __all__ = ["Record", "Recording"]
 
 @dataclass(frozen=True)
 class Record:
-    """What one recorder has of a run.
+    """Channels and energies of one recorder, or the sums of several.
 
     Attributes:
         channels: by their names.
         stored: energy, (n,), J.
-        dissipated: energy since the start, (n,), J. A step's is h times mean load times mean rate
-            (`exu_press.result.energy.work`), which no power at its ends tells.
+        dissipated: energy since the start, (n,), J, by `exu_press.result.energy.work` where it is
+            that of a load: the power at the ends of a step does not give it.
         supplied: work since the start, (n,), J.
-        info: that goes into the run's `Info`.
+        info: entries of the run's `Info`.
     """
 
     channels: dict[str, Channel]
@@ -35,7 +35,7 @@ class Record:
     info: Mapping[str, Any] = field(default_factory=dict)
 
     def __add__(self, record: "Record") -> "Record":
-        """Return this and another one together."""
+        """Return the channels of both and the sums of their energies."""
         return Record(
             self.channels | record.channels,
             self.stored + record.stored,
@@ -47,7 +47,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Recording:
-    """An integrated model with what several recorders read.
+    """An integrated model, and results of it that several recorders need.
 
     Attributes:
         model: integrated.
@@ -55,7 +55,7 @@ class Recording:
         motions: of every body's frame.
         turned: motion of the body that the drive turns.
         histories: of every joint with clearance.
-        so_far: what the recorders before have.
+        so_far: record of the preceding recorders.
     """
 
     model: Model
@@ -66,5 +66,5 @@ class Recording:
     so_far: Record
 
     def __getitem__(self, channel: str) -> Array:
-        """Return the values of a channel of the recorders before."""
+        """Return the values of a channel of the preceding recorders."""
         return self.so_far.channels[channel].values

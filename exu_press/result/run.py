@@ -14,11 +14,10 @@ from exu_press.scene.scene import SHORTEST_RUN
 __all__ = ["run_once"]
 
 SHORT = 1e-5
-"""Revolutions of a run that tells which channels there are."""
+"""Revolutions of a run that shows which channels a scene has."""
 
 BLOCK = 10.0
-"""Revolutions that are in memory at once. A longer run goes on from block to block, and its
-channels go to the disk."""
+"""Revolutions of a block. A longer run goes on block by block, with its channels on the disk."""
 
 
 def run_once(
@@ -31,8 +30,7 @@ def run_once(
 ) -> Result:
     """Simulate a scene as `exu_press.simulate` does without errors.
 
-    Channels that [output] names are looked for in a shorter run first: the record alone knows what
-    a scene has.
+    Channels that [output] names are checked in a shorter run first: only a record has all names.
 
     Args:
         scene: to be simulated.

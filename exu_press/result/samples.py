@@ -15,7 +15,7 @@ from exu_press.scene import Scene
 __all__ = ["Samples", "samples_of"]
 
 NEAR = 1e-3
-"""rad: by how much a flexible crank is twisted at most where its drive is at the angle."""
+"""Largest twist of a flexible crank whose drive is at a sampled angle, rad."""
 
 
 @dataclass(frozen=True)

@@ -25,17 +25,16 @@ DEVIATOR[:3, :3] = np.sqrt(0.5) * np.array([[1.0, -1.0, 0.0], [0.0, 1.0, -1.0], 
 DEVIATOR[3:, 3:] = np.sqrt(3.0) * np.eye(3)
 
 INSTANTS, NODES = 200, 3
-"""At so many instants all nodes are looked at, and at all instants the worst so many of each."""
+"""Instants at which all nodes are evaluated, and largest ones of each that are at all instants."""
 
 CHUNK = 500
 """Instants at once: 25 MB."""
 
 
 def record(run: Recording) -> Record:
-    """Return the stress over time at the most stressed place of each flexible body, and where.
+    """Return the stress at the most stressed point of each flexible body over time, and the point.
 
-    The channel BODY_stress, Pa, is the von Mises stress with the sign of the mean normal stress, so
-    that tension and compression are told apart.
+    The channel BODY_stress, Pa, is the von Mises stress with the sign of the mean normal stress.
     """
     model, time = run.model, run.time
     channels: dict[str, Channel] = {}

@@ -1,4 +1,4 @@
-"""The surface of a flexible body with its modes, to draw it from the file alone."""
+"""The surface of a flexible body with its modes, for pictures from a file."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Oil that warms: after each revolution films have the temperature that their heat asks for."""
+"""Oil that warms: after each revolution films get the temperature of their heat balance."""
 
 import math
 import warnings
@@ -16,7 +16,7 @@ __all__ = ["to_next_revolution", "update_film_temperatures"]
 TURN = 2.0 * math.pi
 
 WHOLE = 1e-6
-"""Part of a revolution that may be missing of a whole one."""
+"""Tolerance of a whole revolution."""
 
 
 def to_next_revolution(model: Model, remaining: float) -> tuple[Model, float]:
@@ -73,7 +73,7 @@ def update_film_temperatures(model: Model, block: Result) -> Result:
 
 
 def _reason_of_breakdown(name: str, heat: Heat, conductance: float, time: float) -> str:
-    """Return why a run goes no further."""
+    """Return why a film breaks down, and the cure."""
     return (
         f"film too hot at t = {time:.6g} s: below {HOTTEST:g} deg C side flow "
         f"({heat.flow:.3g} m^3/s) and conductance ({conductance:g} W/K) do not carry off what "

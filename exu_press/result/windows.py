@@ -17,11 +17,10 @@ def window(run: Result, begin: float, end: float) -> Result:
 
 
 def settled_part(run: Result) -> Result:
-    """Return the part that quantities are read from: whole revolutions after those of `settle`.
+    """Return the part from which quantities are read: whole revolutions after those of `settle`.
 
-    All of it where the scene has nothing to settle, or where the run has not got so far; energies
-    count from where it begins. Of a part of a revolution at the end nothing is read, unless it is
-    the only one.
+    The whole run where nothing settles, or where it ends before that. Energies count from the
+    part's begin. An incomplete revolution at the end is left out, unless it is the only one.
     """
     settle_revolutions, start = run.scene.settled, run.scene.start_angle
     angle = run["crank_angle"]
@@ -67,7 +66,8 @@ def up_to(run: Result, end: float) -> Result:
 def at_instant(run: Result, instant: float) -> Result:
     """Return a run's record of one instant, s, by a cubic spline through the samples about it.
 
-    Straight between long steps an energy misses more than a run is off. Of four samples at least.
+    Linear interpolation of an energy over long steps would exceed the run's error. The run has four
+    samples at least.
     """
     first = int(np.clip(np.searchsorted(run.time, instant) - 2, 0, len(run.time) - 4))
     about = slice(first, first + 4)

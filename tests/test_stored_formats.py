@@ -17,6 +17,12 @@ from exu_press.errors import InputError
 from exu_press.files.file_format import NewerFormatError, refuse_newer_format
 from exu_press.parallel.rows import RowFile
 
+STUDY = """
+scene = {mechanism = "slider_crank"}
+[keys]
+speed_rpm = [100.0, 200.0]
+"""
+
 STORED = Path(__file__).parent / "stored"
 VERSIONS = sorted(path.name for path in STORED.iterdir())
 
@@ -53,6 +59,24 @@ def test_a_run_of_a_later_version_is_refused_as_such(tmp_path, capsys):
         Result.load(later)
     assert main(["report", str(later), "--quiet"]) == 2
     assert "update exu_press" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [("report.json", ["report", "--quiet"]), ("study.json", ["sweep", "study.toml", "--quiet"])],
+)
+def test_a_study_of_a_later_version_is_refused_as_such(name, words, tmp_path, monkeypatch, capsys):
+    folder = tmp_path / "sweep"
+    shutil.copytree(STORED / "0.9", folder, ignore=shutil.ignore_patterns("run.nc"))
+    text = (folder / name).read_text(encoding="utf-8")
+    assert text.count("exu_press study 1") == 1
+    (folder / name).write_text(text.replace("exu_press study 1", "exu_press study 2"), "utf-8")
+    (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    where = ["--out", "sweep"] if words[0] == "sweep" else ["sweep"]
+    assert main([*words, *where]) == 2
+    error = capsys.readouterr().err
+    assert f"{name}: is of format 2" in error and "update exu_press" in error
 
 
 def test_formats_are_compared_by_name_and_number():

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
+from exu_press.files.file_format import NewerFormatError, refuse_newer_format
 from exu_press.page import Live
 from exu_press.page.lines import lines_viewer
 from exu_press.page.study import study_viewer
@@ -15,7 +16,7 @@ from exu_press.scene import Scene
 from exu_press.schema.csv_table import read_csv
 from exu_press.schema.stored import from_json
 from exu_press.schema.table import table_from
-from exu_press.studies.base.report import Column, Line, Panel, Points, Table
+from exu_press.studies.base.report import FORMAT, Column, Line, Panel, Points, Table
 from exu_press.studies.sweep import Sweep, SweepReport
 
 __all__ = ["reading", "study_page", "sweep_page"]
@@ -27,7 +28,11 @@ WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError)
 def reading(file: Path, kind: str) -> Iterator[Any]:
     """Yield the JSON of a file; its faults, and those of what is made of it, are InputErrors."""
     try:
-        yield from_json(dict[str, Any], file.read_bytes(), file.name)
+        stored = from_json(dict[str, Any], file.read_bytes(), file.name)
+        refuse_newer_format(str(stored.pop("format", "")), FORMAT)
+        yield stored
+    except NewerFormatError as error:
+        raise InputError(f"{file}: {error}") from None
     except OSError as error:
         raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
     except WRONG as error:

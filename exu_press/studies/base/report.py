@@ -16,6 +16,7 @@ from exu_press.schema.csv_table import Value, write_csv
 from exu_press.terminal.columns import columns
 
 __all__ = [
+    "FORMAT",
     "REPORT_FILE",
     "Column",
     "Line",
@@ -30,6 +31,9 @@ __all__ = [
 ]
 
 REPORT_FILE = "report.json"
+
+FORMAT = "exu_press study 1"
+"""Of what a study writes: study.json, runs.jsonl and report.json."""
 """File of a report in the directory of its study; a page is made of it."""
 
 
@@ -252,7 +256,7 @@ class Report(ABC):
             write_json(directory / f"{self.name}.json", data)
         for name, values in self.csv_files().items():
             write_csv(directory / name, values)
-        write_json(directory / REPORT_FILE, self.page_data())
+        write_json(directory / REPORT_FILE, {"format": FORMAT, **self.page_data()})
 
     def page_data(self) -> dict[str, Any]:
         """Return that of which a page is made."""

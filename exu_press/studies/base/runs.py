@@ -5,7 +5,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Self
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, error_prefix
+from exu_press.files.file_format import refuse_newer_format
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import output_directory, subdirectory, write_json
 from exu_press.parallel import FILE, Batch, Row
@@ -16,7 +17,7 @@ from exu_press.scene import Scene
 from exu_press.schema.kinds import custom_modules
 from exu_press.schema.stored import from_json
 from exu_press.studies.base.inputs import arguments_of, scene_from
-from exu_press.studies.base.report import Report
+from exu_press.studies.base.report import FORMAT, Report
 from exu_press.studies.base.study import Study
 
 __all__ = ["Row", "Runs", "row_of", "run_scene"]
@@ -147,12 +148,15 @@ def _claim(directory: Path, study: Mapping[str, Any], written: Sequence[str]) ->
                 f"another study; allowed is a directory of the study's own, or to delete "
                 f"{' and '.join(foreign)}; runs of this study in {FILE} are kept"
             )
-        write_json(path, own)
+        write_json(path, {"format": FORMAT, **own})
         return
     try:
         stored = from_json(dict[str, Any], path.read_bytes(), path.name)
     except (OSError, InputError):
         stored = None
+    else:
+        with error_prefix(f"{path}: "):
+            refuse_newer_format(str(stored.pop("format", "")), FORMAT)
     if stored != own:
         raise InputError(
             f"{directory}: belongs to another study ({path.name} differs{_where(stored, own)}); "

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Self
 
@@ -150,13 +151,11 @@ def _claim(directory: Path, study: Mapping[str, Any], written: Sequence[str]) ->
             )
         write_json(path, {"format": FORMAT, **own})
         return
-    try:
+    stored: dict[str, Any] = {}
+    with suppress(OSError, InputError):
         stored = from_json(dict[str, Any], path.read_bytes(), path.name)
-    except (OSError, InputError):
-        stored = None
-    else:
-        with error_prefix(f"{path}: "):
-            refuse_newer_format(str(stored.pop("format", "")), FORMAT)
+    with error_prefix(f"{path}: "):
+        refuse_newer_format(str(stored.pop("format", "")), FORMAT)
     if stored != own:
         raise InputError(
             f"{directory}: belongs to another study ({path.name} differs{_where(stored, own)}); "
@@ -164,10 +163,7 @@ def _claim(directory: Path, study: Mapping[str, Any], written: Sequence[str]) ->
         )
 
 
-def _where(stored: Any, own: dict[str, Any]) -> str:
-    """Return the first key in which two studies differ, in words."""
-    if isinstance(stored, dict):
-        for name in {**own, **stored}:
-            if stored.get(name) != own.get(name):
-                return f" in {name}"
-    return ""
+def _where(stored: dict[str, Any], own: dict[str, Any]) -> str:
+    """Return the first key in which two studies differ, in words; nothing of an unreadable one."""
+    names = (name for name in {**own, **stored} if stored.get(name) != own.get(name))
+    return f" in {next(names, '')}" if stored else ""

@@ -81,7 +81,7 @@ def _metadata(name: str) -> Mapping[str, Any] | None:
     elif table.startswith("joints."):
         fields = declared_keys(DryJoint)
     elif table.startswith("load."):
-        kinds = reversed(LOAD_KINDS.values())  # of the first that has the key
+        kinds = reversed([*LOAD_KINDS.values()])  # of the first that has the key
         fields = {name: f for kind in kinds for name, f in declared_keys(kind).items()}
     elif table.startswith("bodies."):
         fields = declared_keys(Flexible)

@@ -6,6 +6,7 @@ from exu_press.lazy import lazy_names
 from exu_press.schema.checks import key
 
 if TYPE_CHECKING:
+    from exu_press.scene.blanking_load import BlankingLoad
     from exu_press.scene.bodies import Face, Flexible, flexible_press
     from exu_press.scene.contact import ContactDamping
     from exu_press.scene.custom import CustomJoint
@@ -15,10 +16,13 @@ if TYPE_CHECKING:
     from exu_press.scene.guide import ElasticGuide
     from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
     from exu_press.scene.joints import Joints
-    from exu_press.scene.load import BlankingLoad, CustomLoad, SheetLoad, SpringLoad, TableLoad
+    from exu_press.scene.load import CustomLoad
     from exu_press.scene.motor import Motor
     from exu_press.scene.scene import Scene, mechanism_of
+    from exu_press.scene.sheet_load import SheetLoad
     from exu_press.scene.solver import Solver
+    from exu_press.scene.spring_load import SpringLoad
+    from exu_press.scene.table_load import TableLoad
 
 __all__ = [
     "BlankingLoad",
@@ -58,7 +62,11 @@ __getattr__ = lazy_names(
         "guide": "ElasticGuide",
         "joint": "DryJoint IdealJoint LubricatedJoint",
         "joints": "Joints",
-        "load": "BlankingLoad CustomLoad SheetLoad SpringLoad TableLoad",
+        "blanking_load": "BlankingLoad",
+        "load": "CustomLoad",
+        "sheet_load": "SheetLoad",
+        "spring_load": "SpringLoad",
+        "table_load": "TableLoad",
         "motor": "Motor",
         "scene": "Scene mechanism_of",
         "solver": "Solver",

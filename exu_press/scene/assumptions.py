@@ -13,7 +13,6 @@ from typing import Any
 from exu_press.mechanism import Mechanism
 from exu_press.scene.changes import named
 from exu_press.scene.joint import SIZES, Joint
-from exu_press.scene.law_keys import LawKeys
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
 from exu_press.scene.usage import LAWS, TABLES
 from exu_press.schema.table import Table, key_values
@@ -207,7 +206,7 @@ def _shared(scene: Scene, key: Key) -> bool:
     law, _, name = key.name.partition(".")
     if law not in LAWS:
         return True
-    if scene.guide is not None and name in scene.guide.law_keys(law, LawKeys(scene.laws, {})):
+    if scene.guide is not None and name in scene.guide.law_keys(law, scene.laws[law] or {}):
         return True
     given = dict.fromkeys(scene.asked)
     for place, joint in scene.joints.with_clearance.items():
@@ -310,10 +309,10 @@ Declared = tuple[str, tuple[Any, dataclasses.Field[Any]]]
 
 def _law_keys(scene: Scene, law: str) -> Iterator[Declared]:
     """Yield the same of [contact], [friction] or [film]."""
-    laws = LawKeys(scene.laws, {})
-    of_guides = {} if scene.guide is None else scene.guide.law_keys(law, laws)
+    keys = scene.laws[law] or {}
+    of_guides = {} if scene.guide is None else scene.guide.law_keys(law, keys)
     fields = {**scene.joints.law_keys(law), **of_guides}
-    for name, value in (scene.laws[law] or {}).items():
+    for name, value in keys.items():
         if isinstance(value, Table):
             yield from _inside(f"{law}.{name}", value)
         else:

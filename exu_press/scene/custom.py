@@ -74,9 +74,6 @@ class UnresolvedJoint(CustomJoint):
     def demand_keys(self, place: str) -> None:
         """Demand nothing: the keys are unknown."""
 
-    def check_laws(self) -> None:
-        """Check nothing: the laws are unknown."""
-
     def to_dict(self, laws: Mapping[str, Mapping[str, Any] | None]) -> dict[str, Any]:
         """Return the keys that the result has."""
         return {"kind": self.name, **self.keys}

@@ -2,7 +2,7 @@
 
 import dataclasses
 import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -16,7 +16,6 @@ from exu_press.scene.friction import (
     FrictionLaw,
     demand_static_friction,
 )
-from exu_press.scene.law_keys import LawKeys
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind, kind_name
 from exu_press.schema.registry import Registry, alternatives, choice
@@ -34,9 +33,13 @@ class GuideFrictionKinds(Registry):
     def __getitem__(self, name: Any) -> type[Any]:
         return _of_guides(FRICTION[name])
 
-    def find(self, key: str, name: Any) -> type[Any] | None:
+    def all_kinds(self) -> Iterator[tuple[Any, type[Any]]]:
+        """Yield name and keys of all laws of friction."""
+        yield from ((name, _of_guides(law)) for name, law in FRICTION.all_kinds())
+
+    def find(self, key: str, name: Any, keys: Collection[str] = ()) -> type[Any] | None:
         """Return the kind of a name, or None; arguments and errors as those of `Registry`."""
-        law = FRICTION.find(key, name)
+        law = FRICTION.find(key, name, [key for key in keys if key in OF_GUIDES])
         return None if law is None else _of_guides(law)
 
 
@@ -52,7 +55,7 @@ class GuideFriction(CustomKind, Table):
     law_kind: ClassVar[str] = ""
     law_type: ClassVar[type[FrictionLaw]]
     law_keys: ClassVar[tuple[str, ...]] = ()
-    """The other keys of the law, which are in [friction]."""
+    """The other keys of the law, which are in [friction]; unknown where it is not resolved."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -89,7 +92,12 @@ def _keys_of_guides(law: type[FrictionLaw]) -> type[GuideFriction]:
         metadata["meaning"] = metadata["meaning"].partition(";")[0]
         copied: Any = dataclasses.field(default=default, metadata=metadata)
         own.append((field.name, field.type, copied))
-    namespace = {"law_kind": kind_name(law), "law_type": law, "law_keys": tuple(others)}
+    namespace = {
+        "law_kind": kind_name(law),
+        "law_type": law,
+        "law_keys": tuple(others),
+        "resolved": law.resolved,
+    }
     kind: type[GuideFriction] = dataclasses.make_dataclass(
         f"GuideFriction{law.__name__}",
         own,
@@ -260,23 +268,25 @@ class ElasticGuide(Table):
 
     def friction_table(self, keys: Mapping[str, Any]) -> Friction:
         """Return the law of friction; keys that [guide] lacks are those of [friction]."""
-        others = {name: keys[name] for name in self.friction.law_keys if name in keys}
+        resolved = self.friction.resolved
+        names = self.friction.law_keys if resolved else [name for name in keys if name != "law"]
+        others = {name: keys[name] for name in names if name in keys}
         own = {"law": self.friction.kind, **plain(self.friction)}
         return resolve(Friction, "friction", {**others, **own})
 
-    def law_keys(self, law: str, laws: LawKeys) -> dict[str, dataclasses.Field[Any]]:
+    def law_keys(self, law: str, keys: Mapping[str, Any]) -> dict[str, dataclasses.Field[Any]]:
         """Return the keys of [contact] or [friction] that the guides use, with declarations.
 
         Args:
-            law: "contact", "friction" or "film".
-            laws: keys of the scene.
+            law: "contact" or "friction".
+            keys: of this table.
         """
         table: Table | None = None
         if law == "contact" and self.guideways is not None:
-            table = self.contact(laws.of(law))
-        elif law == "friction" and self.friction.law_keys:
-            table = self.friction_table(laws.of(law))
+            table = self.contact(keys)
+        elif law == "friction" and self.rubs:
+            table = self.friction_table(keys)
         used = {} if table is None else {name: field for name, _, field in key_values(table)}
         if law == "friction":
-            used = {name: used[name] for name in self.friction.law_keys}
+            used = {name: f for name, f in used.items() if name not in ("law", *OF_GUIDES)}
         return used

@@ -56,6 +56,22 @@ class Joint(CustomKind, Table):
     onset: float | None = None
     """Gap at which the surfaces begin to touch, m; None where they never do."""
 
+    def kinds(self) -> dict[str, CustomKind]:
+        """Return the joint and its laws, by the keys that name their kinds."""
+        kinds: dict[str, CustomKind] = {"kind": self}
+        if self.contact is not None:
+            kinds["contact.damping"] = self.contact.damping
+        if self.friction is not None:
+            kinds["friction.law"] = self.friction.law
+        if self.film is not None and self.film.length is not None:
+            kinds["film.law"] = self.film.law
+        return kinds
+
+    @property
+    def is_resolved(self) -> bool:
+        """Whether the code of its kind and its laws is loaded."""
+        return all(kind.resolved for kind in self.kinds().values())
+
     def demand_keys(self, place: str) -> None:
         """Raise InputError for the first missing key that decides its behaviour.
 
@@ -132,8 +148,8 @@ class TouchingJoint(Joint):
         return None if self.film is None else self.film.length
 
     def normal_contact(self, crank_speed: float) -> "NormalContact | None":
-        """Return the normal contact of its surfaces at a speed of the crank, rad/s, or None."""
-        if self.contact is None:
+        """Return the normal contact at a speed of the crank, rad/s; None without a known one."""
+        if self.contact is None or not self.contact.damping.resolved:
             return None
         elastic = self.contact.elastic_force(self.radius, self.clearance, self.film_length)
         return self.contact.damped(elastic, self.clearance, crank_speed)

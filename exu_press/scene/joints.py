@@ -272,7 +272,8 @@ def _joint(
         joint: Joint = chosen(**{key: values[key] for key in keys if key in values})
     joint.demand_keys(place)
     try:
-        joint.check_laws()
+        if joint.is_resolved:
+            joint.check_laws()
     except InputError as error:
         raise InputError(f"{error} ({place})") from None
     return joint

@@ -1,45 +1,46 @@
-"""One load: a blanking pulse, a table of forces, a sheet or a spring."""
+"""A load of a scene: where it acts, and its force over time, crank angle or height."""
 
 import dataclasses
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal, Self
+from pathlib import Path
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from exu_press.errors import InputError
-from exu_press.laws.load_curve import REVOLUTION, LoadCurve, PulseClock, blanking_pulse
-from exu_press.laws.sheet import SHAPE, Sheet, shear_force
+from exu_press.errors import InputError, error_prefix
+from exu_press.laws.load_curve import LoadCurve
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import Face, patch_given
-from exu_press.schema.checks import check_columns, check_increasing, key
+from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind
-from exu_press.schema.table import Table
+from exu_press.schema.registry import Registry
+from exu_press.schema.table import Table, demand_keys
 
-__all__ = [
-    "COLUMNS",
-    "LOAD_KINDS",
-    "BlankingLoad",
-    "CustomLoad",
-    "Load",
-    "SheetLoad",
-    "SpringLoad",
-    "TableLoad",
-    "UnresolvedLoad",
-]
+__all__ = ["COLUMNS", "LOAD_KINDS", "PLACE", "CustomLoad", "Load", "UnresolvedLoad", "check_height"]
+
+LOAD_KINDS = Registry(
+    {
+        "blanking": "scene.blanking_load:BlankingLoad",
+        "table": "scene.table_load:TableLoad",
+        "sheet": "scene.sheet_load:SheetLoad",
+        "spring": "scene.spring_load:SpringLoad",
+    },
+    base="scene.load:CustomLoad",
+)
 
 COLUMNS = ("time", "crank_angle_deg", "height")
 """Variables that a table's forces may be given over."""
 
-LOWEST = 180.0
-"""deg, where a pulse ends unless another place is given."""
+PLACE = ("body", "offset", "joint", "face", "direction")
+"""Keys of every load."""
 
 
 @dataclass(frozen=True)
-class _Placed(Table, ABC):
-    """The place of a load; its direction stays in the frame however the body turns.
+class Load(CustomKind, Table, ABC):
+    """A load and its place; its direction stays in the frame however the body turns.
 
     `over` is the variable of its curve; `closing` says whether it depends on the way that the
     output goes.
@@ -50,6 +51,7 @@ class _Placed(Table, ABC):
 
     exclusive_with: ClassVar[Mapping[str, str]] = {"offset": "joint", "face": "joint"}
     over: ClassVar[Any] = ""
+    closing: ClassVar[Any] = False
     body: str | None = key(None, "body that it acts on; the mechanism's output unless given")
     offset: tuple[float, float] | None = key(
         None,
@@ -73,6 +75,11 @@ class _Placed(Table, ABC):
         if self.direction is not None and math.hypot(*self.direction) == 0.0:
             raise InputError("direction = [0, 0]: allowed is a direction, such as [0, 1]")
 
+    @classmethod
+    def read_file(cls, path: Path) -> dict[str, Any]:
+        """Return the keys that a file has; InputError where this kind of load reads none."""
+        raise InputError(f"{path}: allowed with kind = 'table', whose forces it has")
+
     def check(self, mechanism: Mechanism, revolution: float) -> None:
         """Raise InputError where it does not suit a mechanism and the time of a revolution, s."""
 
@@ -86,253 +93,16 @@ class _Placed(Table, ABC):
         """
         return {"over": self.over, "curve": self.curve(angular_speed)}
 
+    def check_code(self, where: str, angular_speed: float) -> None:
+        """Try the code of a kind of the user's own, for messages that begin with `where`."""
+
     @abstractmethod
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return the force over its variable at a speed of the crank, rad/s."""
 
 
 @dataclass(frozen=True)
-class BlankingLoad(_Placed):
-    """Triangular pulse, once a revolution (Eq. 36, A-14); a motor's crank keeps its times, too."""
-
-    kind: ClassVar[Literal["blanking"]] = "blanking"
-    over: ClassVar = "crank_angle_deg"
-    closing: ClassVar = False
-    required: ClassVar[tuple[str, ...]] = ("force",)
-    force: float = key(None, "peak force", "N", at_least=0)
-    rise: float = key(1e-3, "time from zero to the peak (2 tau)", "s", above=0)
-    fall: float = key(5e-4, "time from the peak to zero (tau)", "s", above=0)
-    end_angle_deg: float = key(
-        LOWEST, "crank angle from the mechanism's zero at the end", "deg", above=0, at_most=360
-    )
-    start_angle_deg: float | None = key(
-        None, "the same at the beginning, instead of end_angle_deg", "deg", at_least=0, at_most=360
-    )
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.start_angle_deg is not None and self.end_angle_deg != LOWEST:
-            raise InputError("start_angle_deg and end_angle_deg: allowed is one of the two")
-
-    def curve(self, angular_speed: float) -> LoadCurve:
-        """Return the force over the crank angle, rad, at a speed of the crank, rad/s."""
-        times, forces = blanking_pulse(self.force, self.rise, self.fall)
-        if self.start_angle_deg is not None:
-            begin = math.radians(self.start_angle_deg)
-        else:
-            begin = math.radians(self.end_angle_deg) - angular_speed * times[-1]
-        return LoadCurve([begin + angular_speed * time for time in times], forces, REVOLUTION)
-
-    def check(self, mechanism: Mechanism, revolution: float) -> None:
-        """Raise InputError for a pulse longer than a revolution, s."""
-        if self.rise + self.fall > revolution:
-            raise InputError(
-                f"rise + fall = {self.rise + self.fall!r}: allowed is at most one revolution, "
-                f"{revolution:g} s"
-            )
-
-    def law(self, angular_speed: float, fade: float | None, *, motor: bool) -> dict[str, Any]:
-        """Return force over the time since the pulse's beginning, s, and its clock, or `curve`."""
-        if not motor:
-            return super().law(angular_speed, fade, motor=motor)
-        curve = LoadCurve(*blanking_pulse(self.force, self.rise, self.fall))
-        return {"over": "pulse", "curve": curve, "clock": self._clock}
-
-    def _clock(self, now: float, speed: float) -> PulseClock:
-        """Return when it begins at a crank whose speed varies; its angle and speed at the start."""
-        begins = self.start_angle_deg
-        angle = math.radians(self.end_angle_deg if begins is None else begins)
-        lasts = self.rise + self.fall
-        return PulseClock(lasts, angle, at_end=begins is None, now=now, speed=speed)
-
-
-@dataclass(frozen=True)
-class TableLoad(_Placed):
-    """Forces over time, crank angle or the output's height, straight lines between them.
-
-    The height counts from the ideal bottom dead centre. Over the crank angle forces repeat every
-    revolution, from the last point to the first; otherwise the first and the last force go on
-    beyond the table. A forming force acts while the output closes. It fades as the output comes to
-    rest, over a thousandth of the ideal motion's largest speed.
-    """
-
-    kind: ClassVar[Literal["table"]] = "table"
-    time: tuple[float, ...] | None = key(None, "of the forces, from the start", "s", numbers=0)
-    crank_angle_deg: tuple[float, ...] | None = key(
-        None, "of the forces, from the mechanism's zero", "deg", numbers=0
-    )
-    height: tuple[float, ...] | None = key(
-        None, "of the output above bottom dead centre", "m", numbers=0
-    )
-    force: tuple[float, ...] | None = key(None, "positive in the direction", "N", numbers=0)
-    factor: float = key(1.0, "times the table's forces")
-    acts: str | None = key(
-        None,
-        "while the output closes or both ways; over height 'closing' unless given, else 'both'",
-        choices=("closing", "both"),
-    )
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        given = [name for name in COLUMNS if getattr(self, name) is not None]
-        if len(given) != 1 or self.force is None:
-            shown = ", ".join([*given, *(["force"] if self.force is not None else [])]) or "nothing"
-            raise InputError(
-                f"{shown} given: allowed is file, a CSV, or one of {', '.join(COLUMNS)} with force"
-            )
-        places = getattr(self, given[0])
-        check_columns((given[0], "force"), places, self.force)
-        check_increasing(given[0], places)
-        if given[0] == "crank_angle_deg":
-            turn = places[-1] - places[0]
-            if turn > 360.0 or (turn == 360.0 and self.force[0] != self.force[-1]):
-                raise InputError(
-                    f"crank_angle_deg from {places[0]!r} to {places[-1]!r}: allowed is less than a "
-                    "revolution, or a whole one that ends with the force with which it begins"
-                )
-
-    @property
-    def over(self) -> str:
-        """The variable of the curve."""
-        return next(name for name in COLUMNS if getattr(self, name) is not None)
-
-    @property
-    def closing(self) -> bool:
-        """Return whether it acts while the output closes only."""
-        return (self.acts or ("closing" if self.over == "height" else "both")) == "closing"
-
-    def curve(self, angular_speed: float) -> LoadCurve:
-        """Return the force over time, s, crank angle, rad, or height, m."""
-        assert self.force is not None
-        places, forces = getattr(self, self.over), [self.factor * force for force in self.force]
-        if self.over != "crank_angle_deg":
-            return LoadCurve(places, forces)
-        if places[-1] - places[0] == 360.0:
-            places, forces = places[:-1], forces[:-1]
-        return LoadCurve([math.radians(place) for place in places], forces, REVOLUTION)
-
-
-@dataclass(frozen=True)
-class SheetLoad(_Placed):
-    """A sheet that is cut once a stroke: the output's place decides, not the clock.
-
-    A sheet of its own lies on the die for every stroke. Its fracture ends a step.
-    """
-
-    kind: ClassVar[Literal["sheet"]] = "sheet"
-    over: ClassVar = "penetration"
-    closing: ClassVar = True
-    required: ClassVar[tuple[str, ...]] = (
-        *("height", "thickness", "shear_strength", "cut_length", "penetration", "crack_time"),
-    )
-    height: float = key(None, "of the sheet's upper face above bottom dead centre", "m", above=0)
-    thickness: float = key(None, "of the sheet", "m", above=0)
-    shear_strength: float = key(
-        None, "of the sheet, about 0.8 of its tensile strength", "Pa", above=0
-    )
-    cut_length: float = key(None, "of the line that is cut", "m", above=0)
-    penetration: float = key(
-        None, "of the punch at fracture over the thickness", above=0, at_most=1
-    )
-    crack_time: float = key(None, "from fracture to no force", "s", above=0)
-    stripping: float = key(0.0, "force on the way up over the largest force", at_least=0, at_most=1)
-    over_fracture: tuple[float, ...] = key(
-        SHAPE[0], "penetrations of the curve over that at fracture, from 0 to 1", numbers=0
-    )
-    over_peak: tuple[float, ...] = key(
-        SHAPE[1], "forces of the curve over shear_strength cut_length thickness", numbers=0
-    )
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        check_columns(("over_fracture", "over_peak"), self.over_fracture, self.over_peak)
-        if (self.over_fracture[0], self.over_fracture[-1], self.over_peak[0]) != (0.0, 1.0, 0.0):
-            raise InputError(
-                f"over_fracture from {self.over_fracture[0]!r} to {self.over_fracture[-1]!r}, "
-                f"over_peak from {self.over_peak[0]!r}: allowed is from 0 to 1, and from 0"
-            )
-        check_increasing("over_fracture", self.over_fracture)
-        if not min(self.over_peak[1:]) > 0.0:
-            raise InputError(
-                f"over_peak = {min(self.over_peak[1:])!r}: allowed is > 0 after the first"
-            )
-
-    def curve(self, angular_speed: float) -> LoadCurve:
-        """Return the force over the penetration up to fracture, m."""
-        peak = shear_force(self.shear_strength, self.cut_length, self.thickness)
-        depth = self.penetration * self.thickness
-        return LoadCurve(
-            [depth * x for x in self.over_fracture], [peak * y for y in self.over_peak]
-        )
-
-    def check(self, mechanism: Mechanism, revolution: float) -> None:
-        """Raise InputError unless the output leaves the sheet, and cuts it through."""
-        _check_height(self.height, mechanism)
-        depth = self.thickness * self.penetration
-        if depth >= self.height:
-            raise InputError(
-                f"thickness = {self.thickness!r}: it fractures {depth:.4g} m deep, and the output "
-                f"goes {self.height!r} m into it; allowed is a larger height, or a thinner sheet"
-            )
-
-    def law(self, angular_speed: float, fade: float | None, *, motor: bool) -> dict[str, Any]:
-        """Return the sheet as well, and the height of its upper face."""
-        assert fade is not None
-        curve = self.curve(angular_speed)
-        stripping = self.stripping * curve.peak
-        sheet = Sheet(curve, self.thickness, self.crack_time, stripping, fade)
-        return {"over": self.over, "curve": curve, "sheet": sheet, "top": self.height}
-
-
-@dataclass(frozen=True)
-class SpringLoad(_Placed):
-    """A gas spring, cushion or buffer: force over its travel, with damping.
-
-    The force is F(x) (1 + d dx/dt), as long as that pushes.
-    """
-
-    kind: ClassVar[Literal["spring"]] = "spring"
-    over: ClassVar = "height"
-    closing: ClassVar = False
-    required: ClassVar[tuple[str, ...]] = ("height", "travel", "force")
-    height: float = key(
-        None, "of the output above bottom dead centre where it meets the spring", "m", above=0
-    )
-    travel: tuple[float, ...] = key(None, "of the forces, from 0", "m", numbers=0)
-    force: tuple[float, ...] = key(None, "over the travel, from 0", "N", numbers=0)
-    damping: float = key(0.0, "d, of the force per speed over the force", "s/m", at_least=0)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        check_columns(("travel", "force"), self.travel, self.force)
-        if self.travel[0] != 0.0 or self.force[0] != 0.0 or min(self.force) < 0.0:
-            raise InputError(
-                f"travel from {self.travel[0]!r}, force from {self.force[0]!r}: allowed is from 0 "
-                "and 0, and pushing; let a preload rise over a short travel, as its seat gives way"
-            )
-        check_increasing("travel", self.travel)
-
-    def check(self, mechanism: Mechanism, revolution: float) -> None:
-        """Raise InputError unless the output leaves the spring, and its travel is long enough."""
-        _check_height(self.height, mechanism)
-        if self.travel[-1] < self.height:
-            raise InputError(
-                f"travel to {self.travel[-1]!r}: the output compresses it by {self.height!r} m; "
-                "allowed is a travel as long as that"
-            )
-
-    def law(self, angular_speed: float, fade: float | None, *, motor: bool) -> dict[str, Any]:
-        """Return the damping as well."""
-        return super().law(angular_speed, fade, motor=motor) | {"damping": self.damping}
-
-    def curve(self, angular_speed: float) -> LoadCurve:
-        """Return the force over the output's height, m."""
-        places = [self.height - x for x in reversed(self.travel)]
-        return LoadCurve(places, tuple(reversed(self.force)))
-
-
-@dataclass(frozen=True)
-class CustomLoad(CustomKind, _Placed, ABC):
+class CustomLoad(Load, ABC):
     """Base of a load kind of your own; `kind = "my_module:MyClass"` names it in a scene.
 
     The derived dataclass declares its keys by `exu_press.schema.checks.key`, and `over`, one of
@@ -341,6 +111,21 @@ class CustomLoad(CustomKind, _Placed, ABC):
 
     over: ClassVar[str] = "height"
     closing: ClassVar[bool] = False
+
+    def check_code(self, where: str, angular_speed: float) -> None:
+        """Make its curve once, so that it is refused before anything is run."""
+        own = [field.name for field in dataclasses.fields(self) if field.default is None]
+        demand_keys(where, self, [name for name in own if name not in PLACE], "", f"[{where}]")
+        if self.over not in COLUMNS:
+            raise InputError(
+                f"{where}: {self.kind}.over = {self.over!r}: allowed is one of {COLUMNS}"
+            )
+        with error_prefix(f"{where}: "):
+            curve = self.curve(angular_speed)
+        if not isinstance(curve, LoadCurve):
+            raise InputError(
+                f"{where}: {self.kind}.curve() returns {curve!r:.80}: allowed is a LoadCurve"
+            )
 
     @abstractmethod
     def curve(self, angular_speed: float) -> LoadCurve:
@@ -364,7 +149,7 @@ class UnresolvedLoad(CustomLoad):
     @classmethod
     def of(cls, name: str, keys: Mapping[str, Any]) -> Self:
         """Return the load of a kind and its keys."""
-        placed = {k: v for k, v in keys.items() if k in _Placed.__dataclass_fields__}
+        placed = {k: v for k, v in keys.items() if k in PLACE}
         return cls(**placed, name=name, keys=keys)
 
     @property
@@ -372,13 +157,16 @@ class UnresolvedLoad(CustomLoad):
         """Name of the class, as the result has it."""
         return self.name
 
+    def check_code(self, where: str, angular_speed: float) -> None:
+        """Try nothing: its code is not loaded."""
+
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return forces that are no numbers: they are unknown."""
         return LoadCurve([0.0, 1.0], [math.nan, math.nan])
 
 
-def _check_height(height: float, mechanism: Mechanism) -> None:
-    """Check that the output leaves a sheet or spring."""
+def check_height(height: float, mechanism: Mechanism) -> None:
+    """Raise InputError unless the output leaves a sheet or spring at a height, m."""
     angle = np.linspace(0.0, 2.0 * math.pi, 721)
     stroke = float(mechanism.ideal_slider(angle, 1.0)[0].max()) - mechanism.bottom
     if height >= stroke:
@@ -386,9 +174,3 @@ def _check_height(height: float, mechanism: Mechanism) -> None:
             f"height = {height!r}: the output rises {stroke:.4g} m above bottom dead centre and "
             "never leaves it; allowed is less than that"
         )
-
-
-Load = BlankingLoad | TableLoad | SheetLoad | SpringLoad | CustomLoad
-LOAD_KINDS: dict[str, type[Load]] = {
-    kind.kind: kind for kind in (BlankingLoad, TableLoad, SheetLoad, SpringLoad)
-}

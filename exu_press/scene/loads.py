@@ -5,22 +5,13 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError, error_prefix
-from exu_press.laws.load_curve import LoadCurve
+from exu_press.errors import InputError, UnusedKeyError, error_prefix
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
-from exu_press.scene.load import (
-    COLUMNS,
-    LOAD_KINDS,
-    CustomLoad,
-    Load,
-    UnresolvedLoad,
-)
+from exu_press.scene.load import COLUMNS, LOAD_KINDS, PLACE, Load, UnresolvedLoad
 from exu_press.scene.solver import RPM
 from exu_press.schema.checks import demand_known, demand_name
-from exu_press.schema.kinds import custom_class
-from exu_press.schema.table import demand_keys, plain
-from exu_press.schema.two_columns import read_two_columns
+from exu_press.schema.table import declared_keys, plain
 
 __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
 
@@ -53,8 +44,7 @@ def loads_of(
             text = str(error)
             raise InputError(text if text.startswith(where) else f"{where}.{text}") from None
         _check_body(where, load, mechanism, flexible)
-        if isinstance(load, CustomLoad):
-            _check_curve(where, load, speed_rpm)
+        load.check_code(where, speed_rpm * RPM)
         with error_prefix(f"{where}."):
             load.check(mechanism, 60.0 / speed_rpm)
     return found
@@ -89,7 +79,7 @@ def changed_loads(loads: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[
             continue
         keys = changed.setdefault(name, {})
         if inner == "kind" and keys.get("kind") != value:
-            changed[name] = keys = {k: v for k, v in keys.items() if k in _PLACES}
+            changed[name] = keys = {k: v for k, v in keys.items() if k in PLACE}
         if inner == "file":
             for column in (*COLUMNS, "force"):
                 keys.pop(column, None)
@@ -109,63 +99,43 @@ def with_files_beside(given: Any, folder: Path) -> Any:
     }
 
 
-_PLACES = ("body", "offset", "joint", "face", "direction")
-
-
-def _load(where: str, given: Any) -> Load:
-    if isinstance(given, Load):
-        return given
-    if not isinstance(given, Mapping):
-        raise InputError(f"{where} = {given!r}: allowed is a table of keys")
-    keys = dict(given)
+def _load(where: str, table: Any) -> Load:
+    if isinstance(table, Load):
+        return table
+    if not isinstance(table, Mapping):
+        raise InputError(f"{where} = {table!r}: allowed is a table of keys")
+    keys = dict(table)
     kinds = ", ".join(map(repr, LOAD_KINDS))
     if "kind" not in keys:
         raise InputError(f"{where} has no kind: allowed is one of {kinds}")
-    kind = keys.pop("kind")
-    table = LOAD_KINDS[kind] if kind in [*LOAD_KINDS] else custom_class("kind", kind, CustomLoad)
-    if table is None:
-        raise InputError(f"kind = {kind!r}: allowed is one of {kinds}")
-    known = ["kind", *(field.name for field in dataclasses.fields(table))]
-    if kind == "table":
-        known.append("file")
-    for name in [name for name in keys if name not in known]:
-        demand_known(f"{name} = {keys[name]!r}: unknown key of kind {kind!r}", name, known)
+    name = keys.pop("kind")
+    kind = LOAD_KINDS.find("kind", name)
+    if kind is None:
+        raise InputError(f"kind = {name!r}: allowed is one of {kinds}")
     if "file" in keys:
         path = keys.pop("file")
         if not isinstance(path, str):
             raise InputError(f"file = {path!r}: allowed is the path of a CSV file")
-        both = [name for name in ("force", *COLUMNS) if name in keys]
+        both = [column for column in ("force", *COLUMNS) if column in keys]
         if both:
             raise InputError(f"file and {both[0]}: allowed is one of the two")
         with error_prefix("file: "):
-            keys |= _read_table(Path(path))
-    load: Load = table(**keys)
+            keys |= kind.read_file(Path(path))
+    _refuse_unknown(str(name), [field.name for field in dataclasses.fields(kind)], keys)
+    load: Load = kind(**keys)
     return load
 
 
-def _read_table(path: Path) -> dict[str, list[float]]:
-    """Return the two columns of a CSV file by their names."""
-    read = read_two_columns(path)
-    if read.head[0] not in COLUMNS or read.head[1] != "force":
-        allowed = " or ".join(f"'{name},force'" for name in COLUMNS)
-        raise InputError(f"{path}: header {','.join(read.head)[:80]!r}; allowed is {allowed}")
-    if len(read.places) < 2:
-        raise InputError(f"{path}: {len(read.places)} lines of numbers; allowed are at least two")
-    return {read.head[0]: read.places, "force": read.values}
-
-
-def _check_curve(where: str, load: CustomLoad, speed_rpm: float) -> None:
-    """Make a curve of the user's own once, so that it is refused before anything is run."""
-    own = [field.name for field in dataclasses.fields(load) if field.default is None]
-    demand_keys(where, load, [name for name in own if name not in _PLACES], "", f"[{where}]")
-    if load.over not in COLUMNS:
-        raise InputError(f"{where}: {load.kind}.over = {load.over!r}: allowed is one of {COLUMNS}")
-    with error_prefix(f"{where}: "):
-        curve = load.curve(speed_rpm * RPM)
-    if not isinstance(curve, LoadCurve):
-        raise InputError(
-            f"{where}: {load.kind}.curve() returns {curve!r:.80}: allowed is a LoadCurve"
-        )
+def _refuse_unknown(kind: str, known: list[str], keys: Mapping[str, Any]) -> None:
+    """Raise InputError for the first key that a kind of load does not have."""
+    for key, value in keys.items():
+        if key in known:
+            continue
+        holders = [repr(name) for name, other in LOAD_KINDS.items() if key in declared_keys(other)]
+        if holders:
+            reason = f"kind is {kind!r}; it belongs to {' or '.join(holders)}"
+            raise UnusedKeyError(key, f"{key} = {value!r}", reason)
+        demand_known(f"{key} = {value!r}: unknown key of kind {kind!r}", key, ["kind", *known])
 
 
 def _check_body(where: str, load: Load, mechanism: Mechanism, flexible: Collection[str]) -> None:

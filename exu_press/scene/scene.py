@@ -188,7 +188,7 @@ class Scene(Table):
         tables = usual.get("joints", {}) if self.joints is None else self.joints
         object.__setattr__(self, "joints", None)
         _require_turning(mechanism)
-        laws = LawKeys(self.laws, usual)
+        laws = LawKeys(self.laws, usual, self._law_tables(tables))
         sizes = {name: usual[name] for name in SIZES if name in usual}
         spherical = {joint.name: joint.spherical for joint in mechanism.joints}
         joints = joints_of(tables, mechanism.name, spherical, mechanism.groups, laws, sizes)
@@ -204,6 +204,16 @@ class Scene(Table):
             assert contact is not None
             demand_keys("guide.clearance", contact, (), "contact", "[contact]")
 
+    def _law_tables(self, joints: Any) -> Iterator[tuple[str, Mapping[str, Any]]]:
+        """Yield law and keys of joints and guides, which may name laws of their own."""
+        for table in joints.values() if isinstance(joints, Mapping) else ():
+            for law in LAWS:
+                keys = table.get(law) if isinstance(table, Mapping) else None
+                if isinstance(keys, Mapping):
+                    yield law, keys
+        if self.guide is not None:
+            yield "friction", {"law": self.guide.friction.kind}
+
     def _settle_law(self, law: str, laws: LawKeys, unused: str) -> None:
         """Complete the keys of a law; those that no joint and no guide uses are refused.
 
@@ -212,7 +222,9 @@ class Scene(Table):
             laws: the keys that are given.
             unused: why no joint has this law, or nothing.
         """
-        of_guides = {} if self.guide is None else self.guide.law_keys(law, laws)
+        of_guides: Mapping[str, Any] = {}
+        if self.guide is not None and law != "film":
+            of_guides = self.guide.law_keys(law, laws.of(law))
         used = {**self.joints.law_keys(law), **of_guides}
         if not of_guides:
             self._refuse({law: unused} if unused else {}, law, laws.given[law])
@@ -398,18 +410,19 @@ class Scene(Table):
     def require_code(self) -> None:
         """Raise InputError for a kind whose code is not loaded."""
         for name, kind in self._unresolved():
-            raise InputError(f"{name}.kind = {kind!r}: {refusal(kind)}")
+            raise InputError(f"{name} = {kind!r}: {refusal(kind)}")
 
     def _unresolved(self) -> Iterator[tuple[str, str]]:
-        """Yield dotted name and kind of what has a kind whose code is not loaded."""
+        """Yield key and name of each kind whose code is not loaded."""
         for name, joint in self.joints.items():
-            if isinstance(joint, UnresolvedJoint):
-                yield f"joints.{name}", joint.kind
+            for path, kind in joint.kinds().items():
+                if not kind.resolved:
+                    yield f"joints.{name}.{path}", kind.kind
         for name, load in self.load.items():
-            from exu_press.scene.load import UnresolvedLoad
-
-            if isinstance(load, UnresolvedLoad):
-                yield f"load.{name}", load.kind
+            if not load.resolved:
+                yield f"load.{name}.kind", load.kind
+        if self.guide is not None and not self.guide.friction.resolved:
+            yield "guide.friction", self.guide.friction.kind
 
     @property
     def shipped(self) -> str:

@@ -5,9 +5,10 @@ import textwrap
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+from exu_press.scene.blanking_load import BlankingLoad
 from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
-from exu_press.scene.load import BlankingLoad, Load, TableLoad
+from exu_press.scene.load import Load
 from exu_press.scene.oil import Oil
 from exu_press.scene.save import (
     body_lines,
@@ -18,6 +19,7 @@ from exu_press.scene.save import (
     table_lines,
 )
 from exu_press.scene.scene import Scene, mechanism_of
+from exu_press.scene.table_load import TableLoad
 from exu_press.scene.usage import LAWS, TABLES
 from exu_press.schema.table import Table, table_from
 

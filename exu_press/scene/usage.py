@@ -1,6 +1,5 @@
 """The tables of a scene, and which of them a scene does not use."""
 
-import functools
 from collections.abc import Mapping
 from dataclasses import Field
 from typing import Any
@@ -46,7 +45,6 @@ def law_kind(law: str, spherical: bool) -> type[Table]:
     return LAWS[law]["spherical" if spherical else "revolute"]
 
 
-@functools.cache
 def table_keys(name: str) -> Mapping[str, Field[Any]]:
     """Return every key that a table of a scene may have, with its declaration."""
     kinds = [*LAWS[name].values()] if name in LAWS else [TABLES[name]]

@@ -20,21 +20,35 @@ __all__ = [
     "custom_modules",
     "import_kinds",
     "kind_name",
+    "loaded_kinds",
     "refusal",
     "with_unresolved",
 ]
 
 IMPORTLIB = import_module.__code__.co_filename
 
+LAWS = {
+    "contact.damping": "scene.contact:DAMPING",
+    "friction.law": "scene.friction:FRICTION",
+    "guide.friction": "scene.friction:FRICTION",
+    "film.law": "scene.film:FILMS",
+}
+"""Keys that name a law -> where the package's own laws are."""
+
 PLACES = re.compile(
-    r"(?:.*\.)?(?:(?:joints|load)\.[^.]+(?:\.kind)?|contact\.damping|(?:friction|film)\.law"
-    r"|guide\.friction)"
+    rf"(?:.*\.)?(?:(?:joints|load)\.[^.]+(?:\.kind)?|{'|'.join(map(re.escape, LAWS))})"
 )
 """Dotted names of keys whose values are kinds, also where a study varies them."""
 
 
 class UnresolvedName(str):
-    """Name of a kind in a result, whose code is not loaded."""
+    """Name of a law in a result, whose code is not loaded.
+
+    Attributes:
+        keys: that the result has beside it, of which some are the law's.
+    """
+
+    keys: frozenset[str] = frozenset()
 
 
 class CustomKind:
@@ -119,8 +133,8 @@ def import_kinds(data: Mapping[str, Any]) -> None:
             elif found is not None:
                 what = "this is no class derived from it"
             raise InputError(
-                f"{key} = {name!r}: {what}; allowed is a dataclass derived from CustomJoint or "
-                "CustomLoad"
+                f"{key} = {name!r}: {what}; allowed is a dataclass derived from CustomJoint, "
+                "CustomLoad, ContactDamping, FrictionLaw or FilmLaw"
             )
 
 
@@ -133,18 +147,40 @@ def with_unresolved(
         data: of a result.
         tables: name of a table of tables -> kinds that need no code, and the class of the others.
     """
-    changed = dict(data)
+    changed: dict[str, Any] = _with_unresolved_laws(data, data)
     for table, (known, unresolved) in tables.items():
         if not isinstance(data.get(table), Mapping):
             continue
-        changed[table] = inner = dict(data[table])
-        for name, given in data[table].items():
+        changed[table] = inner = dict(changed[table])
+        for name, given in tuple(inner.items()):
             keys = {"kind": given} if isinstance(given, str) else given
             if not isinstance(keys, Mapping) or not isinstance(kind := keys.get("kind"), str):
                 continue
             if kind not in known and _loaded(kind, CustomKind) is None:
                 inner[name] = unresolved.of(kind, {k: v for k, v in keys.items() if k != "kind"})
     return changed
+
+
+def _with_unresolved_laws(data: Any, scene: Mapping[str, Any], path: str = "") -> Any:
+    """Return tables in which the name of a law whose code is not loaded is an UnresolvedName."""
+    if isinstance(data, Mapping):
+        return {
+            name: _with_unresolved_laws(value, scene, f"{path}.{name}" if path else str(name))
+            for name, value in data.items()
+        }
+    law = LAWS.get(".".join(path.split(".")[-2:])) if isinstance(data, str) else None
+    if law is None:
+        return data
+    module, _, inside = law.partition(":")
+    known = getattr(import_module(f"exu_press.{module}"), inside)
+    if data in known or _loaded(data, CustomKind):
+        return data
+    unresolved, table = UnresolvedName(data), law.partition(":")[0].rpartition(".")[2]
+    joints = scene.get("joints")
+    owners = [scene, *(joints.values() if isinstance(joints, Mapping) else ())]
+    tables = [owner.get(table) for owner in owners if isinstance(owner, Mapping)]
+    unresolved.keys = frozenset(key for keys in tables if isinstance(keys, Mapping) for key in keys)
+    return unresolved
 
 
 def custom_modules(data: Mapping[str, Any]) -> tuple[str, ...]:
@@ -173,8 +209,17 @@ def kind_name(kind: type[CustomKind]) -> str:
 
 def _loaded(name: str, base: type[Kind]) -> type[Kind] | None:
     """Return the class of a name among those that Python has made by now; the last one counts."""
-    found = [kind for kind in _derived(base) if kind.resolved and kind_name(kind) == name]
-    return found[-1] if found else None
+    kinds = [kind for kind in loaded_kinds(base) if kind_name(kind) == name]
+    return kinds[-1] if kinds else None
+
+
+def loaded_kinds(base: Any) -> list[type[Any]]:
+    """Return the kinds of users and other distributions that Python has made by now."""
+    return [kind for kind in _derived(base) if kind.resolved and not _is_ours(kind)]
+
+
+def _is_ours(kind: type[Any]) -> bool:
+    return kind.__module__.partition(".")[0] == "exu_press"
 
 
 def _derived(base: type[Kind]) -> Iterator[type[Kind]]:

@@ -1,13 +1,21 @@
 """Kinds by name, and parts of a table whose dataclass the table's keys choose."""
 
 import dataclasses
-from collections.abc import Callable, Iterator, Mapping
+import functools
+from collections.abc import Callable, Collection, Iterator, Mapping
 from importlib import import_module
 from typing import Any
 
 from exu_press.errors import InputError
 from exu_press.schema.checks import key
-from exu_press.schema.kinds import CustomKind, UnresolvedName, custom_class
+from exu_press.schema.kinds import (
+    CustomKind,
+    UnresolvedName,
+    custom_class,
+    kind_name,
+    loaded_kinds,
+    refusal,
+)
 
 __all__ = ["Alternatives", "Choice", "Registry", "alternatives", "choice", "loaded"]
 
@@ -24,16 +32,15 @@ def loaded(home: str) -> Any:
 class Registry(Mapping[Any, type[Any]]):
     """Name of a kind -> its dataclass, whose module is imported when a scene names it."""
 
-    def __init__(self, homes: Mapping[Any, str], base: str = "", unresolved: str = "") -> None:
+    def __init__(self, homes: Mapping[Any, str], base: str = "") -> None:
         """Take "module:Class" for each name.
 
         Args:
             homes: within this package.
             base: class that kinds of other distributions and of users are derived from, likewise;
                 "" where there are none.
-            unresolved: class that stands for a kind whose code is not loaded.
         """
-        self._homes, self._base, self._unresolved = dict(homes), base, unresolved
+        self._homes, self._base = dict(homes), base
 
     def __getitem__(self, name: Any) -> type[Any]:
         kind: type[Any] = loaded(self._homes[name])
@@ -48,22 +55,53 @@ class Registry(Mapping[Any, type[Any]]):
     def __len__(self) -> int:
         return len(self._homes)
 
-    def find(self, key: str, name: Any) -> type[Any] | None:
+    def all_kinds(self) -> Iterator[tuple[Any, type[Any]]]:
+        """Yield name and dataclass of all kinds, also of those from elsewhere that are loaded."""
+        yield from self.items()
+        if self._base:
+            yield from ((kind_name(kind), kind) for kind in loaded_kinds(loaded(self._base)))
+
+    def find(self, key: str, name: Any, keys: Collection[str] = ()) -> type[Any] | None:
         """Return the kind of a name, also one that users or distributions offer, or None.
 
         Args:
             key: that has the name, for messages.
             name: of the kind, or its class.
+            keys: that a kind whose code is not loaded may have.
 
         Raises:
             InputError: the name stands for code that is not loaded, or for another class.
         """
         if name in self:
             return self[name]
-        if isinstance(name, UnresolvedName) and self._unresolved:
-            unresolved: type[Any] = loaded(self._unresolved)
-            return unresolved
+        if isinstance(name, UnresolvedName) and self._base:
+            return _unresolved_kind(loaded(self._base), name, tuple(sorted(name.keys & {*keys})))
         return custom_class(key, name, loaded(self._base)) if self._base else None
+
+
+@functools.cache
+def _unresolved_kind(base: Any, name: UnresolvedName, keys: tuple[str, ...]) -> type[Any]:
+    """Return what stands in a result for a law whose code is not loaded: it is shown, not built.
+
+    Args:
+        base: of such laws.
+        name: of the law.
+        keys: of its table in the result.
+    """
+
+    def refuse(*_: Any, **__: Any) -> Any:
+        raise InputError(f"{name!r}: {refusal(name)}")
+
+    metadata = key(None, "of the law", also=object).metadata
+    fields: list[Any] = [
+        (name, Any, dataclasses.field(default=None, metadata=metadata)) for name in keys
+    ]
+    namespace = {"registered_name": name, "resolved": False}
+    namespace |= dict.fromkeys(base.__abstractmethods__, refuse)
+    kind: type[Any] = dataclasses.make_dataclass(
+        "UnresolvedLaw", fields, bases=(base,), namespace=namespace, frozen=True
+    )
+    return kind
 
 
 @dataclasses.dataclass(frozen=True)
@@ -89,7 +127,7 @@ class Choice:
             InputError: there is no such kind.
         """
         name = keys.get(key, default)
-        kind = self.kinds.find(place, name)
+        kind = self.kinds.find(place, name, keys)
         if kind is None:
             names = ", ".join(map(repr, self.kinds))
             allowed = "true or false" if True in self.kinds else f"one of {names}"
@@ -98,8 +136,8 @@ class Choice:
 
     def classes(self) -> Iterator[tuple[str, type[Any]]]:
         """Yield every name, as a scene file has it, with its dataclass."""
-        for name in self.kinds:
-            yield str(name).lower() if isinstance(name, bool) else repr(name), self.kinds[name]
+        for name, kind in self.kinds.all_kinds():
+            yield str(name).lower() if isinstance(name, bool) else repr(name), kind
 
     def reason(self, key: str, place_of: PlaceOf, chosen: CustomKind, holders: list[str]) -> str:
         """Return why a key of other kinds is not used.

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Self, TypeVar
 
 from exu_press.errors import InputError, UnusedKeyError
 from exu_press.schema.checks import allowed_text, checked_value, demand_known
+from exu_press.schema.kinds import UnresolvedName
 from exu_press.schema.registry import loaded
 
 __all__ = [
@@ -101,7 +102,7 @@ class Table:
             if "part" in meta:
                 if not isinstance(value, Table):
                     keys = {} if value is None else {field.name: value}
-                    value = _part(field, self.table, keys)
+                    value = _part(type(self), field, self.table, keys)
             elif "nested" in meta and value is not None:
                 value = table_from(loaded(meta["nested"]), name, value)
             elif "meaning" in meta:
@@ -165,8 +166,7 @@ def used_names(kind: type[Table], name: str, keys: Mapping[str, Any]) -> set[str
         if part is None or "meaning" in field.metadata:
             names.add(field.name)
         if part is not None:
-            place = dotted(name, field.name)
-            chosen = part.select(field.name, place, keys, field.default)
+            chosen = _kind_of_part(kind, field, name, keys)
             names |= set() if chosen is None else used_names(chosen, name, keys)
     return names
 
@@ -176,7 +176,7 @@ def resolve(kind: type[T], name: str, keys: Mapping[str, Any]) -> T:
     values: dict[str, Any] = {}
     for field in _fields(kind):
         if "part" in field.metadata:
-            values[field.name] = _part(field, name, keys)
+            values[field.name] = _part(kind, field, name, keys)
         elif field.name in keys:
             values[field.name] = keys[field.name]
     table = kind(**values)
@@ -184,10 +184,33 @@ def resolve(kind: type[T], name: str, keys: Mapping[str, Any]) -> T:
     return table
 
 
-def _part(field: Field, name: str, keys: Mapping[str, Any]) -> Table | None:
-    place = dotted(name, field.name)
-    kind = field.metadata["part"].select(field.name, place, keys, field.default)
+def _part(table: type[Table], field: Field, name: str, keys: Mapping[str, Any]) -> Table | None:
+    kind = _kind_of_part(table, field, name, keys)
     return None if kind is None else resolve(kind, name, keys)
+
+
+def _kind_of_part(
+    table: type[Table], field: Field, name: str, keys: Mapping[str, Any]
+) -> type[Table] | None:
+    """Return the dataclass that some keys choose for a part of a table."""
+    if isinstance(keys.get(field.name), UnresolvedName):  # all other keys may be its own
+        keys = {key: value for key, value in keys.items() if key not in _beside(table, field)}
+    place = dotted(name, field.name)
+    kind: type[Table] | None = field.metadata["part"].select(field.name, place, keys, field.default)
+    return kind
+
+
+def _beside(table: type[Table], part: Field) -> set[str]:
+    """Return the keys of a table that are not of one of its parts."""
+    names: set[str] = set()
+    for field in _fields(table):
+        if field is part:
+            continue
+        names.add(field.name)
+        if "part" in field.metadata:
+            for _, kind in field.metadata["part"].classes():
+                names |= declared_keys(kind).keys()
+    return names
 
 
 def _as_keys(name: str, data: Any) -> Mapping[str, Any]:
@@ -239,23 +262,31 @@ def unused_reason(table: Table, key: str, place_of: Callable[[str], str]) -> str
     return None
 
 
-def check_keys(kinds: Collection[type[Table]], name: str, data: Any) -> dict[str, Any]:
+def check_keys(
+    kinds: Collection[type[Table]], name: str, data: Any, others: Collection[str] = ()
+) -> dict[str, Any]:
     """Return the keys of a table which some of several kinds of tables may use, checked.
+
+    Args:
+        kinds: of tables.
+        name: dotted, of the table.
+        data: key -> value.
+        others: keys that are known beside those, and not checked.
 
     Raises:
         InputError: a key is none of theirs, or its value is not allowed.
     """
     keys = dict(_as_keys(name, data))
     names = {key for kind in kinds for key in used_names(kind, name, keys)}
-    refuse_unknown_keys(kinds, name, keys, names)
+    refuse_unknown_keys(kinds, name, keys, names | {*others})
     tables = [resolve(kind, name, keys) for kind in kinds]
     used = {key: value for table in tables for key, value, _ in key_values(table)}
     for key, value in keys.items():
         if key in used:
             keys[key] = used[key]
             continue
-        field = next(f for k in kinds for n, f in declared_keys(k).items() if n == key)
-        if "meaning" in field.metadata:
+        field = next((f for k in kinds for n, f in declared_keys(k).items() if n == key), None)
+        if field is not None and "meaning" in field.metadata:
             keys[key] = checked_value(field, dotted(name, key), value)
     return keys
 
@@ -270,7 +301,7 @@ def key_values(table: Table) -> Iterator[tuple[str, Any, Field]]:
             yield from key_values(value)
 
 
-def _declared_keys(kind: type[Table]) -> Mapping[str, Field]:
+def declared_keys(kind: type[Table]) -> Mapping[str, Field]:
     """Return every key that a table may have, of all kinds of its parts, with its declaration."""
     keys: dict[str, Field] = {}
     for field in _fields(kind):
@@ -281,9 +312,6 @@ def _declared_keys(kind: type[Table]) -> Mapping[str, Field]:
             for name, of_part in declared_keys(inner).items():
                 keys.setdefault(name, of_part)
     return keys
-
-
-declared_keys: Callable[[Any], Mapping[str, Field]] = functools.cache(_declared_keys)
 
 
 def demand_keys(place: str, table: Table, keys: Collection[str], law: str, where: str) -> None:

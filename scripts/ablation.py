@@ -120,11 +120,11 @@ def main() -> None:
     defaults = SolverTuning()
     references = {name: run(name, FINER * options.tolerance, defaults) for name in names}
     usual = {name: run(name, options.tolerance, defaults) for name in names}
-    before = {name: error_of(usual[name], references[name]) for name in names}
+    usual_errors = {name: error_of(usual[name], references[name]) for name in names}
     work = {name: usual[name][2].newton_iterations for name in names}
     print(f"tolerance {options.tolerance:g}; error | work, over those of the defaults")
     print(" " * width + "".join(f"{name:>20}" for name in names))
-    cells = [f"{before[name]:.1e} | {work[name]}" for name in names]
+    cells = [f"{usual_errors[name]:.1e} | {work[name]}" for name in names]
     print(f"{'defaults':{width}}" + "".join(f"{cell:>20}" for cell in cells), flush=True)
     for label, tuning in chosen:
         if time.monotonic() > until:
@@ -133,7 +133,7 @@ def main() -> None:
         cells = []
         for name in names:
             tried = run(name, options.tolerance, tuning)
-            error = error_of(tried, references[name]) / before[name]
+            error = error_of(tried, references[name]) / usual_errors[name]
             effort = tried[2].newton_iterations / work[name]
             cells.append("stopped" if error == math.inf else f"{error:.2f} | {effort:.2f}")
         print(f"{label:{width}}" + "".join(f"{cell:>20}" for cell in cells), flush=True)

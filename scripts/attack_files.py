@@ -39,13 +39,13 @@ HEADER = 6000
 
 def flip_bits(draw: random.Random, content: bytes, count: int, first: int, last: int) -> bytes:
     """Return bytes with some bits flipped between two places."""
-    damaged = bytearray(content)
+    damage = bytearray(content)
     for _ in range(count):
-        damaged[draw.randrange(first, last)] ^= 1 << draw.randrange(8)
-    return bytes(damaged)
+        damage[draw.randrange(first, last)] ^= 1 << draw.randrange(8)
+    return bytes(damage)
 
 
-def damaged(draw: random.Random, content: bytes) -> bytes:
+def damage(draw: random.Random, content: bytes) -> bytes:
     """Return bytes with one damage of many kinds, as of a disk, a transfer or a hand."""
     size, how = len(content), draw.randrange(10)
     place, end = draw.randrange(size), min(size, HEADER)
@@ -133,7 +133,7 @@ def attack_results(folder: Path, seeds: Sequence[int]) -> int:
     totals = Totals("damaged results")
     for seed in seeds:
         original, content = sound[seed % len(sound)]
-        path.write_bytes(damaged(random.Random(seed), content))
+        path.write_bytes(damage(random.Random(seed), content))
         read_damaged(totals, seed, partial(read_run, path, original))
     return totals.close()
 
@@ -154,7 +154,7 @@ def attack_blocks(folder: Path, seeds: Sequence[int]) -> int:
         draw = random.Random(seed)
         file = blocks / draw.choice(names)
         whole = file.read_bytes()
-        file.write_bytes(damaged(draw, whole))
+        file.write_bytes(damage(draw, whole))
         read_damaged(totals, seed, partial(_same_blocks, blocks, expected))
         file.write_bytes(whole)
     return totals.close()
@@ -174,9 +174,9 @@ def attack_caches(folder: Path, seeds: Sequence[int]) -> int:
     """Damage a reduced part; None is what makes it be reduced again."""
     if not seeds:
         return Totals("damaged caches").close()
-    part, reduction = shipped_part("linkage", 0.06), Reduction(4)
-    sound = reduced_part(part, reduction, folder=folder)
-    file = cache.cache_file(part, reduction, folder)
+    linkage, reduction = shipped_part("linkage", 0.06), Reduction(4)
+    sound = reduced_part(linkage, reduction, folder=folder)
+    file = cache.cache_file(linkage, reduction, folder)
     content = file.read_bytes()
 
     def read() -> bool | None:
@@ -189,7 +189,7 @@ def attack_caches(folder: Path, seeds: Sequence[int]) -> int:
 
     totals = Totals("damaged caches")
     for seed in seeds:
-        file.write_bytes(damaged(random.Random(seed), content))
+        file.write_bytes(damage(random.Random(seed), content))
         read_damaged(totals, seed, read)
     return totals.close()
 

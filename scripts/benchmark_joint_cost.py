@@ -49,11 +49,11 @@ def bar(mbs, start, end, mass):
     return body, half, node
 
 
-def pin(mbs, one, at_one, other, at_other):
+def pin(mbs, journal, at_journal, bearing, at_bearing):
     """A revolute joint between points of two bodies."""
     markers = [
         mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=body, localPosition=[*at, 0.0]))
-        for body, at in ((one, at_one), (other, at_other))
+        for body, at in ((journal, at_journal), (bearing, at_bearing))
     ]
     return mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=markers))
 
@@ -76,11 +76,11 @@ def run_press(joints, steps):
 def run_chain(add_joint, steps):
     """The same of a chain that hangs from the ground at one end, let go while horizontal."""
     mbs = exu.SystemContainer().AddSystem()
-    before, end = mbs.AddObject(ObjectGround()), (0.0, 0.0, 0.0)
+    previous, end = mbs.AddObject(ObjectGround()), (0.0, 0.0, 0.0)
     for i in range(BODIES):
         body, half, _ = bar(mbs, (LENGTH * i, 0.0), (LENGTH * (i + 1), 0.0), MASS)
-        add_joint(mbs, (body, (-half, 0.0, 0.0)), (before, end))
-        before, end = body, (half, 0.0, 0.0)
+        add_joint(mbs, (body, (-half, 0.0, 0.0)), (previous, end))
+        previous, end = body, (half, 0.0, 0.0)
     mbs.Assemble()
     settings = settings_for(Scene.from_dict({"solver": {"step": STEP}}))
     settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = steps * STEP, steps
@@ -100,7 +100,7 @@ def ideal(mbs, journal, bearing):
     pin(mbs, bearing[0], bearing[1][:2], journal[0], journal[1][:2])
 
 
-def lubricated(mbs, journal, bearing):
+def oiled_joint(mbs, journal, bearing):
     add_lubricated_revolute(mbs, journal, bearing, **BEARING, law=pinkus())
 
 
@@ -122,8 +122,8 @@ def by_user_function(mbs, journal, bearing):
         return [-f_x, -f_y, 0.0, 0.0, 0.0, 0.5 * e * scale * f_t]
 
     markers = [
-        mbs.AddMarker(MarkerBodyRigid(bodyNumber=body, localPosition=place))
-        for body, place in (bearing, journal)
+        mbs.AddMarker(MarkerBodyRigid(bodyNumber=body, localPosition=point))
+        for body, point in (bearing, journal)
     ]
     mbs.AddObject(
         ObjectConnectorRigidBodySpringDamper(
@@ -137,7 +137,7 @@ def by_user_function(mbs, journal, bearing):
 
 CHAIN = {
     "chain, ideal joints": ideal,
-    "chain, ten lubricated joints": lubricated,
+    "chain, ten lubricated joints": oiled_joint,
     "chain, user functions": by_user_function,
 }
 

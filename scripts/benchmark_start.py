@@ -36,10 +36,10 @@ def processor_time(code: str) -> float:
     """Return the least processor time of fresh processes, s."""
     times = []
     for _ in range(REPEATS):
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        start = resource.getrusage(resource.RUSAGE_CHILDREN)
         subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL, check=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        times.append(after.ru_utime + after.ru_stime - start.ru_utime - start.ru_stime)
     return min(times)
 
 

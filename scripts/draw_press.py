@@ -25,8 +25,8 @@ def labels():
     """Text, the point that it belongs to, and how far to move the text up, m."""
     ball_x, ball_y = AT["ball_right"]
 
-    def between(one, other):
-        (x_0, y_0), (x_1, y_1) = AT[one], AT[other]
+    def dimension(first, second):
+        (x_0, y_0), (x_1, y_1) = AT[first], AT[second]
         return 0.5 * (x_0 + x_1), 0.5 * (y_0 + y_1)
 
     def text(name, length, mass):
@@ -35,7 +35,7 @@ def labels():
     return [
         (
             text("linkage (11)", SIZE.counter_linkage_length, SIZE.counter_linkage_mass),
-            between("counter_pin", "counterweight_pin"),
+            dimension("counter_pin", "counterweight_pin"),
             0.04,
         ),
         (text("crank (2)", SIZE.crank_radius, SIZE.crank_mass), (0.0, 0.015), 0.07),
@@ -46,23 +46,23 @@ def labels():
         ),
         (
             text("linkage (3)", SIZE.linkage_length, SIZE.linkage_mass),
-            between("crank_pin", "slide_pin"),
+            dimension("crank_pin", "slide_pin"),
             0.02,
         ),
         (f"slide (4): {SIZE.slide_mass:g} kg (assumed)", AT["slide_pin"], 0.06),
         (
             text("link (6)", SIZE.link_6_length, SIZE.link_6_mass),
-            between("pivot_right", "knuckle_6_right"),
+            dimension("pivot_right", "knuckle_6_right"),
             0.02,
         ),
         (
             text("link (5)", SIZE.link_5_length, SIZE.link_5_mass),
-            between("slide_joint_right", "knuckle_6_right"),
+            dimension("slide_joint_right", "knuckle_6_right"),
             -0.05,
         ),
         (
             text("link (7)", SIZE.link_7_length, SIZE.link_7_mass),
-            between("knuckle_7_right", "plunger_pin_right"),
+            dimension("knuckle_7_right", "plunger_pin_right"),
             -0.05,
         ),
         (text("plunger (8)", SIZE.plunger_length, SIZE.plunger_mass), (ball_x, ball_y + 0.25), 0.0),
@@ -102,8 +102,8 @@ def main(path):
         ("balls (9):\nclearance", "ball_left", 0.12),
     ):
         x, y = AT[name]
-        place = (-LABEL_X, y + up)
-        axes.annotate(text, (x, y), place, ha="center", color="tab:red", arrowprops=red)
+        position = (-LABEL_X, y + up)
+        axes.annotate(text, (x, y), position, ha="center", color="tab:red", arrowprops=red)
     pivot_x, pivot_y = AT["pivot_right"]
     across = {"arrowstyle": "<->", "color": "0.4", "lw": 0.7}
     high = pivot_y + 0.05

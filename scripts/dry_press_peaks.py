@@ -33,7 +33,7 @@ REVOLUTIONS = 0.1 if QUICK else 2.0
 def peaks(run: Result) -> list[float]:
     """Return a run's peak in every revolution, m/s^2."""
     parts = revolutions_of(run) or [run]
-    return [float(np.abs(part["slider_acceleration"]).max()) for part in parts]
+    return [float(np.abs(channels["slider_acceleration"]).max()) for channels in parts]
 
 
 model = SymmetricPress("lugre_steady", Numbers(clearance=1e-4, speed=DRY.angular_speed))
@@ -43,13 +43,16 @@ rows = [("tolerance", "by revolution, m/s^2", "off", "whole run, as stated")]
 for tolerance in TOLERANCES:
     change = {"solver.tolerance": tolerance, "revolutions": REVOLUTIONS}
     run = simulate(DRY.replace(change), errors=True)
-    found = peaks(run)
+    computed = peaks(run)
     rows.append(
         (
             f"{tolerance:g}",
-            " ".join(f"{peak:.1f}" for peak in found),
-            " ".join(f"{peak / other - 1.0:+.2%}" for peak, other in zip(found, true, strict=True)),
-            uncertain(max(found), run.info["errors"][NAME]),
+            " ".join(f"{peak:.1f}" for peak in computed),
+            " ".join(
+                f"{peak / reference - 1.0:+.2%}"
+                for peak, reference in zip(computed, true, strict=True)
+            ),
+            uncertain(max(computed), run.info["errors"][NAME]),
         )
     )
 rows.append(("independent model", " ".join(f"{peak:.1f}" for peak in true), "", ""))

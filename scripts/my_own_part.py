@@ -39,9 +39,9 @@ faces = {
 shape = StepFile(file, scale=1e-3, faces=faces)  # from mm to m; a box around each face to be held
 steel = Material(youngs_modulus=2.1e11, poissons_ratio=0.3, density=7850.0)
 size = 0.03 if quick else 0.01  # m, of the tetrahedra
-part = Part("lever", shape, steel, (Interface("root"), Interface("tip")), mesh_size=size)
-lever = reduced_part(part, Reduction(modes=10), folder=out)
-draw_mode_shapes(part, out / "modes.png", modes=(1, 2, 3, 4, 5))
+solid = Part("lever", shape, steel, (Interface("root"), Interface("tip")), mesh_size=size)
+lever = reduced_part(solid, Reduction(modes=10), folder=out)
+draw_mode_shapes(solid, out / "modes.png", modes=(1, 2, 3, 4, 5))
 
 mbs = exu.SystemContainer().AddSystem()
 ground = mbs.AddObject(ObjectGround())
@@ -51,12 +51,12 @@ root, tip = body.add_marker(mbs, "root"), body.add_marker(mbs, "tip")
 mbs.AddObject(ObjectJointGeneric(markerNumbers=[wall, root]))
 mbs.AddLoad(LoadForceVector(markerNumber=tip, loadVector=[0.0, 100.0, 0.0]))  # N
 mbs.Assemble()
-before = np.array(mbs.GetMarkerOutput(tip, exu.OutputVariableType.Position))
+start = np.array(mbs.GetMarkerOutput(tip, exu.OutputVariableType.Position))
 settings = exu.SimulationSettings()
 settings.solution.file.write, settings.staticSolver.verboseMode = False, 0
 settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse
 mbs.SolveStatic(settings)
-moved = np.array(mbs.GetMarkerOutput(tip, exu.OutputVariableType.Position)) - before
+moved = np.array(mbs.GetMarkerOutput(tip, exu.OutputVariableType.Position)) - start
 
 bending = 0.4**3 / (3.0 * 2.1e11 * 0.02 * 0.03**3 / 12.0)
 shear = 0.4 / (5.0 / 6.0 * 2.1e11 / 2.6 * 0.02 * 0.03)

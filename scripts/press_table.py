@@ -56,7 +56,7 @@ FORMING = {"kind": "table", "height": [0.0, 0.02], "force": [5e3, 0.0]}
 WORN = {"kind": "dry", "worn": {"bearing_depth": [0.0, 0.0, 4e-6, 8e-6, 4e-6, 0.0]}}
 
 
-def shipped(name: str, revolutions: float) -> Scene:
+def shipped_scene(name: str, revolutions: float) -> Scene:
     """Return a shipped scene, shortened, with the start included unless a schedule needs it."""
     scene = Scene.load(SHIPPED / f"{name}.toml")
     scheduled = scene.drive is not None and scene.drive.scheduled
@@ -90,11 +90,11 @@ SCENES: dict[str, Callable[[], Scene]] = {
     ),
     "press lugre": lambda: Scene(joints=DRY, friction={"law": "lugre"}, revolutions=0.03),
     "press samples": lambda: Scene(joints={}, output={"samples": [0.0, 180.0]}, revolutions=1.1),
-    "slider_crank": lambda: shipped("slider_crank", 0.12),
-    "drag_link": lambda: shipped("drag_link", 0.12),
-    "drag_link_shop": lambda: shipped("drag_link_shop", 0.05),
-    "six_bar_rod": lambda: shipped("six_bar_rod", 0.03),
-    "press file": lambda: shipped("press", 0.1),
+    "slider_crank": lambda: shipped_scene("slider_crank", 0.12),
+    "drag_link": lambda: shipped_scene("drag_link", 0.12),
+    "drag_link_shop": lambda: shipped_scene("drag_link_shop", 0.05),
+    "six_bar_rod": lambda: shipped_scene("six_bar_rod", 0.03),
+    "press file": lambda: shipped_scene("press", 0.1),
     "press dry, half a revolution": lambda: Scene(joints=DRY, revolutions=0.5),
     "press lubricated, half a revolution": lambda: Scene(revolutions=0.5),
     "press ideal, one revolution": lambda: Scene(joints={}, revolutions=1.0),

@@ -60,7 +60,7 @@ def ours(scene: Scene, key: str, value: float) -> tuple[list[float], int, int]:
     """Return the peaks, steps and evaluations of a run of the package."""
     run: Result = simulate(scene.replace({f"solver.{key}": value, "revolutions": REVOLUTIONS}))
     parts = revolutions_of(run) or [run]
-    found = [float(np.abs(part["slider_acceleration"]).max()) for part in parts]
+    found = [float(np.abs(channels["slider_acceleration"]).max()) for channels in parts]
     return found, run.info["steps"], run.info["law_evaluations"]
 
 
@@ -80,7 +80,10 @@ def rows(pin: str) -> list[Row]:
             else:
                 peak, steps, evaluations = ours(scene, solver, value)
             seconds = time.process_time() - begun
-            off = [abs(one / other - 1.0) for one, other in zip(peak, true, strict=True)]
+            off = [
+                abs(computed / reference - 1.0)
+                for computed, reference in zip(peak, true, strict=True)
+            ]
             found.append((solver, value, off, steps, evaluations, seconds))
     return found
 
@@ -92,7 +95,7 @@ def table(found: list[Row]) -> str:
         (
             solver,
             f"{value:g}",
-            " ".join(f"{one:.2%}" for one in off),
+            " ".join(f"{computed:.2%}" for computed in off),
             f"{n}",
             f"{asked}",
             f"{s:.3g}",

@@ -23,8 +23,8 @@ load = {"blanking": {"kind": "blanking", "force": 0.0}}
 scene = Scene(revolutions=turns, start_angle_deg=start, load=load)
 forces = [1e4, 4e4] if quick else [0.0, 1e4, 2e4, 3e4, 4e4]
 study = Sweep(scene=scene, keys={"load.blanking.force": forces}, errors=True)
-shown = ("bottom_dead_centre", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")
-report = replace(sweep(study, out, quiet=quick), selected=shown)
+quantities = ("bottom_dead_centre", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")
+report = replace(sweep(study, out, quiet=quick), selected=quantities)
 print("\n".join(report.lines()))
 if (figure := sweep_picture(report)) is not None:
     print(save_figure(figure, out / "sweep.png"))

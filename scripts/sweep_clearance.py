@@ -29,8 +29,12 @@ study = Sweep(
     keys={"joints.crank_pin": ["dry", "lubricated"], "joints.crank_pin.clearance": clearances},
     errors=True,
 )
-shown = ("peak_acceleration.resolved", "peak_acceleration.mean_1ms", "joints.crank_pin.peak_force")
-report = replace(sweep(study, out, quiet=quick), selected=shown)
+quantities = (
+    "peak_acceleration.resolved",
+    "peak_acceleration.mean_1ms",
+    "joints.crank_pin.peak_force",
+)
+report = replace(sweep(study, out, quiet=quick), selected=quantities)
 print("\n".join(report.lines()))
 if (figure := sweep_picture(report)) is not None:
     print(save_figure(figure, out / "sweep.png"))

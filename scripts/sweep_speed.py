@@ -23,8 +23,12 @@ scene = Scene(
 )
 speeds = [200.0, 500.0] if quick else [200.0, 250.0, 300.0, 350.0, 400.0, 450.0, 500.0]
 study = Sweep(scene=scene, keys={"speed_rpm": speeds}, errors=True)
-shown = ("peak_acceleration.mean_1ms", "joints.crank_pin.peak_force", "joints.crank_pin.min_film")
-report = replace(sweep(study, out, quiet=quick), selected=shown)
+quantities = (
+    "peak_acceleration.mean_1ms",
+    "joints.crank_pin.peak_force",
+    "joints.crank_pin.min_film",
+)
+report = replace(sweep(study, out, quiet=quick), selected=quantities)
 print("\n".join(report.lines()))
 if (figure := sweep_picture(report)) is not None:
     print(save_figure(figure, out / "sweep.png"))

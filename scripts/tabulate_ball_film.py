@@ -35,11 +35,11 @@ def check(states=20):
                 eps = 1.0 - math.exp(rng.uniform(math.log(1.0 - most), math.log(1.0 - least)))
                 angle = math.radians(rng.uniform(low, high))
                 v, u = math.cos(angle), math.sin(angle)
-                wanted = facing_load(eps, v, u, cap, (80, 40))
-                found = ball(cap).law(eps, v, 2.0 * u)[:2]
-                off.append(math.dist(found, wanted) / math.hypot(*wanted))
-            shown = f"{statistics.median(off):.1%}, {max(off):.1%}"
-            print(f"{name}, eps {least:g} to {most:g}: {shown}", flush=True)
+                expected = facing_load(eps, v, u, cap, (80, 40))
+                computed = ball(cap).law(eps, v, 2.0 * u)[:2]
+                off.append(math.dist(computed, expected) / math.hypot(*expected))
+            deviation = f"{statistics.median(off):.1%}, {max(off):.1%}"
+            print(f"{name}, eps {least:g} to {most:g}: {deviation}", flush=True)
 
 
 def main():

@@ -70,11 +70,11 @@ def main():
         for j, eps in enumerate(ECCENTRICITIES):
             fade = math.exp(-((eps / SUPPLY_FADES) ** 2))
             for k, turn in enumerate(DIRECTIONS):
-                for part, supplied in ((1.0 - fade, True), (fade, False)):
-                    if part > 1e-6:
+                for weight, supplied in ((1.0 - fade, True), (fade, False)):
+                    if weight > 1e-6:
                         forces = partial(loads, eps, ratio, supplied)
                         found = dissipation_and_turn(eps, turn, forces)
-                        table[:, i, j, k] += part * np.array(found)
+                        table[:, i, j, k] += weight * np.array(found)
         print(f"L/D = {ratio:.3f}", flush=True)
     save(TABLE, table, ratio=RATIOS, eps=ECCENTRICITIES, turn=DIRECTIONS)
 

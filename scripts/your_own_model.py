@@ -56,10 +56,10 @@ def four_bar(clearance=None):
     second = bar(CRANK_PIN, ROCKER_PIN, [*middle, w_2])
     third = bar(FRAME[1], ROCKER_PIN, [*0.5 * w_3 * np.array([-rocker[1], rocker[0]]), w_3])
 
-    def joint(one, at_one, other, at_other):
+    def joint(first, at_first, second, at_second):
         markers = [
             mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=body, localPosition=[*at, 0.0]))
-            for body, at in ((one, at_one), (other, at_other))
+            for body, at in ((first, at_first), (second, at_second))
         ]
         return mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=markers))
 

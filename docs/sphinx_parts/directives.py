@@ -38,16 +38,16 @@ class SceneKeys(Directive):
 
     def run(self) -> list[nodes.Node]:
         """Return a section a table."""
-        found: list[nodes.Node] = []
+        content: list[nodes.Node] = []
         named = {"joints.NAME": DryJoint, "joints.NAME.worn": Worn, "bodies.NAME": Flexible}
         named |= {f"load.NAME, {kind}": load for kind, load in LOAD_KINDS.items()}
         for name, kind in {"at the top": Scene, **named, **TABLES, "film.oil": Oil}.items():
-            shown = name if kind is Scene else f"[{name}]"
-            section = nodes.section(ids=[f"keys-{name.replace(' ', '-')}"], names=[shown])
-            section += nodes.title(shown, shown)
-            told = (kind.__doc__ or "").splitlines()[0]
+            title = name if kind is Scene else f"[{name}]"
+            section = nodes.section(ids=[f"keys-{name.replace(' ', '-')}"], names=[title])
+            section += nodes.title(title, title)
+            summary = (kind.__doc__ or "").splitlines()[0]
             if kind is not Scene:
-                section += nodes.paragraph(told, told)
+                section += nodes.paragraph(summary, summary)
             fields = table_keys(name) if name in TABLES else declared_keys(kind)
             rows = [("key", "default", "meaning", "allowed")]
             rows += [
@@ -55,14 +55,14 @@ class SceneKeys(Directive):
                     key,
                     _default(_usual(kind, field)),
                     _meaning(field) + _used_with(kind, key),
-                    _allowed(field),
+                    _allowed_values(field),
                 )
                 for key, field in fields.items()
                 if "meaning" in field.metadata
             ]
             section += table_of(rows)
-            found.append(section)
-        return found
+            content.append(section)
+        return content
 
 
 class Quantities(Directive):
@@ -105,13 +105,13 @@ class Commands(Directive):
         """Return a section a command."""
         from exu_press.cli.main import COMMANDS
 
-        found: list[nodes.Node] = [help_of()]
+        content: list[nodes.Node] = [help_of()]
         for command in COMMANDS:
             section = nodes.section(ids=[f"command-{command}"], names=[command])
             section += nodes.title(command, command)
             section += help_of(command)
-            found.append(section)
-        return found
+            content.append(section)
+        return content
 
 
 def help_of(*words: str) -> nodes.literal_block:
@@ -184,7 +184,7 @@ def _meaning(key: Any) -> str:
     return f"{meta['meaning']}, {meta['unit']}" if meta["unit"] else meta["meaning"]
 
 
-def _allowed(key: Any) -> str:
+def _allowed_values(key: Any) -> str:
     meta = key.metadata
     if meta["choices"]:
         return ", ".join(meta["choices"])

@@ -53,16 +53,16 @@ def sections(lines: list[str]) -> list[str]:
 
     What is returned is described without a type: a section of plain text.
     """
-    found: list[str] = []
+    lines_out: list[str] = []
     section = ""
     for i, line in enumerate(lines):
         after = lines[i + 1] if i + 1 < len(lines) else ""
         if after and set(after) == {"-"}:
             section = line.strip()
-            found.append("Result" if section == "Returns" else line)
+            lines_out.append("Result" if section == "Returns" else line)
         elif section in ("Parameters", "Raises") and re.match(r"\w[\w, ]* : ", line):
-            name, _, told = line.partition(" : ")
-            found += [name, "    " + told]
+            name, _, kind = line.partition(" : ")
+            lines_out += [name, "    " + kind]
         else:
-            found.append(line)
-    return found
+            lines_out.append(line)
+    return lines_out

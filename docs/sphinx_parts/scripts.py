@@ -29,9 +29,9 @@ def gallery_sources() -> Path:
     (SOURCES / "GALLERY_HEADER.rst").write_text(HEAD, encoding="utf-8")
     for script in sorted((ROOT / "scripts" / "gallery").glob("*.py")):
         text = script.read_text(encoding="utf-8")
-        told = ast.get_docstring(ast.parse(text)) or script.stem
+        docstring = ast.get_docstring(ast.parse(text)) or script.stem
         code = text.split('"""', 2)[2]
-        title, _, rest = told.partition("\n")
+        title, _, rest = docstring.partition("\n")
         title = title.rstrip(".")
         page = "\n".join(['"""', title, "=" * len(title), rest, '"""'])
         (SOURCES / script.name).write_text(page + code, encoding="utf-8")

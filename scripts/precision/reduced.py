@@ -101,8 +101,8 @@ def is_reducible(scene: Scene) -> bool:
         return (film["law"], film["at_contact"]) == ("pinkus", "stop")
     assert isinstance(pin, DryJoint) and pin.contact is not None and pin.friction is not None
     keys = {**plain(pin.contact), **plain(pin.friction)}
-    wanted = {"shape": "point", "damping": "step", "tension": False, "law": "lugre_steady"}
-    return wanted.items() <= keys.items()
+    required = {"shape": "point", "damping": "step", "tension": False, "law": "lugre_steady"}
+    return required.items() <= keys.items()
 
 
 def start_of(numbers: Numbers) -> State:

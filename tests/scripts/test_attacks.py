@@ -24,7 +24,7 @@ def test_a_few_damages_are_refused_or_nothing(kind, capsys, monkeypatch):
 def test_every_damage_is_one():
     content = random.Random(1).randbytes(50_000)
     seeds = map(random.Random, range(200))
-    assert all(attack_files.damaged(draw, content) != content for draw in seeds)
+    assert all(attack_files.damage(draw, content) != content for draw in seeds)
 
 
 @pytest.mark.parametrize(

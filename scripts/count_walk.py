@@ -1,10 +1,10 @@
-"""Count the files that a reader visits who follows a scene: python scripts/count_walk.py [-v]
+"""Count the files that a reader visits who follows a scene, and the returns to files left before.
 
-The walk is the order in which functions of the package run for the first time, from `simulate` on.
-Functions of one line are read where they are called, and imports are not followed. A return is a
-step to a file that the reader has left before. -v prints the walk to the assembled model.
+The walk is the order in which functions of the package run for the first time, from simulate on.
+Functions of one line are read where they are called, and imports are not followed.
 """
 
+import argparse
 import inspect
 import sys
 from itertools import groupby
@@ -17,10 +17,7 @@ from exu_press import Scene, simulate
 PACKAGE = Path(exu_press.__file__).parent
 ENDS = {"build": "model/assemble.py", "solve": "solving/solve.py", "simulate": "verification/"}
 """Function at whose end the walk is counted -> beginning of its file's path."""
-SCENES = {
-    "ideal joints": Scene(joints={}, revolutions=0.02),
-    "film and contacts": Scene(revolutions=0.02),
-}
+SCENES = {"ideal joints": Scene(joints={}, revolutions=0.02), "film": Scene(revolutions=0.02)}
 
 
 def walk(scene: Scene) -> dict[str, list[str]]:
@@ -52,9 +49,12 @@ def walk(scene: Scene) -> dict[str, list[str]]:
 
 
 if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("-v", action="store_true", help="print the walk to the assembled model")
+    prints_walk = parser.parse_args().v
     for name, scene in SCENES.items():
         for end, files in walk(scene).items():
             count = len(set(files))
             print(f"{name}, to the end of {end}: {count} files, {len(files) - count} returns")
-            if "-v" in sys.argv and end == "build":
+            if prints_walk and end == "build":
                 print(*files, sep="\n")

@@ -12,6 +12,6 @@ study = Optimise(
     optimise={"trials": 16},
 )
 report = optimise(study, "out/optimise_counterweight", quiet=True)
-mass = report.scenes[0].press.counterweight_mass
+mass = report.scenes[0].press.counterweight.counterweight_mass
 force = report.numbers(quantity)[0]
 print(f"counterweight {mass:.0f} kg: the frame takes {1e-3 * force:.3f} kN at most")

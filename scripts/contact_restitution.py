@@ -1,4 +1,4 @@
-"""What restitution contact parameters find_tolerance: the paper's, and what c_max does to them.
+"""What restitution contact parameters deliver: the paper's, and what c_max does to them.
 
 Run with: python scripts/contact_restitution.py
 """

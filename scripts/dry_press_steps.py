@@ -25,7 +25,7 @@ parser.add_argument("--quick", action="store_true", help="a fifth of a revolutio
 QUICK = parser.parse_args().quick
 DRY = Scene(joints={"crank_pin": "dry", "balls": "dry"}, revolutions=0.2 if QUICK else 2.0)
 SETTINGS = {"step": 1e-4, "tolerance": 1e-2} if QUICK else {"step": 1e-5, "tolerance": 2e-3}
-"""Those that find_tolerance the peaks of the whole run within 2 % (scripts/precision.py)."""
+"""Those that deliver the peaks of the whole run within 2 % (scripts/precision.py)."""
 
 LASTING = 5e-3
 """s; a contact that is longer."""

@@ -4,6 +4,7 @@ CONTRIBUTING.md has the rules. Idle words (`found`, `part`) are refused as names
 participles and prepositions (`filtered`, `_over`) as names of functions and classes.
 """
 
+import argparse
 import ast
 import sys
 from collections.abc import Iterator
@@ -75,5 +76,7 @@ def refused_names(folder: str) -> Iterator[str]:
 
 
 if __name__ == "__main__":
-    folders = sys.argv[1:] or ("exu_press", "fe_models")
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("folder", nargs="*", default=("exu_press", "fe_models"))
+    folders = parser.parse_args().folder
     sys.exit("\n".join(line for folder in folders for line in refused_names(folder)) or None)

@@ -142,13 +142,13 @@ def _execute(arguments: Sequence[str] | None) -> int:
             command.set_defaults(execute=module.execute)
     options = parser.parse_args(words)
     remove_abandoned()
-    usual, warnings.formatwarning = warnings.formatwarning, _as_users_read_it
+    usual, warnings.formatwarning = warnings.formatwarning, _format_warning
     try:
         return int(options.execute(options))
     finally:
         warnings.formatwarning = usual
 
 
-def _as_users_read_it(message: Warning | str, *_: object, **__: object) -> str:
+def _format_warning(message: Warning | str, *_: object, **__: object) -> str:
     """Return a warning without the line of code that gave it."""
     return f"exu-press: warning: {message}\n"

@@ -1,4 +1,4 @@
-"""Arguments that several commands share, and the end of those on one scene."""
+"""Arguments that several commands share."""
 
 import argparse
 import sys
@@ -44,7 +44,7 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_run_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add how scenes are changed and where results go."""
+    """Add --set, --allow-code, --out, --quiet and --no-pictures."""
     add_set_argument(parser, "the scene, as in film.viscosity=0.1")
     add_code_argument(parser)
     parser.add_argument("--out", metavar="DIR", help="where to write (default: out/SCENE)")
@@ -62,7 +62,7 @@ def add_code_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def add_set_argument(parser: argparse.ArgumentParser, of_what: str) -> None:
-    """Add how single keys are changed."""
+    """Add --set, which changes single keys."""
     parser.add_argument(
         "--set",
         action="append",
@@ -73,7 +73,7 @@ def add_set_argument(parser: argparse.ArgumentParser, of_what: str) -> None:
 
 
 def add_error_argument(parser: argparse.ArgumentParser) -> None:
-    """Add how figures are left without errors."""
+    """Add --no-error, which leaves out errors of figures."""
     parser.add_argument(
         "--no-error",
         action="store_true",
@@ -91,7 +91,7 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add where runs are done side by side."""
+    """Add --workers and --dask, which say where runs are done."""
     where = parser.add_mutually_exclusive_group()
     where.add_argument(
         "--workers", type=int, metavar="N", help="number of processes (default: the cores)"
@@ -100,14 +100,14 @@ def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_format_argument(parser: argparse.ArgumentParser) -> None:
-    """Add which files pictures become."""
+    """Add --format of pictures."""
     parser.add_argument(
         "--format", default=".png", metavar="ENDING", help="of pictures: .png, .svg or .pdf"
     )
 
 
 def check_format(options: argparse.Namespace) -> None:
-    """Raise InputError unless pictures can be written in the format that is asked for."""
+    """Raise InputError unless pictures can be written in --format."""
     if options.no_pictures:
         return
     from exu_press.files.output_directory import FORMATS
@@ -117,12 +117,12 @@ def check_format(options: argparse.Namespace) -> None:
 
 
 def scene_of(options: argparse.Namespace) -> Scene:
-    """Return the scene that is asked for, with its changes."""
+    """Return the scene of the arguments, with its changes."""
     return Scene.load(scene_path(options.scene), options.set, allow_code=options.allow_code)
 
 
 def directory_of(options: argparse.Namespace, file: str) -> Path:
-    """Return the directory that is asked for, else that of a file; it need not exist."""
+    """Return the directory of --out, else that of a file; it need not exist."""
     return Path(options.out or Path("out") / folder_name(Path(file).stem))
 
 

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-__all__ = ["EXAMPLE", "add_arguments", "execute", "tell_extra"]
+__all__ = ["EXAMPLE", "add_arguments", "execute", "name_missing_extra"]
 
 EXAMPLE = "exu-press report out/press/run.nc --out report.html"
 
@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(options: argparse.Namespace) -> int:
     """Write the page; return 0."""
     from exu_press.report.find import find_output, report_of
-    from exu_press.report.shown import check_page, write_page
+    from exu_press.report.page_file import check_page, write_page
 
     kind, file = find_output(Path(options.path))
     target = Path(options.out) if options.out else file.parent / "report.html"
@@ -36,12 +36,12 @@ def execute(options: argparse.Namespace) -> int:
     write_page(report_of(kind, file, (options.start, options.stop)), target)
     if not options.quiet:
         print(f"written: {target} ({target.stat().st_size / 1e6:.1f} MB)")
-        tell_extra()
+        name_missing_extra()
     return 0
 
 
-def tell_extra() -> None:
-    """Name on the terminal the parts that the page lacks."""
+def name_missing_extra() -> None:
+    """Print what the page lacks without the extra `page`."""
     from exu_press.page import has_library
 
     if not has_library():

@@ -61,7 +61,7 @@ def execute(options: argparse.Namespace) -> int:
     """Show the page or write the animation; return 0."""
     if options.save is None:
         return _open(options)
-    result = Result.load(_run_in(Path(options.path)))
+    result = Result.load(_run_file(Path(options.path)))
     target = Path(options.save)
     from exu_press.view.save import check_target, is_animation
 
@@ -81,22 +81,22 @@ def execute(options: argparse.Namespace) -> int:
 
 def _open(options: argparse.Namespace) -> int:
     """Write the page that report writes, and open it in the browser."""
-    from exu_press.cli.report import tell_extra
-    from exu_press.report.shown import open_file, write_page
+    from exu_press.cli.report import name_missing_extra
+    from exu_press.report.page_file import open_file, write_page
 
     for option in ANIMATION_OPTIONS:
         if (value := getattr(options, option)) is not None:
             raise InputError(f"--{option} {value}: allowed with --save; in the page it is chosen")
     kind, file = find_output(Path(options.path))
-    page = write_page(report_of(kind, file, (options.start, options.stop)), _page_of(file))
+    page = write_page(report_of(kind, file, (options.start, options.stop)), _page_path(file))
     if not options.quiet:
         print(f"written: {page} ({page.stat().st_size / 1e6:.1f} MB)")
-        tell_extra()
+        name_missing_extra()
     open_file(page)
     return 0
 
 
-def _page_of(file: Path) -> Path:
+def _page_path(file: Path) -> Path:
     """Return the file of a result's page: beside it, or temporary where that is read-only."""
     beside = file.parent / "report.html"
     if os.access(file.parent, os.W_OK):
@@ -104,7 +104,7 @@ def _page_of(file: Path) -> Path:
     return Path(tempfile.mkdtemp(prefix="exu_press_")) / beside.name
 
 
-def _run_in(path: Path) -> Path:
+def _run_file(path: Path) -> Path:
     """Return the run's result file at a path."""
     kind, file = find_output(path)
     if kind is not Kind.RUN:

@@ -12,8 +12,8 @@ from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.table import comparison_cells, comparison_lines
 from exu_press.report.comparison import comparison_page
 from exu_press.report.html import paragraph, picture, table, warnings
+from exu_press.report.page_file import Page
 from exu_press.report.run import changed_keys, run_report, warnings_of
-from exu_press.report.shown import Page
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.studies.compare import different_keys

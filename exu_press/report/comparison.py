@@ -10,8 +10,8 @@ from exu_press.plots import save_comparison
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.table import comparison_cells
 from exu_press.report.html import page, picture, stills, table, warnings
+from exu_press.report.page_file import ALL, Span
 from exu_press.report.run import live_part, scene_parts, warnings_of
-from exu_press.report.shown import ALL, Span
 from exu_press.report.study import reading
 from exu_press.result import Result
 from exu_press.schema.stored import from_json, shown

@@ -1,10 +1,10 @@
-"""The command that a file or a directory comes from, and its report."""
+"""The kind of output in a file or a directory, and its page."""
 
 from enum import Enum
 from pathlib import Path
 
 from exu_press.errors import InputError
-from exu_press.report.shown import ALL, Span
+from exu_press.report.page_file import ALL, Span
 from exu_press.result import Result
 from exu_press.result.checkpoint import checkpoint_directory
 from exu_press.studies.base.report import REPORT_FILE
@@ -13,7 +13,7 @@ __all__ = ["Kind", "find_output", "report_of"]
 
 
 class Kind(Enum):
-    """Kinds of output with a page, by the file that tells."""
+    """Kinds of output with a page, by the name of a file."""
 
     RUN = "run.nc"
     COMPARISON = "comparison.json"

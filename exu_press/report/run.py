@@ -19,7 +19,7 @@ from exu_press.quantities.quantity import Owner
 from exu_press.quantities.table import MOST_OWNERS, comparison_cells, shown_value
 from exu_press.quantities.value import values_of
 from exu_press.report.html import details, page, paragraph, picture, stills, table, warnings
-from exu_press.report.shown import ALL, Span
+from exu_press.report.page_file import ALL, Span
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import engineering_values, keys_of, used_assumptions

@@ -6,8 +6,8 @@ Of processor times: all runs have one thread, and another program beside them do
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from exu_press.studies.precision.measured import FIXED, TOLERANCE
 from exu_press.studies.precision.rows import Row, series_of
+from exu_press.studies.precision.timing import FIXED, TOLERANCE
 
 __all__ = ["Goal", "cheapest", "goals_of"]
 

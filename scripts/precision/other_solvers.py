@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from functools import cache
 
 from exu_press.scene import Scene
-from exu_press.studies.precision.cases import Amount, Case
-from exu_press.studies.precision.errors import Errors, Late, errors_of
-from exu_press.studies.precision.measured import Attempt, Measured
+from exu_press.studies.precision.cases import Case, Extent
+from exu_press.studies.precision.errors import Errors, WholeRunErrors, errors_of
 from exu_press.studies.precision.references import Reference, divergence
+from exu_press.studies.precision.timing import Attempt, TimedRun
 from precision.compiled import CompiledModel, compile_model
 from precision.peers import PEERS, peer_attempts
 from precision.squeezer import DURATION, squeezer_attempts, squeezer_errors
@@ -28,7 +28,7 @@ class Reduced(Case):
 
     variations: bool = False
 
-    def reference(self, amount: Amount) -> Reference:
+    def reference(self, amount: Extent) -> Reference:
         """Return SciPy's Radau on the reduced slider-crank, checked against its LSODA."""
         model = _model(self._scene)
         peers = {peer.name: peer for peer in PEERS}
@@ -39,7 +39,7 @@ class Reduced(Case):
         difference = errors_of(lsoda, radau, diverged.horizon or self.duration)
         return Reference(f"two coordinates: {method}", radau, difference, diverged)
 
-    def attempts(self, amount: Amount) -> list[Attempt]:
+    def attempts(self, amount: Extent) -> list[Attempt]:
         """Return the package's own runs and those of every peer that is installed."""
         tight = [tol for tol in PEER_TOLERANCES if tol >= amount.finest_peer]
         found = super().attempts(amount)
@@ -57,17 +57,17 @@ class Squeezer(Case):
         """Simulated time, s."""
         return DURATION
 
-    def reference(self, amount: Amount) -> Reference:
+    def reference(self, amount: Extent) -> Reference:
         """Return the endpoint's precision; there is no trajectory."""
         return Reference("published endpoint, tolerance 1e-14", None, Errors(1e-13, 1e-9, None))
 
-    def attempts(self, amount: Amount) -> list[Attempt]:
+    def attempts(self, amount: Extent) -> list[Attempt]:
         """Return the package's runs of the squeezer."""
         return squeezer_attempts(self.steps, self.tolerances)
 
     def errors(
-        self, run: Measured, reference: Reference, horizon: float
-    ) -> tuple[Errors, Late | None]:
+        self, run: TimedRun, reference: Reference, horizon: float
+    ) -> tuple[Errors, WholeRunErrors | None]:
         """Return the errors at the endpoint."""
         if run.trajectory is None:
             return Errors(None, None, None), None

@@ -17,7 +17,7 @@ from scipy.integrate import solve_ivp
 
 from exu_press.numerics.arrays import Array
 from exu_press.studies.precision.errors import Trajectory
-from exu_press.studies.precision.measured import Attempt, Measured
+from exu_press.studies.precision.timing import Attempt, TimedRun
 from precision.compiled import CompiledModel, has_numba
 
 __all__ = ["PEERS", "Peer", "PeerError", "installed", "left_out", "peer_attempts"]
@@ -206,7 +206,7 @@ def peer_attempts(model: CompiledModel, tolerances: Iterable[float]) -> list[Att
     ]
 
 
-def _time(peer: Peer, model: CompiledModel, tolerance: float, _number: int = 0) -> Measured:
+def _time(peer: Peer, model: CompiledModel, tolerance: float, _number: int = 0) -> TimedRun:
     """Integrate as it is timed; once more from the same start, whatever its number."""
     evaluations, reason = None, ""
     with _silent_libraries():
@@ -217,10 +217,10 @@ def _time(peer: Peer, model: CompiledModel, tolerance: float, _number: int = 0) 
             reason = str(error)
         times = (time.perf_counter() - start,), (time.process_time() - cpu_start,)
     status = "failed" if reason else "completed"
-    return Measured(None, *times, status, reason, law_evaluations=evaluations)
+    return TimedRun(None, *times, status, reason, law_evaluations=evaluations)
 
 
-def _measure(peer: Peer, model: CompiledModel, tolerance: float) -> Measured:
+def _measure(peer: Peer, model: CompiledModel, tolerance: float) -> TimedRun:
     """Integrate as it is timed, then for the result."""
     run = _time(peer, model, tolerance)
     if run.status != "completed":

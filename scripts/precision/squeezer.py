@@ -32,7 +32,7 @@ from exu_press.mechanism import Body, Motion
 from exu_press.model.rigid_body import RigidBody
 from exu_press.numerics.arrays import Array
 from exu_press.studies.precision.errors import Errors, Trajectory
-from exu_press.studies.precision.measured import FIXED, TOLERANCE, Attempt, Measured
+from exu_press.studies.precision.timing import FIXED, TOLERANCE, Attempt, TimedRun
 
 __all__ = ["DURATION", "END", "END_RATE", "squeezer_attempts", "squeezer_errors"]
 
@@ -124,7 +124,7 @@ def squeezer_errors(run: Trajectory) -> Errors:
     return Errors(float(np.abs(angle - END).max()), float(np.abs(rate - END_RATE).max()), None)
 
 
-def _run(steps: int, tolerance: float | None) -> Measured:
+def _run(steps: int, tolerance: float | None) -> TimedRun:
     """Integrate it as any Exudyn system, with fixed steps or with a tolerance."""
     mbs, nodes = _build()
     settings = exu.SimulationSettings()
@@ -136,7 +136,7 @@ def _run(steps: int, tolerance: float | None) -> Measured:
     outcome = solve_dynamic(mbs, settings, tolerance=tolerance, max_steps=10_000_000)
     cpu_time = time.process_time() - start
     done = outcome.status is SolverStatus.COMPLETED
-    return Measured(
+    return TimedRun(
         trajectory=_end_of(mbs, nodes) if done else None,
         wall_times=(outcome.wall_time,),
         cpu_times=(cpu_time,),

@@ -14,17 +14,17 @@ from exu_press.model import build
 from exu_press.result import record
 from exu_press.scene import Scene
 from exu_press.solving import settings_for
-from exu_press.studies.precision.cases import Amount, Case
-from exu_press.studies.precision.measured import (
+from exu_press.studies.precision.cases import Case, Extent
+from exu_press.studies.precision.stated import StatedErrors
+from exu_press.studies.precision.timing import (
     FIXED,
     TOLERANCE,
     Attempt,
-    Measured,
+    TimedRun,
     attempt,
-    measured_of,
     run,
+    timed_run_of,
 )
-from exu_press.studies.precision.stated import Stated
 
 __all__ = ["Modes", "newton_modes", "spectral_radii"]
 
@@ -52,7 +52,7 @@ class Modes(Case):
 
     modes: tuple[int, ...] = ()
 
-    def attempts(self, amount: Amount) -> list[Attempt]:
+    def attempts(self, amount: Extent) -> list[Attempt]:
         """Return a run for each number."""
         bodies = self._scene.bodies
         scenes = {
@@ -61,12 +61,12 @@ class Modes(Case):
         }
         return [Attempt(MODES, "modes", float(n), partial(run, s)) for n, s in scenes.items()]
 
-    def compare_stated_errors(self, amount: Amount, horizon: float) -> list[Stated]:
+    def compare_stated_errors(self, amount: Extent, horizon: float) -> list[StatedErrors]:
         """Return nothing: stated errors are of the tolerance."""
         return []
 
 
-def spectral_radii(scene: Scene, amount: Amount) -> list[Attempt]:
+def spectral_radii(scene: Scene, amount: Extent) -> list[Attempt]:
     """Return the runs with other spectral radii, at tolerances."""
     return [
         attempt(
@@ -81,7 +81,7 @@ def spectral_radii(scene: Scene, amount: Amount) -> list[Attempt]:
     ]
 
 
-def newton_modes(scene: Scene, amount: Amount) -> list[Attempt]:
+def newton_modes(scene: Scene, amount: Extent) -> list[Attempt]:
     """Return the runs with other Newton modes, at fixed steps."""
     return [
         Attempt(f"{FIXED}, {mode}", "step", h, partial(_with_newton, scene, mode, h))
@@ -91,7 +91,7 @@ def newton_modes(scene: Scene, amount: Amount) -> list[Attempt]:
     ]
 
 
-def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
+def _with_newton(scene: Scene, mode: str, step: float) -> TimedRun:
     """Run fixed steps with another Newton mode, which is no key of a scene."""
     scene = scene.replace({"solver.step": step})
     model = build(scene)
@@ -125,4 +125,4 @@ def _with_newton(scene: Scene, mode: str, step: float) -> Measured:
     )
     result = record(model, outcome)
     model.SC.Reset()
-    return measured_of(result, cpu_time)
+    return timed_run_of(result, cpu_time)

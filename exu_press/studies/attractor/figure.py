@@ -11,8 +11,8 @@ from exu_press.plots.sweep_words import words as in_words
 from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe
+from exu_press.studies.attractor.motion import Attractor
 from exu_press.studies.attractor.report import AttractorReport
-from exu_press.studies.attractor.study import Attractor
 from exu_press.studies.spectrum import Spectra, spectra
 from exu_press.studies.spectrum_figure import draw_spectrum
 

@@ -27,7 +27,7 @@ BATCHES = 10
 
 CONFIDENCE = 0.95
 
-FELT = math.e
+RESOLVED = math.e
 """Times the error: neighbours that come nearer have no lower bound of their exponent."""
 
 
@@ -39,7 +39,7 @@ class Exponent:
         value: mean logarithm of the growth of a distance in a revolution.
         low: lower end; minus infinity where only an upper bound is known.
         high: upper end.
-        distances: from which it was found, without dimension.
+        distances: of renormalisation, without dimension.
         revolutions: of each.
     """
 
@@ -51,7 +51,7 @@ class Exponent:
 
     @property
     def sign(self) -> str:
-        """Its meaning for the motion, in a word or two."""
+        """The kind of motion: chaotic, regular or undecided."""
         if self.low > 0.0:
             return "chaotic"
         return "regular" if self.high < 0.0 else "undecided"
@@ -95,7 +95,7 @@ def combine_exponents(
         intervals.append(
             (
                 mean,
-                low - error_of_growth if final_distance > FELT * error else -math.inf,
+                low - error_of_growth if final_distance > RESOLVED * error else -math.inf,
                 high + error_of_growth,
             )
         )

@@ -21,12 +21,12 @@ from exu_press.solving.solve import scales
 
 __all__ = ["NoMotion", "Orbit"]
 
-AT_MOST = 10.0
+MOST_REVOLUTIONS = 10.0
 """Revolutions at the scene's speed in which a motor turns the crank once, or not at all."""
 
 
 class NoMotion(InputError):  # noqa: N818  an end, as that of a run
-    """A motion does not get to the next section."""
+    """A motion does not reach the next section."""
 
     exit_status = 3
 
@@ -34,9 +34,9 @@ class NoMotion(InputError):  # noqa: N818  an end, as that of a run
 class Orbit:
     """A press whose crank is at the section; each advance is one revolution.
 
-    The section is where the scene starts. At constant speed the state of journals and balls in
-    their clearances, and of bodies in their guideways, is all that is free there; with a motor the
-    crank's speed is, too.
+    The section is the scene's crank angle at the start. At constant speed the free state there is
+    that of journals and balls in their clearances and of bodies in their guideways; with a motor
+    also the crank's speed.
 
     Attributes:
         scene: of one revolution.
@@ -67,7 +67,7 @@ class Orbit:
                 "solver.step: a motor gets to its section at any instant; allowed is "
                 "solver.tolerance, whose steps end there"
             )
-        length = {"revolutions": AT_MOST if motor else 1.0, "settle": 0.0}
+        length = {"revolutions": MOST_REVOLUTIONS if motor else 1.0, "settle": 0.0}
         self.scene = scene.replace(length)
         model = build(self.scene)
         ways = [end for ends in model.guideways.values() for end in ends]
@@ -78,7 +78,7 @@ class Orbit:
         self._state = state
         self.revolutions = 0
         self._model = self._towards_section(model if state is None else go_on_from(model, state))
-        self._free = self._all_but_the_crank()
+        self._free = self._free_coordinates()
         if not self._joints and not motor:
             raise InputError(
                 "joints: none has clearance, so that the crank alone determines the motion: its "
@@ -87,18 +87,18 @@ class Orbit:
 
     @property
     def state(self) -> State:
-        """The state on the section; of an orbit that has not begun, that after one revolution."""
+        """The state on the section; before the first advance, that after one revolution."""
         if self._state is None:
             self.advance()
         assert self._state is not None
         return self._state
 
     def advance(self, *, recorded: bool = False) -> Result | None:
-        """Go on by one revolution; return its record if that is wanted.
+        """Run one revolution; return its record with `recorded`.
 
         Raises:
-            NoMotion: the motion does not get to the next section.
-            KeyboardInterrupt: of Ctrl-C, which is no motion's fault.
+            NoMotion: the motion does not reach the next section.
+            KeyboardInterrupt: after Ctrl-C.
         """
         model = self._model
         outcome = model.solve()
@@ -118,7 +118,7 @@ class Orbit:
         return result
 
     def set_state(self, state: State) -> None:
-        """Go on from another state on the section, at its time."""
+        """Continue from another state on the section, at its time."""
         self._state = state
         self._model = self._towards_section(go_on_from(self._model, state))
 
@@ -139,14 +139,14 @@ class Orbit:
         return np.concatenate([np.asarray(block, dtype=float) for block in parts])
 
     def close(self) -> None:
-        """Give the model back; Exudyn's systems and solvers hold each other."""
+        """Release the model: Exudyn's systems and solvers refer to each other."""
         self._model.SC.Reset()
 
     def towards(self, target: State, share: float) -> State:
-        """Return the state on the line to another: at 0 the orbit's own, at 1 the other.
+        """Return a state between the orbit's own, at share 0, and another, at 1.
 
-        The crank stays where it is: what rounding leaves between two cranks would grow to a shift
-        in time. With a motor its speed goes along. What joints remember is the orbit's own, without
+        The crank keeps its angle: a difference by roundoff would grow to a shift in time. With a
+        motor its speed is interpolated. The joints' internal states are the orbit's own, without
         the path of the last step.
         """
         own = self.state["coordinates"][:2]
@@ -167,7 +167,7 @@ class Orbit:
         done = round((model.crank_at_start() - start) / turn)
         return replace(model, until=start + turn * (done + 1))
 
-    def _all_but_the_crank(self) -> Array:
+    def _free_coordinates(self) -> Array:
         """Return 1.0 for each coordinate that is free, 0.0 for the crank's and its drive's."""
         model = self._model
         free = np.ones(len(model.mbs.systemData.GetODE2Coordinates()))

@@ -1,4 +1,4 @@
-"""After how many revolutions a motion comes back to itself, as far as its error can tell."""
+"""The period of a motion in revolutions, as far as its error resolves it."""
 
 from dataclasses import dataclass
 
@@ -13,32 +13,33 @@ MOST = 16
 """Revolutions up to which a period is looked for."""
 
 SAME = 3.0
-"""Times the error of a revolution: two points that are nearer than this are the same."""
+"""Times the error of a revolution: two nearer points are the same."""
 
 APART = 10.0
-"""Times the error: two points that are further apart are different."""
+"""Times the error: two points further apart are different."""
 
 LARGEST = 0.01
-"""Clearances: points that are further apart are not the same, and with a larger error of a point
-none can be told to be."""
+"""Clearances: points further apart are not the same; with a larger error of a point, no period is
+decided."""
 
 SETTLED = 0.5
-"""A distance that falls below this part of itself from one half of the points to the next is that
-of a motion that still settles."""
+"""Ratio of the distances in the second and the first half of the points, below which the motion
+still settles."""
 
 
 @dataclass(frozen=True)
 class Period:
-    """After how many revolutions a motion comes back.
+    """The period of a motion.
 
     Attributes:
-        revolutions: the least number; None where there is none up to `most`, or it is undecided.
+        revolutions: after which the motion repeats itself; None where there is no such number up to
+            `most`, or it is undecided.
         is_decided: False where the error is too large, or the motion has not
             settled.
-        why: reason why it is undecided, or nothing.
-        most: up to which number was looked.
+        why: it is undecided; empty otherwise.
+        most: longest period looked for.
         distances: (most,) largest distance of points 1, 2, ... revolutions apart.
-        error: of a point, by which they were judged.
+        error: of a point.
         finer: factor on the tolerance that would decide it; 1.0 where it is decided.
     """
 
@@ -69,8 +70,8 @@ def period_of(points: Array, error: float, most: int = MOST, *, diverging: bool 
         points: (n, k), one a revolution, after the transient; n at least 3 `most`.
         error: largest error of a point, in the same measure.
         most: revolutions.
-        diverging: whether neighbouring motions are known to part: then nothing comes back, and
-            points that seem to do so are hidden by their error.
+        diverging: whether neighbouring motions are known to diverge: the motion then has no period,
+            whatever points seem to repeat within their error.
 
     Raises:
         InputError: there are too few points.
@@ -109,6 +110,6 @@ def period_of(points: Array, error: float, most: int = MOST, *, diverging: bool 
 
 
 def _distance(points: Array, revolutions: int) -> float:
-    """Return the largest distance of points so many revolutions apart."""
+    """Return the largest distance of points that many revolutions apart."""
     apart = points[revolutions:] - points[:-revolutions]
     return float(np.sqrt((apart**2).sum(axis=1)).max(initial=0.0))

@@ -8,7 +8,7 @@ from typing import Any
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.units import shown_unit, with_unit
 from exu_press.scene import Scene
-from exu_press.studies.attractor.study import Attractor
+from exu_press.studies.attractor.motion import Attractor
 from exu_press.studies.base.report import Column, Picture, Points, Report, Table, quantity_column
 
 __all__ = ["AttractorReport"]

@@ -6,9 +6,9 @@ from types import MappingProxyType
 from typing import Any
 
 from exu_press.schema.checks import key
+from exu_press.studies.attractor.motion import attractor
 from exu_press.studies.attractor.period import MOST
 from exu_press.studies.attractor.report import AttractorReport
-from exu_press.studies.attractor.study import attractor
 from exu_press.studies.base.command import SceneCommand, SceneStudy, list_of_texts
 
 __all__ = ["AttractorCommand", "AttractorStudy"]

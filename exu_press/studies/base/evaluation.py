@@ -33,9 +33,8 @@ class Evaluation:
 
     Attributes:
         quantities: full names.
-        asked: points asked for so far, equal ones once.
-        failures: kind of end without a number -> why each of these runs had it.
-        rows: of points that were asked for.
+        failures: kind of failure -> the reason of each run.
+        rows: of the points evaluated so far.
     """
 
     def __init__(
@@ -69,12 +68,12 @@ class Evaluation:
 
     @property
     def points(self) -> list[Point]:
-        """The different points, in the order of asking."""
+        """The different points, in the order of their first evaluation."""
         return list(self._points.values())
 
     @property
     def numbers(self) -> Array:
-        """Their quantities, (points, quantities), as a call returns them."""
+        """Quantities of `points`, (points, quantities), as a call returns them."""
         return np.array([numbers_in(self.rows[key], self.quantities) for key in self._points])
 
     def __call__(self, points: Sequence[Point]) -> Array:
@@ -83,7 +82,7 @@ class Evaluation:
         return np.array([numbers_in(row, self.quantities) for row in rows])
 
     def rows_of(self, points: Sequence[Point]) -> list[Row]:
-        """Return the rows of points; those that were asked for before are not run again."""
+        """Return the rows of points; a point is run once."""
         new: dict[tuple[Any, ...], Scene] = {}
         for point in points:
             key = _key(point)
@@ -102,7 +101,7 @@ class Evaluation:
         return [self.rows[_key(point)] for point in points]
 
     def run_summary(self) -> list[str]:
-        """Return how many runs gave numbers, and why others did not, in lines."""
+        """Return lines: how many runs gave numbers, and why others failed."""
         failed = sum(map(len, self.failures.values()))
         number = self.number_of_points
         lines = [f"{number} runs: {number - failed} gave numbers, {failed} did not"]
@@ -127,7 +126,7 @@ def _key(point: Point) -> tuple[Any, ...]:
 
 
 def numbers_in(row: Row, quantities: Sequence[str]) -> list[float]:
-    """Return quantities of a row; NaN in all of them where the run failed or lacks one."""
+    """Return quantities of a row; all NaN where the run failed or lacks one."""
     values = [row.get(name) for name in quantities]
     if row["status"] != COMPLETED or any(value is None for value in values):
         return [np.nan] * len(quantities)
@@ -137,7 +136,7 @@ def numbers_in(row: Row, quantities: Sequence[str]) -> list[float]:
 def require_key_kinds(
     study: Study, command: str, kinds: tuple[type, ...] = (Range,)
 ) -> tuple[str, ...]:
-    """Return the names of a study's keys, which all are of these kinds.
+    """Return the names of a study's keys, all of which must be of certain kinds.
 
     Raises:
         InputError: one is not.
@@ -168,9 +167,9 @@ def with_errors_of(
 
 
 def error_in(row: Row, quantity: str) -> float | None:
-    """Return the absolute error of a quantity in such a row.
+    """Return the absolute error of a quantity in a row of `with_errors_of`.
 
-    Half the width of its bounds where the scene does not determine it; None where nothing is known.
+    Half the width of its bounds where the scene does not determine it; None where it is unknown.
     """
     error = (row.get("errors") or {}).get(quantity)
     if error is None:

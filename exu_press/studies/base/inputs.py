@@ -13,7 +13,7 @@ __all__ = ["arguments_of", "scene_from"]
 
 
 def arguments_of(scene: Scene) -> dict[str, Any]:
-    """Return what tells a run of a scene from others: its keys and what is in its files."""
+    """Return what identifies a run of a scene: its keys and the digests of its files."""
     data = scene.to_dict()
     files = {path: _digest(path) for path in _files_in(data)}
     return {"scene": data, "files": files} if files else {"scene": data}
@@ -56,5 +56,5 @@ def _digest(path: str) -> str:
 
 @lru_cache(maxsize=64)
 def _digest_of(path: str, *_: int) -> str:
-    """Return the digest of a file, which is read once as long as nobody writes it."""
+    """Return the digest of a file, which is read again only where it has changed."""
     return hashlib.sha256(Path(path).read_bytes()).hexdigest()

@@ -1,4 +1,4 @@
-"""Variation of a key of a scene: values, a range, or a normal distribution; each from TOML."""
+"""How a key of a scene varies: values, a range or a normal distribution."""
 
 import dataclasses
 import math
@@ -22,7 +22,7 @@ FORMS = (
 
 @dataclasses.dataclass(frozen=True)
 class Values:
-    """Values of any type, one after the other.
+    """A list of values of any type.
 
     Attributes:
         values: at least one.
@@ -32,11 +32,11 @@ class Values:
 
     @property
     def ends(self) -> tuple[Any, ...]:
-        """The values with which a scene is checked."""
+        """Values at which a scene is checked."""
         return self.values
 
     def plain(self) -> list[Any]:
-        """Return the value as it stands in the file."""
+        """Return the variation in the form of the file."""
         return list(self.values)
 
 
@@ -60,11 +60,11 @@ class Range(Table):
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The values with which a scene is checked."""
+        """Values at which a scene is checked."""
         return self.low, self.high
 
     def quantile(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the values below which these shares of the distribution lie (its quantiles).
+        """Return the quantiles of shares between 0 and 1.
 
         >>> Range(low=1.0, high=100.0, log=True).quantile(np.array([0.5])).round(12)
         array([10.])
@@ -74,13 +74,13 @@ class Range(Table):
         return np.asarray(self.low + share * (self.high - self.low))
 
     def share(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return which shares of the distribution lie below values: the inverse of `quantile`."""
+        """Return the shares of the distribution below values: the inverse of `quantile`."""
         if self.log:
             return np.asarray(np.log(value / self.low) / math.log(self.high / self.low))
         return np.asarray((value - self.low) / (self.high - self.low))
 
     def plain(self) -> dict[str, Any]:
-        """Return the value as it stands in the file."""
+        """Return the variation in the form of the file."""
         return {"low": self.low, "high": self.high} | ({"log": True} if self.log else {})
 
 
@@ -108,7 +108,7 @@ class Normal(Table):
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The values with which a scene is checked: the bounds, or those that hold all but 1e-4."""
+        """Values at which a scene is checked: the bounds, else those that hold all but 1e-4."""
         low, high = self.quantile(np.array([5e-5, 1.0 - 5e-5]))
         return (
             float(low) if self.low is None else self.low,
@@ -116,7 +116,7 @@ class Normal(Table):
         )
 
     def quantile(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the values below which these shares of the distribution lie (its quantiles)."""
+        """Return the quantiles of shares between 0 and 1."""
         from scipy.stats import truncnorm
 
         low, high = ((bound - self.mean) / self.deviation for bound in self._bounds)
@@ -124,7 +124,7 @@ class Normal(Table):
         return np.asarray(values, dtype=float)
 
     def share(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return which shares of the distribution lie below values: the inverse of `quantile`."""
+        """Return the shares of the distribution below values: the inverse of `quantile`."""
         from scipy.stats import truncnorm
 
         low, high = ((bound - self.mean) / self.deviation for bound in self._bounds)
@@ -132,7 +132,7 @@ class Normal(Table):
         return np.asarray(shares, dtype=float)
 
     def plain(self) -> dict[str, Any]:
-        """Return the value as it stands in the file."""
+        """Return the variation in the form of the file."""
         bounds = {name: getattr(self, name) for name in ("low", "high")}
         finite = {name: bound for name, bound in bounds.items() if bound is not None}
         return {"mean": self.mean, "deviation": self.deviation, **finite}
@@ -148,11 +148,11 @@ class Normal(Table):
 Key = Values | Range | Normal
 
 NAMES = ({"low", "high"}, {"mean", "deviation"})
-"""By these a table is a range or a distribution, and not keys of a table of the scene."""
+"""Keys by which a table is a range or a distribution, not a table of the scene."""
 
 
 def keys_from(table: Mapping[str, Any], prefix: str = "") -> dict[str, Key]:
-    """Return how keys vary, by their dotted names; TOML's a.b is its "a.b".
+    """Return how keys vary, by dotted names; a nested table a.b is the key "a.b".
 
     >>> keys_from({"film": {"viscosity": [0.1, 0.2]}})
     {'film.viscosity': Values(values=(0.1, 0.2))}

@@ -1,4 +1,4 @@
-"""Runs of scenes for a study: side by side, resumable, each with the part of it that is kept."""
+"""Runs of the scenes of a study: side by side, resumable."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -29,9 +29,9 @@ STUDY_FILE = "study.json"
 class Runs(Batch):
     """The runs of a study in its directory; a context manager.
 
-    Worker processes stay alive from call to call of `run_scenes`. Every row is on the disk before
-    the next run begins, so that a study that was killed goes on where it was: runs that it asks for
-    again are read. Scenes alone decide which runs are the same; order and number of calls do not.
+    Worker processes stay alive between calls of `run_scenes`. Each row is written before the next
+    run begins, so that a study that was killed continues: finished runs are read. Two runs are the
+    same if their scenes are, whatever the order and number of calls.
     """
 
     def __init__(
@@ -45,14 +45,14 @@ class Runs(Batch):
         quiet: bool = True,
         **workers: Any,
     ) -> None:
-        """Prepare; nothing is started before the first run.
+        """Prepare; processes start with the first run.
 
         Args:
             study: whose runs these are.
             directory: of this study alone.
             report: of the study; its files are written in the end.
             label: of the progress bar; the report's name where there is none.
-            function: of a run's arguments, for `rows`; `run_scene` unless told.
+            function: of a run's arguments, for `rows`; `run_scene` by default.
             quiet: False shows the progress on standard error.
             workers: `workers` or `dask`, as of a `Batch`.
 
@@ -73,7 +73,7 @@ class Runs(Batch):
         self._files = () if report is None else report.files
 
     def __enter__(self) -> Self:
-        """Take the directory.
+        """Lock the directory.
 
         Raises:
             InputError: it cannot be used, belongs to another study, or another run writes in it.
@@ -90,12 +90,12 @@ class Runs(Batch):
     def run_scenes(self, scenes: Sequence[Scene], files: Sequence[str] = ()) -> list[Row]:
         """Return the row of each scene: status, reason, end_time, its quantities by name.
 
-        With errors asked, `errors`, `horizon` and `lyapunov_exponent` too. A run that raised an
-        error, took too long or killed its process has a row with its status and its reason alone.
+        With the study's `errors` also `errors`, `horizon` and `lyapunov_exponent`. A run that
+        raised an error, took too long or ended its process has status and reason alone.
 
         Args:
             scenes: any number; equal ones are run once.
-            files: where each keeps its run.nc, in the study's directory, if it is to.
+            files: names of the run.nc of each in the study's directory, if they are kept.
         """
         errors = {"errors": True} if self._study.errors else {}
         arguments: list[dict[str, Any]] = [{**arguments_of(s), **errors} for s in scenes]
@@ -106,7 +106,7 @@ class Runs(Batch):
 
 
 def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
-    """Run {"scene": ...}, with "save": file and "errors": True if wanted; return its row."""
+    """Run {"scene": ...}, optionally with "save": file and "errors": True; return its row."""
     from exu_press.verification.simulate import simulate
 
     scene = scene_from(arguments)
@@ -117,7 +117,7 @@ def run_scene(arguments: dict[str, Any]) -> dict[str, Any]:
 
 
 def row_of(result: Result) -> dict[str, Any]:
-    """Return a study's row of a run: how it ended, its quantities and their errors."""
+    """Return the row of a run: status, reason, quantities and their errors."""
     info, values = result.info, values_of(result)
     row: dict[str, Any] = {name: info[name] for name in ("status", "reason", "end_time")}
     row |= {name: value.value for name, value in values.items()}
@@ -127,17 +127,17 @@ def row_of(result: Result) -> dict[str, Any]:
 
 
 def _file_is_whole(arguments: Mapping[str, Any]) -> bool:
-    """Return whether the run.nc that a run was to keep can be read."""
+    """Return whether the run.nc of a run can be read, if it has one."""
     from exu_press.result.netcdf import is_whole
 
     return "save" not in arguments or is_whole(Path(arguments["save"]))
 
 
 def _claim(directory: Path, study: Mapping[str, Any], written: Sequence[str]) -> None:
-    """Write down whose directory this is.
+    """Write study.json, or check that it is this study's.
 
     Raises:
-        InputError: it is another study's, or its files are there without its study.json.
+        InputError: the directory belongs to another study, or has files of one without study.json.
     """
     path = directory / STUDY_FILE
     own = json.loads(json.dumps(study))

@@ -76,17 +76,17 @@ class Study(Table):
 
     @classmethod
     def locate_files(cls, data: dict[str, Any], directory: Path) -> dict[str, Any]:
-        """Return a file's tables with paths of other files counted from its directory."""
+        """Return a file's tables with paths of other files relative to its directory."""
         return data
 
     def check_keys(self) -> None:
-        """Check the scene with each key alone at its ends, before anything runs."""
+        """Check the scene with each key at its ends, one at a time."""
         for name, variation in self.keys.items():
             for value in variation.ends:
                 self.scene_at({name: value})
 
     def scene_at(self, point: Mapping[str, Any]) -> Scene:
-        """Return the scene with keys at these values.
+        """Return the scene at a point: with keys at these values.
 
         Raises:
             InputError: not allowed; it names the values.
@@ -98,7 +98,7 @@ class Study(Table):
             raise InputError(f"run with {where}: {error}") from None
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the data that tell this study from others; a time limit does not."""
+        """Return the data that identify the study; the time limit is none of them."""
         data: dict[str, Any] = {}
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
@@ -116,10 +116,10 @@ class Study(Table):
 
 
 def names_in(name: str, value: Any) -> tuple[str, ...]:
-    """Return a key that is a list of names of quantities.
+    """Return the value of a key that is a list of names of quantities.
 
     Raises:
-        InputError: it is not, or has none.
+        InputError: it is no such list, or empty.
     """
     if isinstance(value, list | tuple) and value and all(isinstance(text, str) for text in value):
         return tuple(value)
@@ -127,7 +127,7 @@ def names_in(name: str, value: Any) -> tuple[str, ...]:
 
 
 def load_study(path: str | Path, kind: type[S], *, allow_code: bool = False) -> S:
-    """Return the study of a TOML file; a scene's path counts from the study's directory.
+    """Return the study of a TOML file; a scene's path is relative to the study's directory.
 
     Args:
         path: of the file.

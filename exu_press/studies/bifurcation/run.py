@@ -21,11 +21,11 @@ __all__ = ["BifurcationCommand", "bifurcation", "rescale_state", "run_point"]
 
 
 def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> BifurcationReport:
-    """Run the study, going on where its directory was left, and write bifurcation.json.
+    """Do the runs that are missing, write bifurcation.json, and return the report.
 
-    On the ways up and down each run starts in the state in which the run at the last value ended,
-    so that hysteresis is seen; both ways run beside each other, and so do the values of a second
-    key. After a value whose run failed, the next one starts as the scene does.
+    On the ways up and down each run starts in the state at the end of the previous one, so that
+    hysteresis shows. Both ways, and the values of a second key, run side by side. After a run that
+    failed, the next one starts as the scene does.
 
     Args:
         study: to be run.
@@ -60,7 +60,7 @@ def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> Bifurc
 def _way(
     study: Bifurcation, values: Sequence[float], second: float | None, rows: list[Row]
 ) -> Chain:
-    """Yield the arguments of runs one after another, and add their rows to `rows`."""
+    """Yield the arguments of one run after another, and add their rows to `rows`."""
     last = None
     for value in values:
         row = yield _arguments(study, value, second, last)
@@ -71,7 +71,7 @@ def _way(
 def _arguments(
     study: Bifurcation, value: float, second: float | None, last: tuple[float, Row] | None
 ) -> dict[str, Any]:
-    """Return the arguments of `run_point`, from the row at the value before."""
+    """Return the arguments of `run_point`; `last` is the previous value and its row."""
     scene: Scene = study.scene_at(study.point_at(value, second))
     settings = study.bifurcation
     arguments: dict[str, Any] = {
@@ -88,10 +88,9 @@ def _arguments(
 
 
 def rescale_state(state: State, old_speed: float, new_speed: float) -> State:
-    """Return a state on the section at another speed of the crank.
+    """Return a state on the section rescaled to another speed of the crank.
 
-    The crank's angle is its speed times the time; all speeds go with it, so that they still fit
-    the constraints.
+    Time, velocities and accelerations are rescaled with it, so that they satisfy the constraints.
 
     Args:
         state: on the section.

@@ -82,7 +82,7 @@ class Bifurcation(Study):
 
     @property
     def second(self) -> str | None:
-        """The dotted name of the other key, each of whose values has its own ways; or None."""
+        """The dotted name of the second key, or None."""
         return list(self.keys)[1] if len(self.keys) == 2 else None
 
     @property
@@ -92,7 +92,7 @@ class Bifurcation(Study):
 
     @property
     def seconds(self) -> tuple[float | None, ...]:
-        """Its values; None alone where there is no other key."""
+        """Its values; None alone where there is no second key."""
         return (None,) if self.second is None else self._numbers(self.second)
 
     def point_at(self, value: float, second: float | None) -> dict[str, float]:

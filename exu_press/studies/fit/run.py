@@ -1,4 +1,4 @@
-"""Fit of a scene's keys to a measurement: best values, intervals, undetermined keys."""
+"""Find keys of a scene from a measurement: best values, intervals, undetermined keys."""
 
 from dataclasses import replace
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Optimisation of a scene's keys: one objective, or a front of several."""
+"""Find the keys that make a press best: one objective, or several against each other."""
 
 from collections.abc import Sequence
 from pathlib import Path

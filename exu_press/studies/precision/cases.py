@@ -5,12 +5,12 @@ from typing import Self
 
 from exu_press.scene import Scene
 from exu_press.studies.precision import references
-from exu_press.studies.precision.errors import Errors, Late, errors_of, late_of
-from exu_press.studies.precision.measured import Attempt, Measured, fixed_steps, tolerances
+from exu_press.studies.precision.errors import Errors, WholeRunErrors, errors_of, whole_run_errors
 from exu_press.studies.precision.references import Reference
-from exu_press.studies.precision.stated import Stated, stated_errors
+from exu_press.studies.precision.stated import StatedErrors, stated_errors
+from exu_press.studies.precision.timing import Attempt, TimedRun, fixed_steps, tolerances
 
-__all__ = ["FULL", "QUICK", "STEPS", "TOLERANCES", "Amount", "Case", "case_of"]
+__all__ = ["FULL", "QUICK", "STEPS", "TOLERANCES", "Case", "Extent", "case_of"]
 
 STEPS = (1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6)  # s
 TOLERANCES = (
@@ -23,7 +23,7 @@ FINEST = 1e-6
 
 
 @dataclass(frozen=True)
-class Amount:
+class Extent:
     """The part of the cases that is run.
 
     Attributes:
@@ -51,8 +51,8 @@ class Amount:
     stated: tuple[float, ...]
 
 
-FULL = Amount(3, 2.0, 1.0, 1e-6, 1e-6, 1e-10, 1.0, 1e-6, 6, (1e-2, 3e-3, 1e-3, 3e-4))
-QUICK = Amount(1, 0.2, 0.02, 1e-4, 1e-4, 1e-5, 30.0, 1e-5, 1, (1e-2,))
+FULL = Extent(3, 2.0, 1.0, 1e-6, 1e-6, 1e-10, 1.0, 1e-6, 6, (1e-2, 3e-3, 1e-3, 3e-4))
+QUICK = Extent(1, 0.2, 0.02, 1e-4, 1e-4, 1e-5, 30.0, 1e-5, 1, (1e-2,))
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ class Case:
         assert self.scene is not None
         return self.scene
 
-    def limit_to(self, amount: Amount) -> Self:
+    def limit_to(self, amount: Extent) -> Self:
         """Return as much of it as is run."""
         scene = self.scene
         if scene is not None:
@@ -104,7 +104,7 @@ class Case:
             repeats=self.repeats or amount.repeats,
         )
 
-    def reference(self, amount: Amount) -> Reference:
+    def reference(self, amount: Extent) -> Reference:
         """Return the reference of its runs."""
         if _has_closed_form(self._scene):
             return references.closed_form(self._scene)
@@ -112,22 +112,22 @@ class Case:
         step = max(self.reference_step, amount.reference_step)
         return references.from_own(self._scene, tolerance, step, amount.starts)
 
-    def attempts(self, amount: Amount) -> list[Attempt]:
+    def attempts(self, amount: Extent) -> list[Attempt]:
         """Return its runs."""
         scene = self._scene
         return fixed_steps(scene, self.steps) + tolerances(scene, self.tolerances)
 
     def errors(
-        self, run: Measured, reference: Reference, horizon: float
-    ) -> tuple[Errors, Late | None]:
+        self, run: TimedRun, reference: Reference, horizon: float
+    ) -> tuple[Errors, WholeRunErrors | None]:
         """Return how far a run is from the reference."""
         if run.trajectory is None or reference.trajectory is None:
             return Errors(None, None, None), None
         errors = errors_of(run.trajectory, reference.trajectory, horizon)
-        late = late_of(run.trajectory, reference.trajectory, run.starts, reference.starts)
+        late = whole_run_errors(run.trajectory, reference.trajectory, run.starts, reference.starts)
         return errors, late
 
-    def compare_stated_errors(self, amount: Amount, horizon: float) -> list[Stated]:
+    def compare_stated_errors(self, amount: Extent, horizon: float) -> list[StatedErrors]:
         """Return the stated errors of runs until the horizon."""
         if self.scene is None:
             return []

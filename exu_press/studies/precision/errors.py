@@ -19,26 +19,26 @@ from exu_press.result import Result
 __all__ = [
     "INSTANTS_APART",
     "Errors",
-    "Late",
     "Trajectory",
+    "WholeRunErrors",
     "errors_of",
     "instants_until",
-    "late_of",
     "trajectory_of",
+    "whole_run_errors",
 ]
 
 
 @dataclass(frozen=True)
 class Trajectory:
-    """The slider's motion at a solver's own instants, and the joint that is looked at.
+    """The slider's motion at the instants of a solver, and one joint's force and penetration.
 
     Attributes:
         time: (n,), s, increasing.
         position: (n,), m.
         velocity: (n,), m/s.
         acceleration: (n,), m/s^2.
-        force: (n,) magnitude of the force in the joint, N; None without a clearance joint.
-        penetration: (n,) eccentricity less clearance, m; None where no surfaces can touch.
+        force: (n,) magnitude of the joint force, N; None without a clearance joint.
+        penetration: (n,) eccentricity less clearance, m; None of a joint without contact.
     """
 
     time: Array
@@ -111,8 +111,8 @@ class Errors:
 
 
 @dataclass(frozen=True)
-class Late:
-    """Figures by which whole dry runs are compared.
+class WholeRunErrors:
+    """Errors of figures of a whole dry run, in which trajectories diverge.
 
     Attributes:
         impacts: touches in the joint.
@@ -143,7 +143,7 @@ def instants_until(horizon: float) -> Array:
 
 
 def errors_of(run: Trajectory, reference: Trajectory, horizon: float) -> Errors:
-    """Return the errors of a run that reached its end."""
+    """Return the errors of a completed run."""
     instants = instants_until(horizon)
     (position, velocity), (x, v) = run.interpolate(instants), reference.interpolate(instants)
     peak, true_peak = (float(np.abs(t.until(horizon).acceleration).max()) for t in (run, reference))
@@ -154,13 +154,13 @@ def errors_of(run: Trajectory, reference: Trajectory, horizon: float) -> Errors:
     )
 
 
-def late_of(
+def whole_run_errors(
     run: Trajectory,
     reference: Trajectory,
     starts: Sequence[Trajectory] = (),
     reference_starts: Sequence[Trajectory] = (),
-) -> Late | None:
-    """Return the figures of a dry run, or None where no surfaces touch.
+) -> WholeRunErrors | None:
+    """Return the errors of figures of a whole dry run; None where no surfaces touch.
 
     Args:
         run: to be judged.
@@ -177,7 +177,7 @@ def late_of(
     rms, true_rms = _rms(run), _rms(reference)
     mean, large = _peaks((run, *starts))
     true_mean, true_large = _peaks((reference, *reference_starts))
-    return Late(
+    return WholeRunErrors(
         impacts=len(touches),
         impact_time=float(np.abs(touches - true_touches).max()) if same else None,
         peak_force=abs(float(run.force.max()) / float(reference.force.max()) - 1.0),

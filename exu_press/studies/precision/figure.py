@@ -12,11 +12,11 @@ from matplotlib.patches import Patch
 
 from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, with_style
 from exu_press.plots.title import figure_with_title
-from exu_press.studies.precision.measured import FIXED, TOLERANCE
 from exu_press.studies.precision.report import PrecisionReport
 from exu_press.studies.precision.rows import Row, series_of
-from exu_press.studies.precision.stated import Stated
+from exu_press.studies.precision.stated import StatedErrors
 from exu_press.studies.precision.table import horizon_text
+from exu_press.studies.precision.timing import FIXED, TOLERANCE
 
 __all__ = ["precision_figure"]
 
@@ -101,7 +101,7 @@ def _draw(axes: Axes, series: Mapping[str, Sequence[Row]], error: str, case: Any
     _draw_failed(axes, failed)
 
 
-def _draw_stated(axes: Axes, stated: Sequence[Stated]) -> None:
+def _draw_stated(axes: Axes, stated: Sequence[StatedErrors]) -> None:
     """Draw the stated error of every figure over its true one; below the diagonal is too small."""
     for index, entry in enumerate(stated):
         stated_errors, true_errors = zip(*entry.errors, strict=True)

@@ -17,7 +17,7 @@ from exu_press.studies.precision.errors import (
     errors_of,
     instants_until,
 )
-from exu_press.studies.precision.measured import run_scene, shift_start
+from exu_press.studies.precision.timing import run_scene, shift_start
 from exu_press.verification.growth import Growth, growth
 
 __all__ = ["Reference", "closed_form", "divergence", "from_own"]
@@ -25,20 +25,21 @@ __all__ = ["Reference", "closed_form", "divergence", "from_own"]
 RESERVE = 10.0
 """An error must be this many times the references' mutual difference to be believed."""
 
-KNOWN = 1e-3
-"""Distance over the smallest clearance: references whose sliders differ by more are none any
-more."""
+DIVERGED = 1e-3
+"""Distance of two sliders over the smallest clearance, beyond which neither is a reference."""
 
-STAYS = Growth(None, None)
+NO_GROWTH = Growth(None, None)
 """Growth of trajectories that do not diverge."""
 
 KINEMATIC_STEP = 1e-5  # s, between the points of a closed-form trajectory
 
-NOTHING = Errors(None, None, None)
+NO_ERRORS = Errors(None, None, None)
 
-NEIGHBOUR = 4.0
-LOOSER = 10.0
-"""Times the reference's tolerance for further starts: they diverge as soon whatever it is."""
+NEIGHBOUR_TOLERANCE = 4.0
+"""Tolerance of the neighbouring run over the reference's."""
+
+START_TOLERANCE = 10.0
+"""The same of further starts, which diverge at the same instant whatever it is."""
 
 
 @dataclass(frozen=True)
@@ -49,8 +50,7 @@ class Reference:
         method: where it comes from, in words.
         trajectory: None if it could not be made.
         difference: between the two integrators, up to the horizon; zeros where it is exact.
-        diverged: how fast neighbouring motions diverge, and the horizon: from when on errors exceed
-            what is looked at.
+        diverged: how fast neighbouring motions diverge, and the horizon.
         starts: further trajectories, of starts that differ by rounding, where trajectories
             diverge before the end.
     """
@@ -58,18 +58,18 @@ class Reference:
     method: str
     trajectory: Trajectory | None
     difference: Errors
-    diverged: Growth = STAYS
+    diverged: Growth = NO_GROWTH
     starts: tuple[Trajectory, ...] = ()
 
     @property
     def floor(self) -> Errors:
-        """Smallest errors that can be told."""
+        """Smallest errors that this reference resolves."""
         d = self.difference
         return Errors(_above(d.position), _above(d.velocity), _above(d.peak_acceleration))
 
 
 def closed_form(scene: Scene) -> Reference:
-    """Return the kinematics of ideal joints, which need no integrator and never part."""
+    """Return the kinematics of ideal joints, which need no integrator and never diverge."""
     count = round(scene.duration / KINEMATIC_STEP)
     time = np.linspace(0.0, scene.duration, count + 1)
     angle = scene.start_angle + scene.angular_speed * time
@@ -80,8 +80,8 @@ def closed_form(scene: Scene) -> Reference:
 def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Reference:
     """Return the tightest tolerance, checked against fixed steps extrapolated to zero.
 
-    The trajectories' divergence, and so the horizon, is measured by a run at NEIGHBOUR times the
-    tolerance.
+    A run at NEIGHBOUR_TOLERANCE times the tolerance measures how fast trajectories diverge, and
+    so the horizon.
 
     Args:
         scene: of the runs.
@@ -91,9 +91,9 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
     """
     method = f"tolerance {tolerance:.0e} against fixed steps {2 * step:.0e}, {step:.0e} s"
     tight = run_scene(scene, "tolerance", tolerance).trajectory
-    near = run_scene(scene, "tolerance", NEIGHBOUR * tolerance).trajectory
+    near = run_scene(scene, "tolerance", NEIGHBOUR_TOLERANCE * tolerance).trajectory
     if tight is None or near is None:
-        return Reference(f"{method}: not all of them reached the end", None, NOTHING)
+        return Reference(f"{method}: not all of them reached the end", None, NO_ERRORS)
     diverged = divergence(scene, tight, near)
     horizon = scene.duration
     if diverged.horizon is not None:  # of whole milliseconds, as steps are
@@ -103,7 +103,7 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
     coarse = run_scene(until_horizon, "step", 2.0 * step).trajectory
     fine = run_scene(until_horizon, "step", step).trajectory
     if coarse is None or fine is None:
-        return Reference(f"{method}: not all of them reached the end", None, NOTHING)
+        return Reference(f"{method}: not all of them reached the end", None, NO_ERRORS)
     instants = instants_until(horizon)
     position, velocity = (
         float(np.abs(f + (f - c) / 3.0 - t).max())  # second order, at step zero
@@ -119,7 +119,7 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
         else []
     )
     runs = [
-        run_scene(neighbour, "tolerance", LOOSER * tolerance).trajectory
+        run_scene(neighbour, "tolerance", START_TOLERANCE * tolerance).trajectory
         for neighbour in neighbour_scenes
     ]
     neighbours = tuple(run for run in runs if run is not None)
@@ -127,15 +127,15 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
 
 
 def divergence(scene: Scene, first: Trajectory, second: Trajectory) -> Growth:
-    """Return the growth of two trajectories' distance, until they are KNOWN apart."""
+    """Return the growth of two trajectories' distance, up to DIVERGED."""
     clearances = [joint.clearance for joint in scene.joints.with_clearance.values()]
     clearances += [
         g.guideway.clearance for g in mechanism_of(scene).guides if g.guideway is not None
     ]
     if not clearances:
-        return STAYS
+        return NO_GROWTH
     second_position, _ = second.interpolate(np.clip(first.time, second.time[0], second.time[-1]))
-    return growth(first.time, np.abs(first.position - second_position) / min(clearances), KNOWN)
+    return growth(first.time, np.abs(first.position - second_position) / min(clearances), DIVERGED)
 
 
 def _above(difference: float | None) -> float | None:

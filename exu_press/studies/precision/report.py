@@ -11,7 +11,7 @@ from exu_press.installation.versions import version_of
 from exu_press.scene import Scene
 from exu_press.studies.base.report import Picture, Report, Table
 from exu_press.studies.precision.rows import Row
-from exu_press.studies.precision.stated import Stated
+from exu_press.studies.precision.stated import StatedErrors
 from exu_press.studies.precision.table import (
     case_tables,
     machine_lines,
@@ -70,7 +70,7 @@ class PrecisionReport(Report):
     orders: tuple[Mapping[str, Any], ...]
     left_out: tuple[str, ...]
     machine: Mapping[str, Any]
-    stated: tuple[Stated, ...] = ()
+    stated: tuple[StatedErrors, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Return the dictionary of precision.json."""

@@ -6,8 +6,8 @@ from dataclasses import asdict, dataclass
 from statistics import linear_regression
 from typing import Any
 
-from exu_press.studies.precision.errors import Errors, Late
-from exu_press.studies.precision.measured import Attempt, Measured
+from exu_press.studies.precision.errors import Errors, WholeRunErrors
+from exu_press.studies.precision.timing import Attempt, TimedRun
 
 __all__ = ["ERRORS", "Row", "order_of", "orders_of", "row_of", "series_of"]
 
@@ -20,14 +20,14 @@ class Row:
 
     Attributes:
         case: name.
-        solver: who.
+        solver: name of the solver.
         setting: "step", "tolerance" or "modes".
         value: of the setting, s, dimensionless or a number.
         error_position: largest up to the horizon, m; None if the run failed or there is no
             reference.
         error_velocity: the same, m/s.
         error_peak_acceleration: relative.
-        at_most: names of the errors that are smaller than can be told: they are at most this.
+        at_most: names of the errors that the reference does not resolve: they are at most this.
         wall_time: median, s.
         cpu_time: median of the processor time, s.
         wall_times: of every repetition, s.
@@ -57,7 +57,7 @@ class Row:
     law_evaluations: int | None
     status: str
     reason: str
-    late: Late | None
+    late: WholeRunErrors | None
 
     def to_dict(self) -> dict[str, Any]:
         """Return the row as it stands in precision.json."""
@@ -69,13 +69,18 @@ class Row:
         return None if self.late is None else max(self.late.mean_of_peaks, self.late.large_peaks)
 
     def resolved_error(self, error: str) -> float | None:
-        """Return an error, or None where it is missing or smaller than can be told."""
+        """Return an error; None where it is missing or below what the reference resolves."""
         value: float | None = getattr(self, error)
         return None if error in self.at_most else value
 
 
 def row_of(
-    case: str, attempt: Attempt, run: Measured, errors: Errors, floor: Errors, late: Late | None
+    case: str,
+    attempt: Attempt,
+    run: TimedRun,
+    errors: Errors,
+    floor: Errors,
+    late: WholeRunErrors | None,
 ) -> Row:
     """Return the row of a run; errors below the floor are raised to it and marked."""
     names = dict(zip(ERRORS, ("position", "velocity", "peak_acceleration"), strict=True))

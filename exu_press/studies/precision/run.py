@@ -8,12 +8,12 @@ from typing import Any
 
 from exu_press.schema.checks import key
 from exu_press.studies.base.command import SceneCommand, SceneStudy
-from exu_press.studies.precision.cases import FULL, QUICK, Amount, Case, case_of
-from exu_press.studies.precision.measured import LONG_RUN, time_runs
+from exu_press.studies.precision.cases import FULL, QUICK, Case, Extent, case_of
 from exu_press.studies.precision.references import Reference
 from exu_press.studies.precision.report import PrecisionReport, machine
 from exu_press.studies.precision.rows import ERRORS, Row, orders_of, row_of
-from exu_press.studies.precision.stated import Stated
+from exu_press.studies.precision.stated import StatedErrors
+from exu_press.studies.precision.timing import LONG_RUN, time_runs
 from exu_press.terminal.progress import Progress
 
 __all__ = ["PrecisionCommand", "PrecisionStudy", "precision"]
@@ -40,7 +40,7 @@ def precision(
     amount = QUICK if quick else FULL
     rows: list[Row] = []
     described: dict[str, dict[str, Any]] = {}
-    stated: list[Stated] = []
+    stated: list[StatedErrors] = []
 
     def report() -> PrecisionReport:
         return PrecisionReport(
@@ -65,7 +65,7 @@ def precision(
 
 
 def _run(
-    case: Case, amount: Amount, reference: Reference, horizon: float, quiet: bool
+    case: Case, amount: Extent, reference: Reference, horizon: float, quiet: bool
 ) -> list[Row]:
     """Run and compare; before a solver's first run it is warmed up by one that does not count.
 

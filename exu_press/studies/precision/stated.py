@@ -9,11 +9,11 @@ from exu_press.scene import Scene
 from exu_press.verification.simulate import simulate
 from exu_press.verification.stated_errors import compare_errors
 
-__all__ = ["Stated", "stated_errors"]
+__all__ = ["StatedErrors", "stated_errors"]
 
 
 @dataclass(frozen=True)
-class Stated:
+class StatedErrors:
     """The stated errors of one run.
 
     Attributes:
@@ -37,7 +37,7 @@ class Stated:
 
 def stated_errors(
     case: str, scene: Scene, tolerances: Sequence[float], reference: float
-) -> list[Stated]:
+) -> list[StatedErrors]:
     """Return the stated errors of runs, against a run at the reference's tolerance."""
     true = simulate(scene.replace({"solver.tolerance": reference}))
     if not true.completed:
@@ -58,7 +58,7 @@ def stated_errors(
         }
         ratios = [comparison.ratio for comparison in every if comparison.ratio is not None]
         entries.append(
-            Stated(
+            StatedErrors(
                 case=case,
                 tolerance=tolerance,
                 figures=len(every),

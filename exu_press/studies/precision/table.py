@@ -8,7 +8,7 @@ from typing import Any
 from exu_press.studies.base.report import Table
 from exu_press.studies.precision.errors import PEAKS_APART
 from exu_press.studies.precision.rows import ERRORS, Row
-from exu_press.studies.precision.stated import Stated
+from exu_press.studies.precision.stated import StatedErrors
 
 __all__ = ["case_tables", "horizon_text", "machine_lines", "order_table", "stated_tables"]
 
@@ -93,7 +93,7 @@ def horizon_text(case: Mapping[str, Any]) -> str:
     return f"no horizon: trajectories {'diverge' if how else 'stay together'}{how}"
 
 
-def stated_tables(stated: Sequence[Stated]) -> list[Table]:
+def stated_tables(stated: Sequence[StatedErrors]) -> list[Table]:
     """Return how stated errors cover the true ones, where there are any."""
     cells: list[tuple[str, ...]] = [
         (

@@ -1,4 +1,4 @@
-"""Influence of tolerances: Sobol indices, a tornado, and the spread of presses."""
+"""Find out which tolerances decide: Sobol indices, a tornado, and the spread of presses."""
 
 from pathlib import Path
 from typing import Any

@@ -28,18 +28,18 @@ COARSE_RESIDUAL = 0.1
 DRIFT_LIMIT = 1e-9  # m
 
 ENERGY_LIMIT = 1e-3
-"""Energy that joints may seem to create or to store beyond what was there, relative to that: what
-the energy balance itself leaves open."""
+"""Energy that joints may seem to create, or to store beyond the available one, over that: the
+uncertainty of the energy balance."""
 
-LITTLE = 0.01
-"""Over a figure (of an eccentricity over the clearance): differences that are no matter."""
+NEGLIGIBLE = 0.01
+"""Difference over a figure (of an eccentricity over the clearance) that does not count."""
 
-NOTHING = 1e-12
-"""The same in the figure's unit: rounding of tilts and means that are zero."""
+ROUNDOFF = 1e-12
+"""The same in the figure's unit: roundoff of tilts and means that are zero."""
 
-OF_BOTH = 1.25
-"""Difference from a finer run over the error that a run states: at a tenth of the tolerance that
-one is off itself, by about 10^(-2/3) of what the run is."""
+ALLOWED_RATIO = 1.25
+"""Difference from a finer run over the stated error. A run at a tenth of the tolerance has an error
+itself, about 10^(-2/3) of the run's."""
 
 AGREEMENT = "difference from a finer run, over the stated error"
 
@@ -77,7 +77,7 @@ def checks_of(result: Result) -> list[Check]:
     assert solver is not None
     coarse = COARSE_RESIDUAL * (solver.tolerance or 0.0)
     created = float((np.maximum.accumulate(lost) - lost).max())
-    drift, where = max(_drifts(result), default=(0.0, ""))
+    drift, where = max(_joint_openings(result), default=(0.0, ""))
     checks = [
         _check("energy residual", energy_residual(result) or 0.0, max(RESIDUAL_LIMIT, coarse)),
         _check("constraint drift, m", drift, DRIFT_LIMIT, where),
@@ -85,7 +85,7 @@ def checks_of(result: Result) -> list[Check]:
     ]
     elastic = _elastic_energy(result)
     if elastic is not None:
-        surplus = float((elastic - elastic[0] - _energy_there(result)).max())
+        surplus = float((elastic - elastic[0] - _available_energy(result)).max())
         checks.append(_check("contact energy out of nothing", _ratio(surplus, scale), ENERGY_LIMIT))
     films = [
         float(result.joints[name].distance.max()) / joint.clearance
@@ -98,11 +98,10 @@ def checks_of(result: Result) -> list[Check]:
 
 
 def agreement(result: Result, finer: Result) -> Check:
-    """Return a run's distance from a finer one over its stated error; OF_BOTH is allowed.
+    """Return a run's largest difference from a finer one over its stated error.
 
-    Every figure is held against its own stated error, and against LITTLE where that is less. Of a
-    figure that the scene does not determine nineteen in twenty runs lie between its bounds: it may
-    be half as far again from the run's own as they are.
+    Each figure may differ by its stated error, or by NEGLIGIBLE if that is more. Bounds of a figure
+    that the scene does not determine hold 19 of 20 runs: it may differ by 1.5 times their distance.
 
     Args:
         result: with its errors.
@@ -120,7 +119,7 @@ def agreement(result: Result, finer: Result) -> Check:
             stated += of_finer[comparison.name]["error"]
         allowed = max(
             stated + comparison.reading_error,
-            _little(result.scene, comparison.name, comparison.reference),
+            _negligible_difference(result.scene, comparison.name, comparison.reference),
         )
         if comparison.true_error == 0.0:
             continue  # also of a figure that is zero, with nothing allowed
@@ -128,21 +127,21 @@ def agreement(result: Result, finer: Result) -> Check:
         if not ratio <= worst:
             text = f"{comparison.value:.5g} +- {error['error']:.2g} for {comparison.reference:.5g}"
             worst, which = ratio, f"{comparison.name}: {text}"
-    return _check(AGREEMENT, worst, OF_BOTH, which)
+    return _check(AGREEMENT, worst, ALLOWED_RATIO, which)
 
 
-def _little(scene: Scene, name: str, true: float) -> float:
-    """Return by how much a figure may be off whatever it states, in its unit."""
+def _negligible_difference(scene: Scene, name: str, true: float) -> float:
+    """Return the difference of a figure that does not count, in its unit."""
     placed = quantity_of(scene, name)
     if placed.quantity is ECCENTRICITY_RATIO:
-        return LITTLE
-    least = NOTHING
+        return NEGLIGIBLE
+    least = ROUNDOFF
     if placed.quantity is JOINT_FORCE and placed.owner in scene.joints.with_clearance:
         least = _rounding(scene, placed.owner)
-    return max(LITTLE * abs(true), least)
+    return max(NEGLIGIBLE * abs(true), least)
 
 
-def _drifts(result: Result) -> Iterator[tuple[float, str]]:
+def _joint_openings(result: Result) -> Iterator[tuple[float, str]]:
     """Yield the largest opening of every ideal joint and guide between rigid bodies, m."""
     scene, mechanism = result.scene, mechanism_of(result.scene)
     poses = result["body_position"]
@@ -179,8 +178,8 @@ def _elastic_energy(result: Result) -> Array | None:
     return total if has_contact else None
 
 
-def _energy_there(result: Result) -> Array:
-    """Return the most energy that contacts can have stored since the start, (n,), J.
+def _available_energy(result: Result) -> Array:
+    """Return the largest energy that contacts can have stored since the start, (n,), J.
 
     The kinetic energy of the start and the drive's work, less the potential energy.
     """
@@ -191,7 +190,7 @@ def _energy_there(result: Result) -> Array:
 
 
 def _rounding(scene: Scene, name: str) -> float:
-    """Return the force of a film by the last digits of a speed, N; 0 without a film.
+    """Return the force of a film due to roundoff of a speed, N; 0 without a film.
 
     A centred film resists being squeezed by up to 12 pi mu L (R/c)^3 N s/m (long bearing); a ball
     by less, with R for L.

@@ -93,12 +93,12 @@ class SweepReport(Report):
         return np.array([np.nan if v is None else v for v in self.columns[name]], dtype=float)
 
     def is_numeric(self, name: str) -> bool:
-        """Return whether a column has numbers alone, at least one."""
+        """Return whether a column has at least one number, and no texts."""
         values = [value for value in self.columns[name] if value is not None]
         return bool(values) and not any(isinstance(value, (str, bool)) for value in values)
 
     def error(self, name: str, run: int) -> dict[str, Any] | None:
-        """Return a number's error, as in a summary, or None."""
+        """Return the error of a number as a summary has it, or None."""
         parts = ("error", "determined", "low", "high")
         columns = [self.columns.get(f"errors.{name}.{entry}") for entry in parts]
         error = {p: c[run] for p, c in zip(parts, columns, strict=True) if c is not None}
@@ -126,7 +126,7 @@ class SweepReport(Report):
 
     @property
     def failures(self) -> list[str]:
-        """The first reason where no run reached an end."""
+        """The reason of the first run where none reached an end."""
         failed = set(self["status"]) <= {FAILED, TIME_LIMIT, WORKER_DIED}
         return [f"no run reached an end: {self['reason'][0]}"] if failed else []
 
@@ -188,7 +188,7 @@ class SweepReport(Report):
         )
 
     def csv_files(self) -> dict[str, Mapping[str, Sequence[Value]]]:
-        """Return all columns; nothing where a run has no number."""
+        """Return all columns; a cell is empty where a run has no value."""
         return {"table.csv": self.columns}
 
     def save(self, directory: Path) -> None:

@@ -77,7 +77,7 @@ def sample(keys: Mapping[str, Key], n: int, seed: int) -> Points:
 
 
 def _values(keys: Mapping[str, Key], combination: str) -> dict[str, tuple[Any, ...]]:
-    """Return the keys' values; raise InputError for a key that has none."""
+    """Return the values of all keys; raise InputError for a range or a distribution."""
     values = {}
     for name, variation in keys.items():
         if not isinstance(variation, Values):
@@ -131,7 +131,7 @@ class Sweep(Study):
     """A sweep's file, complete: every scene of it has been validated.
 
     Attributes:
-        sweep: how the keys' values go together; every combination unless told.
+        sweep: how the keys' values go together; every combination by default.
     """
 
     tables = MappingProxyType({"sweep": Way})

@@ -1,4 +1,4 @@
-"""Wear of a press over many strokes: clearances and their shapes grow, and runs are repeated."""
+"""Wear a press over many strokes: clearances grow, their shapes follow, runs are repeated."""
 
 import math
 from collections.abc import Mapping

@@ -143,7 +143,7 @@ def test_a_press_from_the_centre_has_the_exponent_that_it_tends_to():
 def short():
     """A fifth of the revolutions that an exponent needs."""
     with pytest.MonkeyPatch.context() as patch:
-        for module in ("study", "lyapunov"):
+        for module in ("motion", "lyapunov"):
             patch.setattr(f"exu_press.studies.attractor.{module}.BATCHES", 2)
         return attractor(FILM, revolutions=4, skip=2, most=1)
 

@@ -84,7 +84,7 @@ def test_whole_numbers_stay_whole():
 
 def test_a_run_from_the_start_is_the_attractor(monkeypatch):
     """A fifth of the revolutions that an exponent needs."""
-    for module in ("study", "lyapunov"):
+    for module in ("motion", "lyapunov"):
         monkeypatch.setattr(f"exu_press.studies.attractor.{module}.BATCHES", 2)
     scene = FILM.replace({"solver.tolerance": 1e-3})
     row = run_point({"scene": scene.to_dict(), "start": None, **SHORT, "revolutions": 6})

@@ -3,7 +3,12 @@
 import numpy as np
 import pytest
 
-from exu_press.studies.precision.errors import Trajectory, errors_of, instants_until, late_of
+from exu_press.studies.precision.errors import (
+    Trajectory,
+    errors_of,
+    instants_until,
+    whole_run_errors,
+)
 
 TIME = np.linspace(0.0, 0.1, 401)
 
@@ -47,7 +52,7 @@ def test_instants_end_at_the_horizon(horizon):
 
 def test_late_figures_of_a_shifted_run():
     depth = np.sin(300.0 * TIME) * 1e-6
-    late = late_of(
+    late = whole_run_errors(
         wave(shift=1e-3, force=1.1 * np.maximum(depth, 0.0), penetration=np.roll(depth, 1)),
         wave(force=np.maximum(depth, 0.0), penetration=depth),
     )
@@ -63,11 +68,11 @@ def test_peaks_of_a_whole_run_are_a_distribution_over_its_starts():
     large, small = (
         wave(amplitude=amplitude, force=depth, penetration=depth) for amplitude in (1.1, 0.9)
     )
-    alone, both = late_of(large, truth), late_of(large, truth, [small])
+    alone, both = whole_run_errors(large, truth), whole_run_errors(large, truth, [small])
     assert alone.mean_of_peaks == pytest.approx(0.1) and alone.large_peaks == pytest.approx(0.1)
     assert both.mean_of_peaks == pytest.approx(0.0, abs=1e-12)
     assert both.large_peaks == pytest.approx(0.0, abs=1e-12)
-    assert late_of(large, truth, [], [large]).mean_of_peaks == pytest.approx(0.1 / 2.1)
+    assert whole_run_errors(large, truth, [], [large]).mean_of_peaks == pytest.approx(0.1 / 2.1)
 
 
 def test_a_run_shorter_than_a_span_has_one_peak():
@@ -75,14 +80,16 @@ def test_a_run_shorter_than_a_span_has_one_peak():
     short, large = (
         wave(time, amplitude=amplitude, force=time, penetration=time) for amplitude in (1.0, 1.2)
     )
-    assert late_of(large, short).mean_of_peaks == pytest.approx(0.2)
+    assert whole_run_errors(large, short).mean_of_peaks == pytest.approx(0.2)
 
 
 def test_impact_times_need_equally_many_impacts():
     depth, fewer = np.sin(300.0 * TIME), np.sin(100.0 * TIME)
-    late = late_of(wave(force=depth, penetration=fewer), wave(force=depth, penetration=depth))
+    late = whole_run_errors(
+        wave(force=depth, penetration=fewer), wave(force=depth, penetration=depth)
+    )
     assert late.impacts == 2 and late.impact_time is None
 
 
 def test_a_film_has_no_late_figures():
-    assert late_of(wave(force=TIME), wave(force=TIME)) is None
+    assert whole_run_errors(wave(force=TIME), wave(force=TIME)) is None

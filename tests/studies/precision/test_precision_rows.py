@@ -6,14 +6,14 @@ from dataclasses import replace
 import pytest
 
 from exu_press.studies.precision.errors import Errors
-from exu_press.studies.precision.measured import Attempt, Measured, time_runs
 from exu_press.studies.precision.rows import order_of, orders_of, row_of, series_of
+from exu_press.studies.precision.timing import Attempt, TimedRun, time_runs
 
 NO_FLOOR = Errors(0.0, 0.0, 0.0)
 
 
 def row(value, error, wall_time=1.0, case="case", solver="fixed step", floor=NO_FLOOR):
-    attempt = Attempt(solver, "step", value, lambda: Measured(None, (wall_time,), (wall_time,)))
+    attempt = Attempt(solver, "step", value, lambda: TimedRun(None, (wall_time,), (wall_time,)))
     return row_of(case, attempt, attempt.run(), Errors(error, error, error), floor, None)
 
 
@@ -53,7 +53,7 @@ def test_series_run_from_coarse_to_fine():
 
 def test_long_runs_and_failed_ones_are_not_repeated():
     def attempt(seconds, status="completed"):
-        return Attempt("s", "step", 1.0, lambda: Measured(None, (seconds,), (seconds,), status))
+        return Attempt("s", "step", 1.0, lambda: TimedRun(None, (seconds,), (seconds,), status))
 
     assert len(time_runs(attempt(1.0), 3).wall_times) == 3
     assert len(time_runs(attempt(100.0), 3).wall_times) == 1

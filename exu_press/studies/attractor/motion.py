@@ -1,4 +1,4 @@
-"""The study: a long and lean run, its points in the section, its neighbours, its figures."""
+"""A long run: its points in the section, neighbouring motions, and figures by revolution."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -30,7 +30,7 @@ DISTANCES = (1e-2, 1e-3)
 """Between neighbouring motions at the beginning of a revolution, without dimension."""
 
 LATER = (0.4, 0.6, 0.8)
-"""Parts of the revolutions at which errors are measured, too; they are in the first two."""
+"""Shares of the revolutions at which errors are measured, beside the first two."""
 
 PUSH = 0.01
 """Gravity that is added for a revolution, over the crank pin's acceleration."""
@@ -39,7 +39,7 @@ NOISE = 1e-12
 """Least distance, without dimension."""
 
 FEWEST = 3
-"""Revolutions after the transient, without which nothing is known."""
+"""Least revolutions after the transient from which anything is known."""
 
 LAST = 4
 """Revolutions at the end whose channels are kept for the pictures."""
@@ -149,10 +149,10 @@ def attractor(
     start: State | None = None,
     quiet: bool = True,
 ) -> Attractor:
-    """Run a press for long, and return its motion in the long run.
+    """Return the motion of a press in the long run.
 
     Args:
-        scene: with clearance somewhere, or a motor; its own length does not count. The section is
+        scene: with clearance somewhere, or a motor; its own length is not used. The section is
             its crank angle at the start.
         revolutions: after the transient.
         skip: revolutions of the transient.
@@ -323,8 +323,8 @@ def _unit(scene: Scene, name: str) -> str:
 
 
 def _error_amplification(exponent: Exponent) -> float:
-    """Return the error of a state by all revolutions before, over one revolution's."""
-    rate = min(exponent.high, -0.05)  # a motion that does not come together has no period
+    """Return the error of a state due to all revolutions over that due to one."""
+    rate = min(exponent.high, -0.05)  # neighbours that do not approach have no period
     return 1.0 / (1.0 - math.exp(rate))
 
 

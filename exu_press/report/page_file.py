@@ -1,4 +1,4 @@
-"""A page in hand: in a notebook's cell, as a file, or in the browser."""
+"""A page in a notebook's cell, as a file, or in the browser."""
 
 import html
 import webbrowser

@@ -19,29 +19,29 @@ __all__ = [
     "LONG_RUN",
     "TOLERANCE",
     "Attempt",
-    "Measured",
+    "TimedRun",
     "attempt",
     "fixed_steps",
-    "measured_of",
     "run",
     "run_scene",
     "shift_start",
     "time_runs",
+    "timed_run_of",
     "tolerances",
 ]
 
 FIXED = "fixed step"
 TOLERANCE = "tolerance"
 
-MOVED = 2e-4
-"""deg; a tenth of a micrometre at the pin of a crank of 30 mm."""
+START_SHIFT = 2e-4
+"""Shift of a start, deg: a tenth of a micrometre at the pin of a crank of 30 mm."""
 
 LONG_RUN = 5.0
 """s; a run that takes longer is not repeated: noise of tenths of seconds does not matter there."""
 
 
 @dataclass(frozen=True)
-class Measured:
+class TimedRun:
     """Trajectory and cost of one run.
 
     Attributes:
@@ -94,12 +94,12 @@ class Attempt:
     solver: str
     setting: str
     value: float
-    run: Callable[[], Measured] = field(repr=False)
-    again: Callable[[int], Measured] | None = field(default=None, repr=False)
+    run: Callable[[], TimedRun] = field(repr=False)
+    again: Callable[[int], TimedRun] | None = field(default=None, repr=False)
 
 
-def time_runs(attempt: Attempt, repeats: int, longest: float = LONG_RUN) -> Measured:
-    """Run an attempt so many times; the trajectory is the first one's.
+def time_runs(attempt: Attempt, repeats: int, longest: float = LONG_RUN) -> TimedRun:
+    """Run an attempt several times; the trajectory is that of the first run.
 
     Args:
         attempt: to be run.
@@ -119,10 +119,10 @@ def time_runs(attempt: Attempt, repeats: int, longest: float = LONG_RUN) -> Meas
     )
 
 
-def measured_of(result: Result, cpu_time: float) -> Measured:
+def timed_run_of(result: Result, cpu_time: float) -> TimedRun:
     """Return a result of the package as a measurement, with its processor time, s."""
     info = result.info
-    return Measured(
+    return TimedRun(
         trajectory=trajectory_of(result) if result.completed else None,
         wall_times=(float(info["wall_time"]),),
         cpu_times=(cpu_time,),
@@ -135,12 +135,12 @@ def measured_of(result: Result, cpu_time: float) -> Measured:
     )
 
 
-def run_scene(scene: Scene, setting: str, value: float) -> Measured:
+def run_scene(scene: Scene, setting: str, value: float) -> TimedRun:
     """Run a scene with `setting` ("step" or "tolerance") at a value."""
     return run(scene.replace({f"solver.{setting}": value}))
 
 
-def run(scene: Scene) -> Measured:
+def run(scene: Scene) -> TimedRun:
     """Run a scene as it is."""
     model = build(scene)
     start = time.process_time()
@@ -148,7 +148,7 @@ def run(scene: Scene) -> Measured:
     cpu_time = time.process_time() - start
     result = record(model, outcome)
     model.SC.Reset()  # system and solver hold each other, and all they recorded
-    return measured_of(result, cpu_time)
+    return timed_run_of(result, cpu_time)
 
 
 def fixed_steps(scene: Scene, steps: Iterable[float]) -> list[Attempt]:
@@ -162,7 +162,7 @@ def tolerances(scene: Scene, values: Iterable[float]) -> list[Attempt]:
 
 
 def attempt(solver: str, scene: Scene, setting: str, value: float) -> Attempt:
-    """Return a run of a solver's, repeated from starts that differ by next to nothing."""
+    """Return a run of a solver, repeated from slightly shifted starts."""
     return Attempt(
         solver,
         setting,
@@ -173,5 +173,5 @@ def attempt(solver: str, scene: Scene, setting: str, value: float) -> Attempt:
 
 
 def shift_start(scene: Scene, number: int) -> Scene:
-    """Return a scene whose start differs by next to nothing: so many times MOVED."""
-    return scene.replace({"start_angle_deg": scene.start_angle_deg + number * MOVED})
+    """Return a scene whose start is shifted by `number` times START_SHIFT."""
+    return scene.replace({"start_angle_deg": scene.start_angle_deg + number * START_SHIFT})

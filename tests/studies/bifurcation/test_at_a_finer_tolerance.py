@@ -25,9 +25,9 @@ def section(scene, revolutions):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("clearance", "error"), [(4e-5, 9.4e-4), (7e-5, 2.5e-3)])
+@pytest.mark.parametrize(("clearance", "error"), [(4e-5, 9.4e-4), (7e-5, 4.7e-3)])
 def test_the_period_and_the_point_stay(clearance, error):
-    """The diagram's own error is what its point may be off."""
+    """The error that the diagram states at its own tolerance is what its point may be off."""
     scene = DRY.replace({"joints.crank_pin.clearance": clearance})
     coarse, fine = (section(scene.replace({"solver.tolerance": one}), 9) for one in (1e-3, 1e-4))
     for each in (coarse, fine):

@@ -5,7 +5,7 @@ import functools
 import numpy as np
 import pytest
 
-from exu_press import InputError, Result, Scene, simulate
+from exu_press import InputError, Scene, simulate
 from exu_press.mechanism import GROUND
 from exu_press.scene import mechanism_of
 
@@ -101,16 +101,6 @@ def test_a_stiff_joint_on_the_frame_is_nearly_ideal():
     angle = result["crank_angle"]
     ideal = mechanism_of(result.scene).ideal_slider(angle, result.scene.angular_speed)[0]
     assert 1e-10 < np.abs(result["slider_position"] - ideal).max() < 1e-6
-
-
-def test_saved_and_read_back(tmp_path):
-    result = run("unlike balls")
-    result.save(tmp_path / "run.nc")
-    again = Result.load(tmp_path / "run.nc")
-    assert set(again.joints) == set(result.joints)
-    one, other = again.joints["ball_left"], result.joints["ball_left"]
-    assert np.array_equal(one.moment, other.moment) and one.kind == other.kind == "dry"
-    assert sorted(again.clearance_joints) == ["ball_left", "ball_right"]
 
 
 def test_a_crank_that_rests_in_two_bearings_has_no_clearance_there():

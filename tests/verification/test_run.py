@@ -256,17 +256,14 @@ def test_errors_of_a_quantity_of_ones_own_are_those_of_the_declared_one():
     own = {"force": QuantityAt(replace(force.quantity, name="force"), "crank_pin")}
     mine = errors_of(result, refinements, own)["errors"]["force"]
     assert mine["error"] == pytest.approx(told["joints.crank_pin.peak_force"]["error"])
-    late = {
-        "late": QuantityAt(
-            Quantity(
-                "late",
-                "m",
-                "needs half of the run",
-                MOTION,
-                lambda run, _: 1.0 if run.time[-1] > 0.02 else None,
-            )
-        )
-    }
+    half = Quantity(
+        "late",
+        "m",
+        "of half of the run",
+        MOTION,
+        lambda run, _: 1.0 if run.time[-1] > 0.02 else None,
+    )
+    late = {"late": QuantityAt(half)}
     assert set(errors_of(result, refinements, late)["errors"]) == {"late"}
 
 
@@ -361,6 +358,11 @@ def test_a_peak_while_a_film_passes_its_load_over_is_seen(tolerance):
 @pytest.mark.long
 def test_the_vibration_behind_a_slow_cut_is_within_its_error():
     """An independent model with steps of 0.1 us has a peak of 168368.54 N."""
+    contact = {"shape": "point", "stiffness": 2e9, "exponent": 1.0}
+    contact |= {"damping": "step", "damping_max": 1e5, "damping_depth": 1e-6}
+    pin = {"kind": "dry", "clearance": 5e-5, "radius": 0.07, "friction": {"law": "none"}}
+    sheet = {"kind": "sheet", "height": 0.003, "thickness": 0.002, "shear_strength": 3e8}
+    sheet |= {"cut_length": 0.2, "penetration": 0.4, "crack_time": 2e-4, "stripping": 0.05}
     scene = Scene(
         mechanism="slider_crank",
         speed_rpm=30.0,
@@ -368,34 +370,8 @@ def test_the_vibration_behind_a_slow_cut_is_within_its_error():
         start_angle_deg=130.0,
         start="centred",
         settle=0.0,
-        joints={
-            "wrist_pin": {
-                "kind": "dry",
-                "clearance": 5e-5,
-                "radius": 0.07,
-                "contact": {
-                    "shape": "point",
-                    "stiffness": 2e9,
-                    "exponent": 1.0,
-                    "damping": "step",
-                    "damping_max": 1e5,
-                    "damping_depth": 1e-6,
-                },
-                "friction": {"law": "none"},
-            }
-        },
-        load={
-            "sheet": {
-                "kind": "sheet",
-                "height": 0.003,
-                "thickness": 0.002,
-                "shear_strength": 3e8,
-                "cut_length": 0.2,
-                "penetration": 0.4,
-                "crack_time": 2e-4,
-                "stripping": 0.05,
-            }
-        },
+        joints={"wrist_pin": pin | {"contact": contact}},
+        load={"sheet": sheet},
     )
     told = simulate(scene, errors=True, beside=False).quantity("joints.wrist_pin.peak_force")
     assert told.low < 168368.54 < told.high

@@ -1,7 +1,7 @@
 """The constraints of a planar mechanism: those of joints and guides as one system.
 
 A constraint is Phi(q) = 0, with q the coordinates x, y and angle of all bodies. Its rate gamma is
-the part of its second time derivative that has no accelerations [1]_::
+the part of its second time derivative that has no accelerations::
 
     d^2 Phi / dt^2 = J q'' + gamma(q, q')
 
@@ -9,10 +9,8 @@ Points are complex numbers x + i y, so that a rotation is a product. Lengths are
 mechanism's size, so that displacements compare with rotations. Fields of one kind of constraint may
 be numbers, or arrays (m,) of m constraints.
 
-References
-----------
-.. [1] E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, Allyn & Bacon 1989,
-   chapter 3.
+Source: E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, Allyn & Bacon
+1989, chapter 3.
 """
 
 from collections.abc import Iterator, Mapping, Sequence

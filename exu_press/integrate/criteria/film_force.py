@@ -11,8 +11,8 @@ __all__ = ["FilmForceError"]
 class FilmForceError:
     """Deviation of a film's force F from the line between a step's ends, over its limit.
 
-    A force that turns by an angle theta bulges by |F| theta^2 / 8 beside this line. With that of
-    both ends, |F|^2 = |F_0| |F_1|, and theta^2 / 2 as 1 - cos(theta)::
+    A force that turns by an angle theta bulges by `|F| theta^2 / 8` beside this line. With that of
+    both ends, `|F|^2 = |F_0| |F_1|`, and theta^2 / 2 as 1 - cos(theta)::
 
         (|F_0| |F_1| - F_0 . F_1) / (4 sqrt(|F_0| |F_1|))    over tol max |F|
 

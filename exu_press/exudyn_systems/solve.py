@@ -60,8 +60,7 @@ def solve_dynamic(
       Euclidean norm over its largest change,
     - each first-order coordinate, and each value of each sensor, over its largest magnitude.
 
-    No scale is below a millionth of the largest one of its like (of sensors of one type, of changes
-    of coordinates), as rounding alone moves what is smaller.
+    No scale is below a millionth of the largest one of its like: rounding moves what is smaller.
 
     Earlier levels run in copies of this process: functions that remember begin afresh. The system,
     its sensors and its files hold the last one. No level has fewer steps than an eighth of

@@ -26,7 +26,6 @@ class NewtonFilter:
         self._number = -1  # of the Jacobian at hand
         self._jacobian, self._equations = np.zeros((0, 0)), Equations(np.zeros((0, 0)))
         self._roundoff = -1.0  # of its constraints, m, once it was asked for
-        # where the step begins, as the one before left it
         self._start = np.array(self._positions)
         self._start_time = 0.0
 

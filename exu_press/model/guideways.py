@@ -35,7 +35,7 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
             middle=body.centre_of_mass,
             direction=guide.direction,
             clearance=guideway.clearance - onset,
-            contact=contact.damped(elastic, guideway.clearance, scene.angular_speed),
+            contact=contact.normal_contact(elastic, guideway.clearance, scene.angular_speed),
             friction=friction.friction(),
             half_width=guideway.half_width,
         )

@@ -29,7 +29,7 @@ def decimated_copy(run: Kind, samples: NDArray[np.intp], summary: Mapping[str, A
     """
     output = run.scene.output
     assert output is not None
-    names = output.kept(run.channels)
+    names = output.kept_channels(run.channels)
     count = len(run.channels["time"].values)
     rows = np.append(np.arange(0, count - 1, output.every), count - 1)
 

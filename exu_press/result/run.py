@@ -44,7 +44,7 @@ def run_once(
     if scene.output is not None and not isinstance(scene.output.channels, str):
         turned = max(SHORT, 2.0 * SHORTEST_RUN * scene.speed_rpm / 60.0)
         short = run_once(scene.replace({"output": None, "revolutions": turned, "settle": 0.0}))
-        scene.output.kept(short.channels)
+        scene.output.kept_channels(short.channels)
     model = build(scene, quiet=quiet)
     if start is not None:
         model = go_on_from(model, start)

@@ -54,9 +54,9 @@ class AppliedLoad:
     sheet: Sheet | None = None
     top: float = 0.0
 
-    def at(self, place: float, velocity: float) -> float:
+    def at(self, position: float, velocity: float) -> float:
         """Return the force, N, at a place on its curve and a velocity of the output, m/s."""
-        force = self.curve(place)
+        force = self.curve(position)
         if self.damping:
             force *= max(0.0, 1.0 - self.damping * velocity)
         return force if self.fade is None else force * closing(velocity, self.fade)
@@ -80,10 +80,10 @@ class AppliedLoad:
             depths = self.top - slider[0], -slider[1]
             return _cutting(self.sheet, time, *depths, memory)
         if self.clock is not None:
-            place = _since(self.clock, time, *crank, memory)
+            position = _since(self.clock, time, *crank, memory)
         else:
-            place = {"time": time, "crank_angle_deg": crank[0], "height": slider[0]}[self.over]
-        pairs = zip(place.tolist(), slider[1].tolist(), strict=True)
+            position = {"time": time, "crank_angle_deg": crank[0], "height": slider[0]}[self.over]
+        pairs = zip(position.tolist(), slider[1].tolist(), strict=True)
         return np.array([self.at(*pair) for pair in pairs])
 
     def moment(self, force: Array, angle: Array) -> Array:
@@ -164,14 +164,14 @@ def applied_load(load: Load, scene: Scene) -> AppliedLoad:
     x, y = load.direction or mechanism.output.direction
     length = math.hypot(x, y)
     (u, v), (dx, dy) = body.centre_of_mass, load.offset or (0.0, 0.0)
-    place = (u + dx, v + dy)
+    position = (u + dx, v + dy)
     if load.joint is not None:
-        place = next(joint.at for joint in mechanism.joints if joint.name == load.joint)
+        position = next(joint.at for joint in mechanism.joints if joint.name == load.joint)
     fade = FADE * _fastest(scene) if load.closing else None
     return AppliedLoad(
         kind=load.kind,
         body=body.name,
-        point=body.local(place),
+        point=body.local(position),
         direction=(x / length, y / length),
         fade=fade,
         **load.law(scene.angular_speed, fade, motor=scene.drive is not None),

@@ -11,7 +11,7 @@ from fnmatch import fnmatchcase
 from typing import Any
 
 from exu_press.mechanism import Mechanism
-from exu_press.scene.changes import named
+from exu_press.scene.changes import gives_key
 from exu_press.scene.joint import SIZES, Joint
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
 from exu_press.scene.usage import LAWS, TABLES
@@ -130,21 +130,22 @@ def keys_of(scene: Scene) -> dict[str, Key]:
     own = mechanism_of(scene).defaults
     defaults = {f"{law}.{key}": value for law in LAWS for key, value in own.get(law, {}).items()}
     defaults["start"] = own.get("start", STARTS[0])
-    found = {}
+    scene_keys = {}
     for name, (value, field) in _flat(scene):
         default = defaults.get(name, field.default)
         if isinstance(value, Mechanism):
             value = f"{value.name}, the scene's own"
         meta = field.metadata
         source = "" if name in _own_laws(scene) else meta["source"]
-        found[name] = Key(name, value, default, meta["unit"], meta["meaning"], source)
-    found |= _joint_keys(scene)
+        scene_keys[name] = Key(name, value, default, meta["unit"], meta["meaning"], source)
+    scene_keys |= _joint_keys(scene)
     for name, body in scene.bodies.items():
-        found |= _keys_in(f"bodies.{name}", body, {"flexible": ""})
+        scene_keys |= _keys_in(f"bodies.{name}", body, {"flexible": ""})
     for name, load in scene.load.items():
-        found |= _keys_in(f"load.{name}", load, {})
+        scene_keys |= _keys_in(f"load.{name}", load, {})
     return {
-        name: dataclasses.replace(key, asked=name in scene.asked) for name, key in found.items()
+        name: dataclasses.replace(key, asked=name in scene.asked)
+        for name, key in scene_keys.items()
     }
 
 
@@ -158,7 +159,7 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
     for assumption in ASSUMPTIONS:
         if scene.press is None and assumption.number not in OF_EVERY_SCENE:
             continue
-        left = tuple(
+        unchanged = tuple(
             key
             for name, key in keys.items()
             if key.assumed and any(fnmatchcase(name, pattern) for pattern in assumption.keys)
@@ -166,15 +167,15 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
         ideal = scene.guide is None or not scene.guide.soft
         by_absence = assumption.keys == ("guide",) and ideal
         by_kind = assumption.keys == ("press",) and scene.press is not None
-        if left or by_absence or by_kind:
-            used[assumption] = left
+        if unchanged or by_absence or by_kind:
+            used[assumption] = unchanged
     return used
 
 
 def engineering_values(scene: Scene) -> list[Key]:
     """Return the defaults that decide results and are neither the scene's nor its mechanism's."""
-    given = [key for key in _decisive(scene).values() if key.source and key.assumed]
-    return given + _slowest_impacts(scene)
+    deciding = [key for key in _decisive(scene).values() if key.source and key.assumed]
+    return deciding + _slowest_impacts(scene)
 
 
 def _slowest_impacts(scene: Scene) -> list[Key]:
@@ -198,19 +199,19 @@ def _slowest_impacts(scene: Scene) -> list[Key]:
 
 def _decisive(scene: Scene) -> dict[str, Key]:
     """Return the keys that a scene uses, without those of laws that all joints have themselves."""
-    return {name: key for name, key in keys_of(scene).items() if _shared(scene, key)}
+    return {name: key for name, key in keys_of(scene).items() if _is_used_by_some(scene, key)}
 
 
-def _shared(scene: Scene, key: Key) -> bool:
+def _is_used_by_some(scene: Scene, key: Key) -> bool:
     """Return whether a key is none of a law, or the law's for some joint or guide."""
     law, _, name = key.name.partition(".")
     if law not in LAWS:
         return True
     if scene.guide is not None and name in scene.guide.law_keys(law, scene.laws[law] or {}):
         return True
-    given = dict.fromkeys(scene.asked)
-    for place, joint in scene.joints.with_clearance.items():
-        if named(f"joints.{place}.{key.name}", scene.joints.groups, given):
+    asked = dict.fromkeys(scene.asked)
+    for joint_name, joint in scene.joints.with_clearance.items():
+        if gives_key(f"joints.{joint_name}.{key.name}", scene.joints.groups, asked):
             continue
         if _nested_value(getattr(joint, law), name) == key.value:
             return True
@@ -255,34 +256,36 @@ def _joint_keys(scene: Scene) -> dict[str, Key]:
     usual = mechanism.defaults.get("joints", {}) if scene.shipped else {}
     sizes = {name: mechanism.defaults.get(name) for name in SIZES}
     by_joint = {j: kind for name, kind in usual.items() for j in scene.joints.members(name)}
-    shown: dict[str, Joint] = {**scene.joints.grouped}
-    shown |= {name: scene.joints[name] for name in by_joint if name in scene.joints.ideal}
-    found = []
-    for name, joint in shown.items():
-        place = f"joints.{name}"
+    joints: dict[str, Joint] = {**scene.joints.grouped}
+    joints |= {name: scene.joints[name] for name in by_joint if name in scene.joints.ideal}
+    joint_keys = []
+    for name, joint in joints.items():
+        joint_name = f"joints.{name}"
         default = by_joint.get(scene.joints.members(name)[0], "ideal")
-        found.append(Key(f"{place}.kind", joint.kind, default, "", "ideal, dry or lubricated"))
-        found += _keys_in(place, joint, sizes).values()
+        joint_keys.append(
+            Key(f"{joint_name}.kind", joint.kind, default, "", "ideal, dry or lubricated")
+        )
+        joint_keys += _keys_in(joint_name, joint, sizes).values()
         for field in dataclasses.fields(joint):
             own, law = getattr(joint, field.name), scene.laws.get(field.name)
             if own is not None and law is not None:
-                keys = _keys_in(f"{place}.{field.name}", own, law)
-                found += (key for key in keys.values() if key.changed)
-    return {key.name: key for key in found}
+                keys = _keys_in(f"{joint_name}.{field.name}", own, law)
+                joint_keys += (key for key in keys.values() if key.changed)
+    return {key.name: key for key in joint_keys}
 
 
-def _keys_in(place: str, table: Table, defaults: Mapping[str, Any]) -> dict[str, Key]:
+def _keys_in(table_name: str, table: Table, defaults: Mapping[str, Any]) -> dict[str, Key]:
     """Return the keys of one table that are given, with other defaults than the declared ones."""
-    found: dict[str, Key] = {}
+    table_keys: dict[str, Key] = {}
     for key, value, field in key_values(table):
-        name, meta = f"{place}.{key}", field.metadata
+        name, meta = f"{table_name}.{key}", field.metadata
         if isinstance(value, Table) and "nested" in meta:
             usual = defaults.get(key)
-            found |= _keys_in(name, value, {} if usual is None else _values(usual))
+            table_keys |= _keys_in(name, value, {} if usual is None else _values(usual))
         elif "meaning" in meta and value is not None:
             default = defaults.get(key, field.default)
-            found[name] = Key(name, value, default, meta["unit"], meta["meaning"])
-    return found
+            table_keys[name] = Key(name, value, default, meta["unit"], meta["meaning"])
+    return table_keys
 
 
 def _values(table: Table) -> dict[str, Any]:
@@ -319,10 +322,10 @@ def _law_keys(scene: Scene, law: str) -> Iterator[Declared]:
             yield f"{law}.{name}", (value, fields[name])
 
 
-def _inside(place: str, table: Table) -> Iterator[Declared]:
+def _inside(table_name: str, table: Table) -> Iterator[Declared]:
     """Yield the same of one table, and of the tables within it."""
     for key, value, field in key_values(table):
-        name = f"{place}.{key}"
+        name = f"{table_name}.{key}"
         if isinstance(value, Table):
             yield from _inside(name, value)
         elif value is not None:

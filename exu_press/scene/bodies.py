@@ -167,7 +167,7 @@ class Flexible(Table):
 
 
 def bodies_of(
-    given: Any, mechanism: str, joints: Mapping[str, Sequence[str]]
+    tables: Any, mechanism: str, joints: Mapping[str, Sequence[str]]
 ) -> dict[str, Flexible]:
     """Return the flexible bodies of a scene.
 
@@ -180,23 +180,23 @@ def bodies_of(
     Raises:
         InputError: there is no such body or joint, or a key is not allowed.
     """
-    if not isinstance(given, Mapping):
-        raise InputError(f"bodies = {given!r}: allowed is a table for each flexible body")
-    found = {}
-    for name, value in given.items():
-        shown = repr(value) if isinstance(value, str) else "..."
-        demand_known(f"bodies.{name} = {shown}: {mechanism} has no such body", name, joints)
+    if not isinstance(tables, Mapping):
+        raise InputError(f"bodies = {tables!r}: allowed is a table for each flexible body")
+    bodies = {}
+    for name, value in tables.items():
+        value_text = repr(value) if isinstance(value, str) else "..."
+        demand_known(f"bodies.{name} = {value_text}: {mechanism} has no such body", name, joints)
         if not isinstance(value, (str, Mapping, Flexible)):
             raise InputError(
                 f"bodies.{name} = {value!r}: allowed is a shipped part, a STEP file's path, or a "
                 "table of keys"
             )
         with error_prefix(f"bodies.{name}."):
-            body = found[name] = table_from(Flexible, "", _keys(value))
+            body = bodies[name] = table_from(Flexible, "", _keys(value))
         for joint in body.faces:
             said = f"bodies.{name}.faces.{joint}: {name} has no such joint"
             demand_known(said, joint, joints[name])
-    return found
+    return bodies
 
 
 def flexible_press(**keys: Any) -> dict[str, dict[str, Any]]:
@@ -214,8 +214,8 @@ def flexible_press(**keys: Any) -> dict[str, dict[str, Any]]:
 def body_dict(body: Flexible) -> dict[str, Any]:
     """Return a flexible body as a nested mapping of the keys it gives."""
     faces = {joint: [face_dict(face) for face in faces] for joint, faces in body.faces.items()}
-    found = {name: value for name, value in plain(body).items() if name != "faces"}
-    return {**found, "faces": faces} if faces else found
+    keys = {name: value for name, value in plain(body).items() if name != "faces"}
+    return {**keys, "faces": faces} if faces else keys
 
 
 def changed_bodies(
@@ -245,31 +245,31 @@ def require_rainflow() -> Any:
     return required_package("rainflow", "sn_stress", "'exu-press[fatigue]'")
 
 
-def _keys(given: Any) -> Any:
-    return {"flexible": given} if isinstance(given, str) else given
+def _keys(body: Any) -> Any:
+    return {"flexible": body} if isinstance(body, str) else body
 
 
-def faces_given(given: Any) -> dict[str, tuple[Face, ...]]:
+def faces_given(table: Any) -> dict[str, tuple[Face, ...]]:
     """Return joint -> faces of a scene file or a shipped part.
 
     Raises:
         InputError: a face is none.
     """
-    if not isinstance(given, Mapping):
-        raise InputError(f"faces = {given!r}: allowed is a table of joints' names")
-    found = {
-        name: patch_given(f"faces.{name}", each)
+    if not isinstance(table, Mapping):
+        raise InputError(f"faces = {table!r}: allowed is a table of joints' names")
+    faces = {
+        name: patch_given(f"faces.{name}", value)
         if name == GUIDE_FACE
-        else _faces(f"faces.{name}", each, OF_A_JOINT)
-        for name, each in given.items()
+        else _faces(f"faces.{name}", value, OF_A_JOINT)
+        for name, value in table.items()
     }
-    driven = found.get(DRIVE_FACE)
+    driven = faces.get(DRIVE_FACE)
     if driven is not None and (len(driven) != 1 or not driven[0].name):
-        raise InputError(f"faces.{DRIVE_FACE} = {given[DRIVE_FACE]!r}: allowed is a face's name")
-    return found
+        raise InputError(f"faces.{DRIVE_FACE} = {table[DRIVE_FACE]!r}: allowed is a face's name")
+    return faces
 
 
-def patch_given(where: str, given: Any) -> tuple[Face, ...]:
+def patch_given(where: str, value: Any) -> tuple[Face, ...]:
     """Return the faces that a guide or a load holds together.
 
     Args:
@@ -279,7 +279,7 @@ def patch_given(where: str, given: Any) -> tuple[Face, ...]:
     Raises:
         InputError: a face is none, or has neither a name nor a range.
     """
-    faces = _faces(where, given, OF_A_PATCH)
+    faces = _faces(where, value, OF_A_PATCH)
     for face in faces:
         if bool(face.name) == any(face.ranges):
             raise InputError(
@@ -289,31 +289,31 @@ def patch_given(where: str, given: Any) -> tuple[Face, ...]:
     return faces
 
 
-def _faces(where: str, given: Any, known: tuple[str, ...]) -> tuple[Face, ...]:
+def _faces(where: str, value: Any, known: tuple[str, ...]) -> tuple[Face, ...]:
     """Return faces: one or a list of them, each a name or a table."""
-    each = given if isinstance(given, (list, tuple)) else [given]
-    if not each:
+    values = value if isinstance(value, (list, tuple)) else [value]
+    if not values:
         raise InputError(f"{where} = []: allowed is at least one face")
-    return tuple(_face(where, one, known) for one in each)
+    return tuple(_face(where, face, known) for face in values)
 
 
-def _face(where: str, given: Any, known: tuple[str, ...]) -> Face:
-    if isinstance(given, Face):
-        return given
-    if isinstance(given, str):
-        given = {"name": given}
-    if not isinstance(given, Mapping):
+def _face(where: str, value: Any, known: tuple[str, ...]) -> Face:
+    if isinstance(value, Face):
+        return value
+    if isinstance(value, str):
+        value = {"name": value}
+    if not isinstance(value, Mapping):
         raise InputError(
-            f"{where} = {given!r}: allowed is a face's name, or a table of {', '.join(known)}"
+            f"{where} = {value!r}: allowed is a face's name, or a table of {', '.join(known)}"
         )
-    refuse_unknown(where, given, known)
+    refuse_unknown(where, value, known)
     with error_prefix(f"{where}."):
-        return Face(**given)
+        return Face(**value)
 
 
 def face_dict(face: Face) -> Any:
     """Return a face as a scene file has it."""
-    given = {k: v for k, v in dataclasses.asdict(face).items() if v != Face.__dict__.get(k)}
-    if list(given) == ["name"]:
+    keys = {k: v for k, v in dataclasses.asdict(face).items() if v != Face.__dict__.get(k)}
+    if list(keys) == ["name"]:
         return face.name
-    return {k: list(v) if isinstance(v, tuple) else v for k, v in given.items()}
+    return {k: list(v) if isinstance(v, tuple) else v for k, v in keys.items()}

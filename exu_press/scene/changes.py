@@ -19,7 +19,7 @@ from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import nearest
 from exu_press.schema.table import RENAMED, changed_table, given_keys
 
-__all__ = ["asked_mechanism", "changed_keys", "drop", "named"]
+__all__ = ["asked_mechanism", "changed_keys", "drop", "gives_key"]
 
 DRAWN = "bodies", "joints", "guides", "output"
 """Tables of a mechanism that a scene changes; its defaults have become the scene's own keys."""
@@ -46,7 +46,7 @@ def changed_keys(
             inner.setdefault(table, {})[key] = value
     joints, bodies, loads = (inner.pop(name) for name in ("joints", "bodies", "load"))
     if drawing := inner.pop("mechanism", None):
-        drawn = _drawn(data["mechanism"], drawing)
+        drawn = _drawing_keys(data["mechanism"], drawing)
         with error_prefix("mechanism."):
             data["mechanism"] = change_mechanism(drawn, drawing)
     for table, keys in inner.items():
@@ -82,7 +82,7 @@ def asked_mechanism(mechanism: Any) -> Any:
     return mechanism
 
 
-def _drawn(mechanism: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
+def _drawing_keys(mechanism: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return the mechanism of a scene as a nested mapping, of which keys are to be changed."""
     for key, value in changes.items():
         if key.partition(".")[0] not in DRAWN:
@@ -102,7 +102,7 @@ def _drawn(mechanism: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
     )
 
 
-def named(name: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]) -> bool:
+def gives_key(name: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]) -> bool:
     """Return whether changes give a key or a table, or a key of it, themselves.
 
     Args:
@@ -115,10 +115,10 @@ def named(name: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping[str
         joint, _, inner = rest.partition(".")
         for member in groups.get(joint, (joint,)) if first == "joints" and rest else ("",):
             parts = ["joints", member, *([inner] if inner else [])] if member else [changed]
-            place = ".".join(parts)
-            if name == place or place.startswith(f"{name}."):
+            path = ".".join(parts)
+            if name == path or path.startswith(f"{name}."):
                 return True
-            if name.startswith(f"{place}.") and _has(value, name.removeprefix(f"{place}.")):
+            if name.startswith(f"{path}.") and _has(value, name.removeprefix(f"{path}.")):
                 return True
     return False
 

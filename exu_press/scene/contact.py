@@ -242,7 +242,9 @@ class Contact(Table):
     damping: ContactDamping
     tension: bool
 
-    def damped(self, stiffness: Stiffness, clearance: float, crank_speed: float) -> NormalContact:
+    def normal_contact(
+        self, stiffness: Stiffness, clearance: float, crank_speed: float
+    ) -> NormalContact:
         """Return the normal contact with an elastic part.
 
         Args:

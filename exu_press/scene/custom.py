@@ -61,7 +61,7 @@ class UnresolvedJoint(CustomJoint):
     keys: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)
 
     @classmethod
-    def of(cls, name: str, keys: Mapping[str, Any]) -> Self:
+    def from_keys(cls, name: str, keys: Mapping[str, Any]) -> Self:
         """Return the joint of a kind and its keys."""
         clearance: Any = keys.get("clearance")
         return cls(clearance, name, keys)

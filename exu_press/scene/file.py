@@ -27,7 +27,7 @@ def scene_tables(path: Path) -> dict[str, Any]:
     if str(data.get("mechanism", "")).lower().endswith(".toml"):
         data["mechanism"] = str(path.parent / data["mechanism"])
     if isinstance(bodies := data.get("bodies"), dict):
-        data["bodies"] = {name: _beside(path, body) for name, body in bodies.items()}
+        data["bodies"] = {name: _keys_beside(path, body) for name, body in bodies.items()}
     if "load" in data:
         from exu_press.scene.loads import with_files_beside
 
@@ -35,10 +35,10 @@ def scene_tables(path: Path) -> dict[str, Any]:
     return data
 
 
-def _beside(scene: Path, body: Any) -> Any:
+def _keys_beside(scene: Path, body: Any) -> Any:
     """Return a flexible body with its STEP file's path taken from the scene file's directory."""
     if isinstance(body, dict) and "flexible" in body:
-        return {**body, "flexible": _beside(scene, body["flexible"])}
+        return {**body, "flexible": _keys_beside(scene, body["flexible"])}
     is_file = isinstance(body, str) and body.lower().endswith(STEP_FILES)
     return str(scene.parent / body) if is_file else body
 
@@ -54,7 +54,7 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     Raises:
         InputError: there is no key, no value or no equals sign.
     """
-    name, equals, value = (part.strip() for part in text.partition("="))
+    name, equals, value = (text_part.strip() for text_part in text.partition("="))
     if not (name and equals and value):
         raise InputError(f"--set {text}: allowed is key=value, as in film.viscosity=0.1")
     try:

@@ -18,7 +18,7 @@ from exu_press.scene.oil import Oil
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind
 from exu_press.schema.registry import Registry, choice
-from exu_press.schema.table import Table, nested
+from exu_press.schema.table import Table, nested_table
 
 __all__ = ["FILMS", "BallFilm", "Film", "FilmLaw", "JournalFilm"]
 
@@ -191,7 +191,7 @@ class JournalFilm(Film):
     viscosity: float = _viscosity()
     length: float = key(None, "bearing length (A-12); a ball has none", "m", above=0, example=0.05)
     at_contact: StopAtContact | MixedFilm = choice("stop", AT_CONTACT_MEANING, AT_CONTACT)
-    oil: Oil | None = nested("scene.oil:Oil")
+    oil: Oil | None = nested_table("scene.oil:Oil")
 
     def film_law(self, radius: float, clearance: float) -> JournalLaw:
         """Return the law of a journal of a radius and a clearance, m, also beyond contact."""
@@ -244,7 +244,7 @@ class BallFilm(Film):
         source="two hemispheres",
     )
     at_contact: StopAtContact | MixedFilm = choice("stop", AT_CONTACT_MEANING, AT_CONTACT)
-    oil: Oil | None = nested("scene.oil:Oil")
+    oil: Oil | None = nested_table("scene.oil:Oil")
 
     def ball_film(self, clearance: float) -> BallLaw:
         """Return the film of a ball with a clearance, m."""

@@ -81,10 +81,10 @@ def guide_friction(law: type[FrictionLaw], keys: Mapping[str, Any]) -> GuideFric
 
 def _keys_of_guides(law: type[FrictionLaw]) -> type[GuideFriction]:
     """Return the keys of guides for a law of friction."""
-    own, others = [], []
+    own, law_keys = [], []
     for field in dataclasses.fields(law):
         if field.name not in OF_GUIDES:
-            others.append(field.name)
+            law_keys.append(field.name)
             continue
         default, metadata = field.default, dict(field.metadata)
         if field.name == "regularisation_velocity":
@@ -95,7 +95,7 @@ def _keys_of_guides(law: type[FrictionLaw]) -> type[GuideFriction]:
     namespace = {
         "law_kind": kind_name(law),
         "law_type": law,
-        "law_keys": tuple(others),
+        "law_keys": tuple(law_keys),
         "resolved": law.resolved,
     }
     kind: type[GuideFriction] = dataclasses.make_dataclass(
@@ -270,9 +270,9 @@ class ElasticGuide(Table):
         """Return the law of friction; keys that [guide] lacks are those of [friction]."""
         resolved = self.friction.resolved
         names = self.friction.law_keys if resolved else [name for name in keys if name != "law"]
-        others = {name: keys[name] for name in names if name in keys}
+        shared = {name: keys[name] for name in names if name in keys}
         own = {"law": self.friction.kind, **plain(self.friction)}
-        return resolve(Friction, "friction", {**others, **own})
+        return resolve(Friction, "friction", {**shared, **own})
 
     def law_keys(self, law: str, keys: Mapping[str, Any]) -> dict[str, dataclasses.Field[Any]]:
         """Return the keys of [contact] or [friction] that the guides use, with declarations.

@@ -152,7 +152,7 @@ class TouchingJoint(Joint):
         if self.contact is None or not self.contact.damping.resolved:
             return None
         elastic = self.contact.elastic_force(self.radius, self.clearance, self.film_length)
-        return self.contact.damped(elastic, self.clearance, crank_speed)
+        return self.contact.normal_contact(elastic, self.clearance, crank_speed)
 
 
 def _clearance() -> Any:

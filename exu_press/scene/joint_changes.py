@@ -8,7 +8,7 @@ from exu_press.scene.joint import IdealJoint, Joint
 from exu_press.scene.joints import joint_keys
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import nearest
-from exu_press.schema.registry import loaded
+from exu_press.schema.registry import load_object
 from exu_press.schema.table import changed_table
 
 __all__ = ["by_group", "changed_joints", "unused_laws"]
@@ -21,9 +21,9 @@ def unused_laws(joints: Collection[Joint]) -> dict[str, str]:
     touching = "no joint is 'dry' or has a mixed film"
     reasons = {"contact": touching, "friction": touching, "film": "no joint is 'lubricated'"}
     used = {law for law in reasons for joint in joints if getattr(joint, law, None) is not None}
-    found = {law: reason for law, reason in reasons.items() if law not in used}
+    unused = {law: reason for law, reason in reasons.items() if law not in used}
     ideal = all(isinstance(joint, IdealJoint) for joint in joints)
-    return {**found, "start": "every joint is ideal"} if ideal else found
+    return {**unused, "start": "every joint is ideal"} if ideal else unused
 
 
 def changed_joints(
@@ -49,7 +49,7 @@ def changed_joints(
             elif not last:
                 keys[key or "kind"] = value
             elif key in TABLES_OF_JOINTS and isinstance(keys.setdefault(key, {}), dict):
-                kind = loaded("scene.worn:Worn") if key == "worn" else TABLES[key]
+                kind = load_object("scene.worn:Worn") if key == "worn" else TABLES[key]
                 keys[key] = changed_table(kind, keys[key], {last: value})
             else:
                 raise InputError(

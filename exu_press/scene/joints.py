@@ -86,7 +86,7 @@ class Joints(Mapping[str, Joint]):
     def grouped(self) -> dict[str, Joint]:
         """The joints with clearance, those of a group that are all the same under its name."""
         loose = self.with_clearance
-        shown: dict[str, Joint] = {}
+        joints: dict[str, Joint] = {}
         for name, joint in loose.items():
             group = next(
                 (
@@ -96,8 +96,8 @@ class Joints(Mapping[str, Joint]):
                 ),
                 name,
             )
-            shown.setdefault(group, joint)
-        return shown
+            joints.setdefault(group, joint)
+        return joints
 
     def to_dict(self, laws: Mapping[str, Mapping[str, Any] | None]) -> dict[str, dict[str, Any]]:
         """Return the joints with clearance as nested mappings.
@@ -194,9 +194,9 @@ def joints_of(
             raise InputError(_unknown(name, mechanism, spherical, groups, table))
     complete = {}
     for name, is_ball in spherical.items():
-        shown, keys = by_group.get(name, name), own.get(name, {"kind": "ideal"})
-        shown = name if name in tables else shown
-        complete[name] = _joint(shown, keys, laws, sizes, spherical=is_ball)
+        shown_name, keys = by_group.get(name, name), own.get(name, {"kind": "ideal"})
+        shown_name = name if name in tables else shown_name
+        complete[name] = _joint(shown_name, keys, laws, sizes, spherical=is_ball)
     balls = [name for name, is_ball in spherical.items() if is_ball]
     joints = Joints(complete, mechanism, groups, balls)
     for name, table in tables.items():
@@ -211,9 +211,9 @@ def _refuse_unused(name: str, table: Mapping[str, Any], joints: Joints, laws: La
         used = joints.law_keys(law, members)
         for key, value in given_keys(table.get(law)).items():
             if used and key not in used and value is not None:
-                place = f"joints.{name}.{law}.{key}"
-                reason = joints.unused_reason(law, key, laws.of(law), members)
-                raise UnusedKeyError(place, f"{place} = {value!r}", reason)
+                path = f"joints.{name}.{law}.{key}"
+                reason = joints.unused_reason(law, key, laws.keys_of(law), members)
+                raise UnusedKeyError(path, f"{path} = {value!r}", reason)
 
 
 def joint_keys(name: str, table: Any) -> dict[str, Any]:
@@ -286,7 +286,7 @@ def _check_names(place: str, law: str, own: Any, laws: LawKeys, spherical: bool)
         raise InputError(f"{place}.{law} = {own!r:.200}: allowed is a table of keys")
     keys = given_keys(own)
     with error_prefix(f"{place}."):
-        merged = changed_table(kind, laws.of(law), keys)
+        merged = changed_table(kind, laws.keys_of(law), keys)
         refuse_unknown_keys([*LAWS[law].values()], law, keys, used_names(kind, law, merged))
 
 
@@ -294,7 +294,7 @@ def _law(place: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> Any:
     """Return a joint's law: the scene's, but for its own keys."""
     kind = law_kind(law, spherical)
     with error_prefix(f"{place}."):
-        return resolve(kind, law, changed_table(kind, laws.of(law), given_keys(own)))
+        return resolve(kind, law, changed_table(kind, laws.keys_of(law), given_keys(own)))
 
 
 def _unknown(
@@ -302,8 +302,8 @@ def _unknown(
 ) -> str:
     groups = list(groups)
     known = [*joints, *groups]
-    shown = "" if table is None else f" = {table!r}"
+    value_text = "" if table is None else f" = {table!r}"
     return (
-        f"joints.{name}{shown}: {mechanism} has no such joint{' or group' if groups else ''}"
+        f"joints.{name}{value_text}: {mechanism} has no such joint{' or group' if groups else ''}"
         f"{nearest(name, known)}; allowed are {', '.join(known)}"
     )

@@ -40,9 +40,9 @@ class LawKeys:
         self._checked: dict[str, dict[str, Any]] = {}
         for law, keys in given.items():
             if keys is not None:
-                self.of(law)
+                self.keys_of(law)
 
-    def of(self, law: str) -> dict[str, Any]:
+    def keys_of(self, law: str) -> dict[str, Any]:
         """Return the keys of a law, checked when they are first asked for."""
         if law not in self._checked:
             kinds = list(LAWS[law].values())

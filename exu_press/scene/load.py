@@ -147,7 +147,7 @@ class UnresolvedLoad(CustomLoad):
     keys: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)
 
     @classmethod
-    def of(cls, name: str, keys: Mapping[str, Any]) -> Self:
+    def from_keys(cls, name: str, keys: Mapping[str, Any]) -> Self:
         """Return the load of a kind and its keys."""
         placed = {k: v for k, v in keys.items() if k in PLACE}
         return cls(**placed, name=name, keys=keys)

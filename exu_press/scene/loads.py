@@ -17,7 +17,7 @@ __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
 
 
 def loads_of(
-    given: Any, mechanism: Mechanism, flexible: Collection[str], speed_rpm: float
+    tables: Any, mechanism: Mechanism, flexible: Collection[str], speed_rpm: float
 ) -> dict[str, Load]:
     """Return the loads of a scene, by name, in the order in which it gives them.
 
@@ -32,14 +32,14 @@ def loads_of(
             allowed, a body or a joint that there is not, a place on a flexible body where nothing
             carries it, or a file that is no table.
     """
-    if not isinstance(given or {}, Mapping):
-        raise InputError(f"load = {given!r}: allowed is a table of loads")
-    found = {}
-    for name, value in (given or {}).items():
+    if not isinstance(tables or {}, Mapping):
+        raise InputError(f"load = {tables!r}: allowed is a table of loads")
+    loads = {}
+    for name, value in (tables or {}).items():
         where = f"load.{name}"
         demand_name("load", name)
         try:
-            found[name] = load = _load(where, value)
+            loads[name] = load = _load(where, value)
         except InputError as error:
             text = str(error)
             raise InputError(text if text.startswith(where) else f"{where}.{text}") from None
@@ -47,7 +47,7 @@ def loads_of(
         load.check_code(where, speed_rpm * RPM)
         with error_prefix(f"{where}."):
             load.check(mechanism, 60.0 / speed_rpm)
-    return found
+    return loads
 
 
 def load_dict(load: Load) -> dict[str, Any]:
@@ -87,15 +87,15 @@ def changed_loads(loads: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[
     return changed
 
 
-def with_files_beside(given: Any, folder: Path) -> Any:
+def with_files_beside(tables: Any, folder: Path) -> Any:
     """Return loads as a file in a folder gives them, the paths of their tables from there."""
-    if not isinstance(given, Mapping):
-        return given
+    if not isinstance(tables, Mapping):
+        return tables
     return {
         name: {**keys, "file": str(folder / keys["file"])}
         if isinstance(keys, Mapping) and isinstance(keys.get("file"), str)
         else keys
-        for name, keys in given.items()
+        for name, keys in tables.items()
     }
 
 
@@ -131,7 +131,11 @@ def _refuse_unknown(kind: str, known: list[str], keys: Mapping[str, Any]) -> Non
     for key, value in keys.items():
         if key in known:
             continue
-        holders = [repr(name) for name, other in LOAD_KINDS.items() if key in declared_keys(other)]
+        holders = [
+            repr(name)
+            for name, kind_class in LOAD_KINDS.items()
+            if key in declared_keys(kind_class)
+        ]
         if holders:
             reason = f"kind is {kind!r}; it belongs to {' or '.join(holders)}"
             raise UnusedKeyError(key, f"{key} = {value!r}", reason)

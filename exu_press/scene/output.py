@@ -63,7 +63,7 @@ class Output(Table):
         """Return whether the file keeps every channel at every step."""
         return self.channels == "all" and self.every == 1
 
-    def kept(self, names: Iterable[str]) -> list[str]:
+    def kept_channels(self, names: Iterable[str]) -> list[str]:
         """Return those of some channels that the file keeps, with time and crank angle.
 
         Raises:
@@ -72,7 +72,7 @@ class Output(Table):
         known = list(names)
         if isinstance(self.channels, str):
             return known
-        found = {*ALWAYS}
+        names_kept = {*ALWAYS}
         for pattern in self.channels:
             matching = fnmatch.filter(known, pattern)
             if not matching:
@@ -80,8 +80,8 @@ class Output(Table):
                     f"output.channels: {pattern!r} is no channel of this scene"
                     f"{nearest(pattern, known)}; allowed are patterns, and {', '.join(known)}"
                 )
-            found.update(matching)
-        return [name for name in known if name in found]
+            names_kept.update(matching)
+        return [name for name in known if name in names_kept]
 
     def section(self, start: float) -> "Section":
         """Return the samples of a run that starts at a crank angle, rad."""

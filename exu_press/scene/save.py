@@ -152,13 +152,13 @@ def joint_lines(joints: Joints, laws: Laws, comments: bool) -> list[str]:
 
 
 def _given_lines(
-    given: Mapping[str, Any], meanings: Mapping[str, str], comments: bool, absent: bool
+    values: Mapping[str, Any], meanings: Mapping[str, str], comments: bool, absent: bool
 ) -> list[str]:
     """Return the keys that are given, in the order of their meanings, or all of them."""
     keys = {
-        f"{name} = {toml_text(given[name])}" if name in given else f"# {name} =": meaning
+        f"{name} = {toml_text(values[name])}" if name in values else f"# {name} =": meaning
         for name, meaning in meanings.items()
-        if absent or name in given
+        if absent or name in values
     }
     return _lines(keys, comments)
 

@@ -20,7 +20,7 @@ from exu_press.mechanism import (
 from exu_press.mechanism import Joint as Drawn
 from exu_press.mechanism.kinematics import MotionError
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
-from exu_press.scene.changes import asked_mechanism, changed_keys, drop, named
+from exu_press.scene.changes import asked_mechanism, changed_keys, drop, gives_key
 from exu_press.scene.custom import UnresolvedJoint
 from exu_press.scene.joint import JOINT_KINDS, SIZES, oil_of
 from exu_press.scene.joint_changes import by_group, unused_laws
@@ -43,7 +43,7 @@ LONGEST_RUN = 1e9
 WARM = 3.0
 """Revolutions in which films find their temperature."""
 
-STARTS = ("loaded", "centred")
+STARTS = ("load_object", "centred")
 """The first one is that of a mechanism without a default of its own."""
 
 ONLY_WHERE_GIVEN = ("drive", "guide", "output", "wear")
@@ -128,7 +128,7 @@ class Scene(Table):
 
     def __post_init__(self) -> None:
         """Check the keys, refuse those that the scene does not use and fill in the others."""
-        object.__setattr__(self, "asked", frozenset(given_names(self.given)))
+        object.__setattr__(self, "asked", frozenset(given_names(self.given_values)))
         object.__setattr__(self, "mechanism", asked_mechanism(self.mechanism))
         super().__post_init__()
         if not SHORTEST_RUN <= self.duration <= LONGEST_RUN:
@@ -143,13 +143,13 @@ class Scene(Table):
             )
         unused = unused_tables(self.mechanism)
         for name in TABLES:
-            given = getattr(self, name)
+            table = getattr(self, name)
             if name in LAWS:  # their defaults are the mechanism's
                 continue
-            self._refuse(unused, name, given)
-            if given is None and (name in unused or name in ONLY_WHERE_GIVEN):
+            self._refuse(unused, name, table)
+            if table is None and (name in unused or name in ONLY_WHERE_GIVEN):
                 continue
-            table = table_from(TABLES[name], name, {} if given is None else given)
+            table = table_from(TABLES[name], name, {} if table is None else table)
             object.__setattr__(self, name, table)
         sampled = self.output is not None and self.output.samples
         if sampled and self.solver is not None and self.solver.step is not None:
@@ -200,7 +200,7 @@ class Scene(Table):
         for law in LAWS:
             self._settle_law(law, laws, unused.get(law, ""))
         if self.guide is not None and self.guide.guideways is not None:
-            contact = self.guide.contact(laws.of("contact"))
+            contact = self.guide.contact(laws.keys_of("contact"))
             assert contact is not None
             demand_keys("guide.clearance", contact, (), "contact", "[contact]")
 
@@ -224,17 +224,19 @@ class Scene(Table):
         """
         of_guides: Mapping[str, Any] = {}
         if self.guide is not None and law != "film":
-            of_guides = self.guide.law_keys(law, laws.of(law))
+            of_guides = self.guide.law_keys(law, laws.keys_of(law))
         used = {**self.joints.law_keys(law), **of_guides}
         if not of_guides:
             self._refuse({law: unused} if unused else {}, law, laws.given[law])
         for name, value in (laws.given[law] or {}).items():
             if name not in used and value is not None:
                 reason = f"{unused}, and guides do not use it" if unused else ""
-                reason = reason or self.joints.unused_reason(law, name, laws.of(law), self.joints)
-                place = f"{law}.{name}"
-                raise UnusedKeyError(place, f"{place} = {laws.of(law)[name]!r}", reason)
-        keys = {name: laws.of(law).get(name, field.default) for name, field in used.items()}
+                reason = reason or self.joints.unused_reason(
+                    law, name, laws.keys_of(law), self.joints
+                )
+                path = f"{law}.{name}"
+                raise UnusedKeyError(path, f"{path} = {laws.keys_of(law)[name]!r}", reason)
+        keys = {name: laws.keys_of(law).get(name, field.default) for name, field in used.items()}
         keys = {name: value for name, value in keys.items() if value is not None}
         object.__setattr__(self, law, keys if used else None)
 
@@ -243,7 +245,7 @@ class Scene(Table):
         if self.wear is None:
             return
         mechanism = mechanism_of(self)
-        joints = {joint.name: self._unrubbed(joint) for joint in mechanism.joints}
+        joints = {joint.name: self._why_unworn(joint) for joint in mechanism.joints}
         why = "guide.clearance is not given"
         guides = {g.body: "" if g.guideway is not None else why for g in mechanism.guides}
         if all((*joints.values(), *guides.values())):
@@ -252,7 +254,7 @@ class Scene(Table):
         wear = self.wear.check_places(joints, guides, mechanism.groups)
         object.__setattr__(self, "wear", wear)
 
-    def _unrubbed(self, drawn: Drawn) -> str:
+    def _why_unworn(self, drawn: Drawn) -> str:
         """Return why a joint does not wear, or nothing."""
         if drawn.spherical:
             return f"joints.{drawn.name} is a ball"
@@ -358,32 +360,34 @@ class Scene(Table):
             changes: dotted name of a key or table -> its value; None leaves it out.
         """
         data, groups = self.to_dict(), self.joints.groups
-        kept = [n for n in self.asked if not any(f"{n}.".startswith(f"{c}.") for c in changes)]
-        asked = frozenset([*kept, *given_names(changes)])
+        still_asked = [
+            n for n in self.asked if not any(f"{n}.".startswith(f"{c}.") for c in changes)
+        ]
+        asked = frozenset([*still_asked, *given_names(changes)])
         if (mechanism := changes.get("mechanism", self.mechanism)) != self.mechanism:
-            other = Scene.from_dict({"mechanism": mechanism})
-            same = {name: joint for name, joint in self.joints.items() if name in other.joints}
+            scene = Scene.from_dict({"mechanism": mechanism})
+            same = {name: joint for name, joint in self.joints.items() if name in scene.joints}
             data["joints"] = {
-                **other.joints.to_dict(other.laws),
+                **scene.joints.to_dict(scene.laws),
                 **{name: joint.to_dict(self.laws) for name, joint in same.items()},
             }
             own = {"start": STARTS[0], **mechanism_of(self).defaults}  # the other has its own
             if self.start == own["start"]:
                 data.pop("start", None)
             for name in same:
-                data["joints"][name] = _beyond(data["joints"][name], own)
+                data["joints"][name] = _differing_keys(data["joints"][name], own)
             for name in LAWS:
                 if name in data:
-                    data[name] = _beyond(data[name], own.get(name, {}))
-            groups, asked = other.joints.groups, frozenset(given_names(changes))
-            there = {body.name for body in mechanism_of(other).bodies}
+                    data[name] = _differing_keys(data[name], own.get(name, {}))
+            groups, asked = scene.joints.groups, frozenset(given_names(changes))
+            there = {body.name for body in mechanism_of(scene).bodies}
             data["bodies"] = {n: k for n, k in data.get("bodies", {}).items() if n in there}
         data = changed_keys(data, groups, changes)
         while True:
             try:
                 return Scene.from_dict(data, asked, resolve=not self.unresolved)
             except InputError as error:
-                if not isinstance(error, UnusedKeyError) or named(error.name, groups, changes):
+                if not isinstance(error, UnusedKeyError) or gives_key(error.name, groups, changes):
                     raise InputError(by_group(str(error), groups, changes)) from None
                 drop(data, error.name)
 
@@ -478,11 +482,11 @@ class Scene(Table):
         return math.radians(self.start_angle_deg)
 
     @staticmethod
-    def _refuse(unused: Mapping[str, str], name: str, given: Any, table: str = "") -> None:
-        if given is not None and name in unused:
+    def _refuse(unused: Mapping[str, str], name: str, value: Any, table: str = "") -> None:
+        if value is not None and name in unused:
             dotted = f"{table}.{name}" if table else name
-            shown = f"[{name}]" if dotted in TABLES else f"{dotted} = {given!r}"
-            raise UnusedKeyError(dotted, shown, unused[name])
+            value_text = f"[{name}]" if dotted in TABLES else f"{dotted} = {value!r}"
+            raise UnusedKeyError(dotted, value_text, unused[name])
 
 
 def _load(path: str | Path, assignments: Iterable[str] = (), *, allow_code: bool = False) -> Scene:
@@ -558,8 +562,8 @@ def mechanism_of(scene: Scene) -> Mechanism:
     return with_elastic_guides(drawn, scene.guide)
 
 
-def _beyond(given: Mapping[str, Any], usual: Mapping[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in given.items() if usual.get(key) != value}
+def _differing_keys(keys: Mapping[str, Any], usual: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in keys.items() if usual.get(key) != value}
 
 
 def _with_flywheel(drawn: Mechanism, inertia: float) -> Mechanism:

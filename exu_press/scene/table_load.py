@@ -42,16 +42,18 @@ class TableLoad(Load):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        given = [name for name in COLUMNS if getattr(self, name) is not None]
-        if len(given) != 1 or self.force is None:
-            shown = ", ".join([*given, *(["force"] if self.force is not None else [])]) or "nothing"
-            raise InputError(
-                f"{shown} given: allowed is file, a CSV, or one of {', '.join(COLUMNS)} with force"
+        columns = [name for name in COLUMNS if getattr(self, name) is not None]
+        if len(columns) != 1 or self.force is None:
+            names = (
+                ", ".join([*columns, *(["force"] if self.force is not None else [])]) or "nothing"
             )
-        places = getattr(self, given[0])
-        check_columns((given[0], "force"), places, self.force)
-        check_increasing(given[0], places)
-        if given[0] == "crank_angle_deg":
+            raise InputError(
+                f"{names} given: allowed is file, a CSV, or one of {', '.join(COLUMNS)} with force"
+            )
+        places = getattr(self, columns[0])
+        check_columns((columns[0], "force"), places, self.force)
+        check_increasing(columns[0], places)
+        if columns[0] == "crank_angle_deg":
             turn = places[-1] - places[0]
             if turn > 360.0 or (turn == 360.0 and self.force[0] != self.force[-1]):
                 raise InputError(

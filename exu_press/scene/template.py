@@ -26,7 +26,7 @@ from exu_press.schema.table import Table, table_from
 __all__ = ["template"]
 
 
-def template(mechanism: str, shown: str = "") -> str:
+def template(mechanism: str, path_text: str = "") -> str:
     """Return a scene of a mechanism as TOML: keys in use as they stand, others as comments.
 
     Every key has its meaning and unit behind it; a table that is not in use has its defaults.
@@ -39,7 +39,7 @@ def template(mechanism: str, shown: str = "") -> str:
         InputError: there is no such mechanism.
     """
     scene = Scene.from_dict({"mechanism": mechanism})
-    own = [] if isinstance(scene.mechanism, str) else [f'mechanism = "{shown or mechanism}"']
+    own = [] if isinstance(scene.mechanism, str) else [f'mechanism = "{path_text or mechanism}"']
     return "\n".join([*own, *_lines(scene), ""])
 
 
@@ -54,8 +54,8 @@ def _lines(scene: Scene) -> Iterator[str]:
                 name = [joint for joint in value if joint not in value.spherical][-1]
                 dry = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
                 example = scene.replace({f"joints.{name}": dry, "contact": {"length": 0.05}})
-                shown = joint_lines(example.joints, example.laws, True)[1:]
-                yield from ("", *_not_in_use(shown))
+                example_lines = joint_lines(example.joints, example.laws, True)[1:]
+                yield from ("", *_not_in_use(example_lines))
         elif field.name == "load":
             yield from ("", *_not_in_use(_loads()))
         elif field.name == "bodies":
@@ -65,9 +65,9 @@ def _lines(scene: Scene) -> Iterator[str]:
         elif isinstance(value, Table):
             yield from section_lines(field.name, value, True, absent=True)
         elif (kind := TABLES.get(field.name)) is not None and field.name not in OF_MECHANISMS:
-            told = (kind.__doc__ or "").splitlines()[0]
+            summary = (kind.__doc__ or "").splitlines()[0]
             table = table_from(kind, field.name, EXAMPLES.get(field.name, {}))
-            lines = f"[{field.name}]  # {told}", *table_lines(table, True, absent=True)
+            lines = f"[{field.name}]  # {summary}", *table_lines(table, True, absent=True)
             yield from ("", *_not_in_use(lines))
         if field.name == "film" and "oil" not in (scene.film or {}):
             yield from ("", *_not_in_use(_an_oil()))

@@ -57,6 +57,6 @@ def table_keys(name: str) -> Mapping[str, Field[Any]]:
 
 def unused_tables(mechanism: Any) -> dict[str, str]:
     """Return the tables that a scene of this mechanism does not use -> the reason."""
-    shown = repr(mechanism) if isinstance(mechanism, str) else "the scene's own"
-    reason = f"mechanism is {shown}"
+    name = repr(mechanism) if isinstance(mechanism, str) else "the scene's own"
+    reason = f"mechanism is {name}"
     return {name: reason for name in ("press", "slider_crank") if name != mechanism}

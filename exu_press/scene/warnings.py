@@ -120,14 +120,14 @@ def _viscosity(scene: Scene) -> Iterator[str]:
     }
     if scene.guide is not None and scene.guide.oil is not None:
         films["guide.viscosity"] = scene.guide.oil.viscosity
-    for key, given in films.items():
-        if THINNEST <= given <= THICKEST:
+    for key, viscosity in films.items():
+        if THINNEST <= viscosity <= THICKEST:
             continue
-        side = f"below water's {THINNEST:g}" if given < THINNEST else f"above {THICKEST:g}"
+        side = f"below water's {THINNEST:g}" if viscosity < THINNEST else f"above {THICKEST:g}"
         yield (
-            f"{key} = {given:g} Pa s is {side} Pa s. Bearing oils in use have 0.005 to "
+            f"{key} = {viscosity:g} Pa s is {side} Pa s. Bearing oils in use have 0.005 to "
             "1, honey has 10 and air 2e-5. Force and drag of the film are in proportion to it."
-            + _slip(given, THINNEST, THICKEST, "Pa s")
+            + _slip(viscosity, THINNEST, THICKEST, "Pa s")
         )
 
 
@@ -140,12 +140,12 @@ def _stiffness(scene: Scene) -> Iterator[str]:
                 f"bodies.{name}.density = {density:g} kg/m^3 is {side} kg/m^3; steel has 7850. "
                 "In t/mm^3 it would be 7.85e-9."
             )
-        given = body.youngs_modulus
-        if given is None or SOFTEST <= given <= STIFFEST:
+        modulus = body.youngs_modulus
+        if modulus is None or SOFTEST <= modulus <= STIFFEST:
             continue
-        side = f"below {SOFTEST:g}" if given < SOFTEST else f"above {STIFFEST:g}"
+        side = f"below {SOFTEST:g}" if modulus < SOFTEST else f"above {STIFFEST:g}"
         yield (
-            f"bodies.{name}.youngs_modulus = {given:g} Pa is {side} Pa. Plastics have 1e9, steel "
+            f"bodies.{name}.youngs_modulus = {modulus:g} Pa is {side} Pa. Plastics have 1e9, steel "
             "has 2.1e11 and diamond 1.05e12. Deflections are in proportion to its inverse."
         )
 
@@ -181,14 +181,17 @@ def _wear(scene: Scene) -> Iterator[str]:
     """Yield coefficients of wear that no pair of metals has."""
     if scene.wear is None:
         return
-    given: dict[str, float | None] = {"wear": scene.wear.coefficient}
+    coefficients: dict[str, float | None] = {"wear": scene.wear.coefficient}
     for kind, tables in (("joints", scene.wear.joints), ("guides", scene.wear.guides)):
-        given |= {f"wear.{kind}.{n}": t.get("coefficient") for n, t in (tables or {}).items()}
-    for place, coefficient in given.items():
+        coefficients |= {
+            f"wear.{kind}.{n}": t.get("coefficient") for n, t in (tables or {}).items()
+        }
+    for table_name, coefficient in coefficients.items():
         if coefficient is not None and coefficient > MOST_WEAR:
             yield (
-                f"{place}.coefficient = {coefficient:g} is above {MOST_WEAR:g}. Steel on steel has "
-                "7e-3 dry and 1e-6 to 1e-4 greased: is it a coefficient over the hardness, 1/Pa?"
+                f"{table_name}.coefficient = {coefficient:g} is above {MOST_WEAR:g}. Steel on "
+                "steel has 7e-3 dry and 1e-6 to 1e-4 greased: is it a coefficient over the "
+                "hardness, 1/Pa?"
             )
 
 
@@ -200,21 +203,23 @@ def _brake(scene: Scene) -> Iterator[str]:
         return
     mechanism, angle = mechanism_of(scene), np.linspace(0.0, 2.0 * math.pi, 361)
     moving = mechanism.motion(angle, 1.0)
-    wanted = np.zeros_like(angle)
+    torque = np.zeros_like(angle)
     for body in mechanism.bodies:
-        wanted += body.mass * scene.gravity * moving[body.name].velocity[:, 1]
+        torque += body.mass * scene.gravity * moving[body.name].velocity[:, 1]
     height = mechanism.output_position(moving[mechanism.slider].position) - mechanism.bottom
     for load in applied_loads(scene).values():
         if load.over == "height" and load.fade is None:
             along = moving[load.body].point_motion(load.point).velocity[:, :2] @ np.array(
                 load.direction
             )
-            wanted -= np.array([load.curve(place) for place in height.tolist()]) * along
-    worst = int(np.argmax(np.abs(wanted)))
-    if abs(wanted[worst]) > brake.brake_torque:
+            torque -= (
+                np.array([load.curve(height_there) for height_there in height.tolist()]) * along
+            )
+    worst = int(np.argmax(np.abs(torque)))
+    if abs(torque[worst]) > brake.brake_torque:
         yield (
             f"drive.brake_torque = {brake.brake_torque:g} N m does not hold the press at every "
-            f"angle: weights and springs turn it with {abs(float(wanted[worst])):.4g} N m at "
+            f"angle: weights and springs turn it with {abs(float(torque[worst])):.4g} N m at "
             f"{math.degrees(angle[worst]):.0f} deg"
         )
 
@@ -233,10 +238,10 @@ def _forming(scene: Scene) -> Iterator[str]:
             )
 
 
-def _slip(given: float, low: float, high: float, unit: str) -> str:
+def _slip(value: float, low: float, high: float, unit: str) -> str:
     """Return the question whether thousandths of the unit were meant, where that makes sense."""
-    meant = MILLI * given
-    return f" Was {meant:g} {unit} ({given:g} m{unit}) meant?" if low <= meant <= high else ""
+    meant = MILLI * value
+    return f" Was {meant:g} {unit} ({value:g} m{unit}) meant?" if low <= meant <= high else ""
 
 
 def _film_law(scene: Scene) -> Iterator[str]:

@@ -57,8 +57,8 @@ class Wear(WearAt):
             if not isinstance(tables, Mapping):
                 raise InputError(f"wear.{kind} = {tables!r:.200}: allowed is a table of {kind}")
             checked = {
-                name: table_from(WearAt, f"wear.{kind}.{name}", given).given
-                for name, given in tables.items()
+                name: table_from(WearAt, f"wear.{kind}.{name}", keys).given_values
+                for name, keys in tables.items()
             }
             object.__setattr__(self, kind, None)
             super().__post_init__()
@@ -84,17 +84,17 @@ class Wear(WearAt):
             for member in groups.get(name, (name,)):
                 by_joint[member] = {**by_joint.get(member, {}), **keys}
         whole = dataclasses.replace(self, joints=by_joint or None)
-        for kind, given, known in (
+        for kind, tables, known in (
             ("joints", by_joint, joints),
             ("guides", self.guides or {}, guides),
         ):
-            for name in given:
-                place = f"wear.{kind}.{name}"
+            for name in tables:
+                path = f"wear.{kind}.{name}"
                 if name not in known:
                     names = ", ".join(known) or "none"
-                    raise InputError(f"{place}: there is no such place; allowed are {names}")
+                    raise InputError(f"{path}: there is no such place; allowed are {names}")
                 if known[name]:
-                    raise UnusedKeyError(place, place, known[name])
+                    raise UnusedKeyError(path, path, known[name])
             for name, why in known.items():
                 if not why:
                     here = whole.at(kind, name)
@@ -105,7 +105,7 @@ class Wear(WearAt):
 
     def at(self, kind: str, name: str) -> WearAt:
         """Return the law at one of the "joints" or "guides"."""
-        usual = {each: getattr(self, each) for each in KEYS}
+        usual = {name: getattr(self, name) for name in KEYS}
         return WearAt(**{**usual, **(getattr(self, kind) or {}).get(name, {})})
 
 

@@ -30,17 +30,17 @@ class Worn(Table):
     def __post_init__(self) -> None:
         super().__post_init__()
         both = {"bearing_depth": self.bearing_depth, "journal_depth": self.journal_depth}
-        given = {name: depths for name, depths in both.items() if depths is not None}
-        if not given:
+        profiles = {name: depths for name, depths in both.items() if depths is not None}
+        if not profiles:
             raise InputError("worn: allowed is a table with bearing_depth, journal_depth or both")
-        for name, depths in given.items():
+        for name, depths in profiles.items():
             if len(depths) < FEWEST or min(depths) < 0.0:
                 raise InputError(
                     f"worn.{name}: {len(depths)} values, the least of them {min(depths, default=0)}"
                     f"; allowed are at least {FEWEST} numbers >= 0 (m)"
                 )
         angles = self.angle_deg
-        counts = {len(depths) for depths in given.values()}
+        counts = {len(depths) for depths in profiles.values()}
         if angles is not None:
             counts.add(len(angles))
             for before, after in pairwise(angles):

@@ -106,7 +106,7 @@ def checked_value(field: dataclasses.Field[Any], name: str, value: Any) -> Any:
     meta = field.metadata
     right = (
         type(value) is kind
-        and (kind is not float or _within(typing.cast(float, value)))
+        and (kind is not float or _is_in_range(typing.cast(float, value)))
         and (meta["above"] is None or value > meta["above"])
         and (meta["at_least"] is None or value >= meta["at_least"])
         and (meta["at_most"] is None or value <= meta["at_most"])
@@ -123,14 +123,14 @@ def _numbers(field: dataclasses.Field[Any], name: str, value: Any) -> tuple[floa
     """Return a list of finite numbers as a tuple, or raise InputError."""
     count = field.metadata["numbers"]
     if isinstance(value, list | tuple) and (not count or len(value) == count):
-        found = [
-            as_float(each)
-            if isinstance(each, numbers.Real) and not isinstance(each, bool)
+        values = [
+            as_float(number)
+            if isinstance(number, numbers.Real) and not isinstance(number, bool)
             else math.nan
-            for each in value
+            for number in value
         ]
-        if all(map(_within, found)):
-            return tuple(found)
+        if all(map(_is_in_range, values)):
+            return tuple(values)
     raise InputError(
         f"{name} = {value!r:.80}: allowed is {allowed_text(field)}{_magnitudes(value)}"
     )
@@ -147,18 +147,20 @@ def demand_name(where: str, name: Any) -> None:
 
 def demand_number(where: str, value: Any) -> None:
     """Raise InputError unless a value is a number of an allowed magnitude."""
-    if isinstance(value, bool) or not isinstance(value, int | float) or not _within(value):
+    if isinstance(value, bool) or not isinstance(value, int | float) or not _is_in_range(value):
         raise InputError(f"{where} = {value!r:.80}: allowed is a number{_magnitudes(value)}")
 
 
-def _within(value: float) -> bool:
+def _is_in_range(value: float) -> bool:
     return value == 0.0 or SMALLEST <= abs(value) <= LARGEST
 
 
 def _magnitudes(value: Any) -> str:
     """Return which magnitudes are allowed, where a number, or one of a list, has none of them."""
-    each = value if isinstance(value, list | tuple) else [value]
-    if all(_within(one) for one in each if type(one) is float and math.isfinite(one)):
+    values = value if isinstance(value, list | tuple) else [value]
+    if all(
+        _is_in_range(number) for number in values if type(number) is float and math.isfinite(number)
+    ):
         return ""
     return f"; a number is 0, or its magnitude is within {SMALLEST:g} and {LARGEST:g}"
 
@@ -171,36 +173,36 @@ def as_float(value: Any) -> float:
         return math.inf
 
 
-def refuse_unknown(where: str, given: Mapping[str, Any], known: Collection[str]) -> None:
+def refuse_unknown(where: str, keys: Mapping[str, Any], known: Collection[str]) -> None:
     """Raise InputError for the first key of a table that is not known."""
-    for name, value in given.items():
+    for name, value in keys.items():
         if name not in known:
-            place = f"{where}.{name}" if where else name
-            demand_known(f"{place} = {value!r:.200}: unknown key", name, known)
+            path = f"{where}.{name}" if where else name
+            demand_known(f"{path} = {value!r:.200}: unknown key", name, known)
 
 
 MOST_NAMES, LIKE = 24, 8
 """Names that a message lists; with more of them so many that are like the one in question."""
 
 
-def demand_known(said: str, name: Any, known: Iterable[str]) -> None:
+def demand_known(text: str, name: Any, known: Iterable[str]) -> None:
     """Raise InputError, with the nearest and all known names behind it, unless a name is known.
 
     Of many known names only some that are most like it.
     """
     if name not in (names := list(known)):
-        shown, rest = names, ""
+        listed, rest = names, ""
         if len(names) > MOST_NAMES:
-            shown = difflib.get_close_matches(str(name), names, n=LIKE, cutoff=0.3) or names[:LIKE]
-            rest = f" and {len(names) - len(shown)} others"
-        raise InputError(f"{said}{nearest(name, names)}; allowed are {', '.join(shown)}{rest}")
+            listed = difflib.get_close_matches(str(name), names, n=LIKE, cutoff=0.3) or names[:LIKE]
+            rest = f" and {len(names) - len(listed)} others"
+        raise InputError(f"{text}{nearest(name, names)}; allowed are {', '.join(listed)}{rest}")
 
 
-def check_columns(names: tuple[str, str], one: Sized, other: Sized) -> None:
+def check_columns(names: tuple[str, str], first: Sized, second: Sized) -> None:
     """Raise InputError unless two columns of a curve are of one length, two or more."""
-    if len(one) < 2 or len(one) != len(other):
+    if len(first) < 2 or len(first) != len(second):
         raise InputError(
-            f"{', '.join(names)}: {len(one)} and {len(other)} values; allowed are at least two, "
+            f"{', '.join(names)}: {len(first)} and {len(second)} values; allowed are at least two, "
             "as many of both"
         )
 
@@ -218,8 +220,8 @@ def nearest(name: Any, known: Iterable[str]) -> str:
     >>> nearest("viscocity", ["law", "viscosity"])
     " (did you mean 'viscosity'?)"
     """
-    found = difflib.get_close_matches(str(name), list(known), n=1)
-    return f" (did you mean {found[0]!r}?)" if found else ""
+    matches = difflib.get_close_matches(str(name), list(known), n=1)
+    return f" (did you mean {matches[0]!r}?)" if matches else ""
 
 
 @functools.cache

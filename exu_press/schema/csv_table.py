@@ -51,14 +51,14 @@ def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     >>> flat({"film": {"viscosity": 0.1}, "revolutions": 2.0})
     {'film.viscosity': 0.1, 'revolutions': 2.0}
     """
-    found: dict[str, Any] = {}
+    columns: dict[str, Any] = {}
     for name, value in table.items():
-        nested = isinstance(value, Mapping)
-        inner = flat(value, f"{prefix}{name}.") if nested else {prefix + name: value}
-        if both := found.keys() & inner.keys():
+        is_table = isinstance(value, Mapping)
+        inner = flat(value, f"{prefix}{name}.") if is_table else {prefix + name: value}
+        if both := columns.keys() & inner.keys():
             raise InputError(f"{both.pop()}: given twice")
-        found |= inner
-    return found
+        columns |= inner
+    return columns
 
 
 def _text(value: Value) -> str:

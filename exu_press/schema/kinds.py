@@ -85,10 +85,10 @@ def custom_class(key: str, name: object, base: Any) -> type[Any] | None:
     elif not isinstance(name, str):
         return None
     else:
-        kind = _loaded(name, base)
+        kind = _loaded_kind(name, base)
         if kind is None and ":" in name:
             derived = f"allowed is a dataclass derived from {base.__name__}"
-            why = refusal(name) if _loaded(name, CustomKind) is None else derived
+            why = refusal(name) if _loaded_kind(name, CustomKind) is None else derived
             raise InputError(f"{key} = {name!r}: {why}")
         if kind is None:
             from exu_press.schema.registered import registered_class  # seldom needed
@@ -110,7 +110,7 @@ def import_kinds(data: Mapping[str, Any]) -> None:
     """
     for key, name in _kinds_in(data):
         module, _, inside = name.partition(":")
-        if _loaded(name, CustomKind) is not None:
+        if _loaded_kind(name, CustomKind) is not None:
             continue
         if module.partition(".")[0] in sys.stdlib_module_names or "__main__" in module.split("."):
             raise InputError(
@@ -118,19 +118,19 @@ def import_kinds(data: Mapping[str, Any]) -> None:
                 "program"
             )
         try:
-            found = vars(import_module(module)).get(inside)
+            kind = vars(import_module(module)).get(inside)
         except KeyboardInterrupt:
             raise
         except BaseException as error:  # a module may raise anything, and SystemExit
             raise InputError(
-                f"{key} = {name!r}: {_told(error)}; allowed is a module that Python finds "
+                f"{key} = {name!r}: {_error_text(error)}; allowed is a module that Python finds "
                 "(PYTHONPATH names further folders) and one of its classes"
             ) from None
-        if _loaded(name, CustomKind) is None:
+        if _loaded_kind(name, CustomKind) is None:
             what = f"module {module!r} has no attribute {inside!r}"
-            if isinstance(found, type) and issubclass(found, CustomKind):
-                what = f"this class is {kind_name(found)!r}"
-            elif found is not None:
+            if isinstance(kind, type) and issubclass(kind, CustomKind):
+                what = f"this class is {kind_name(kind)!r}"
+            elif kind is not None:
                 what = "this is no class derived from it"
             raise InputError(
                 f"{key} = {name!r}: {what}; allowed is a dataclass derived from CustomJoint, "
@@ -156,8 +156,10 @@ def with_unresolved(
             keys = {"kind": given} if isinstance(given, str) else given
             if not isinstance(keys, Mapping) or not isinstance(kind := keys.get("kind"), str):
                 continue
-            if kind not in known and _loaded(kind, CustomKind) is None:
-                inner[name] = unresolved.of(kind, {k: v for k, v in keys.items() if k != "kind"})
+            if kind not in known and _loaded_kind(kind, CustomKind) is None:
+                inner[name] = unresolved.from_keys(
+                    kind, {k: v for k, v in keys.items() if k != "kind"}
+                )
     return changed
 
 
@@ -173,7 +175,7 @@ def _with_unresolved_laws(data: Any, scene: Mapping[str, Any], path: str = "") -
         return data
     module, _, inside = law.partition(":")
     known = getattr(import_module(f"exu_press.{module}"), inside)
-    if data in known or _loaded(data, CustomKind):
+    if data in known or _loaded_kind(data, CustomKind):
         return data
     unresolved, table = UnresolvedName(data), law.partition(":")[0].rpartition(".")[2]
     joints = scene.get("joints")
@@ -190,7 +192,7 @@ def custom_modules(data: Mapping[str, Any]) -> tuple[str, ...]:
         InputError: a class is of the script itself or of a function, where no import finds it.
     """
     modules = set()
-    kinds = (_loaded(name, CustomKind) for _, name in _kinds_in(data))
+    kinds = (_loaded_kind(name, CustomKind) for _, name in _kinds_in(data))
     for kind in filter(None, kinds):
         if kind.__module__ == "__main__" or "<locals>" in kind.__qualname__:
             raise InputError(
@@ -207,7 +209,7 @@ def kind_name(kind: type[CustomKind]) -> str:
     return f"{kind.__module__}:{kind.__qualname__}" if name == "" else name
 
 
-def _loaded(name: str, base: type[Kind]) -> type[Kind] | None:
+def _loaded_kind(name: str, base: type[Kind]) -> type[Kind] | None:
     """Return the class of a name among those that Python has made by now; the last one counts."""
     kinds = [kind for kind in loaded_kinds(base) if kind_name(kind) == name]
     return kinds[-1] if kinds else None
@@ -215,17 +217,17 @@ def _loaded(name: str, base: type[Kind]) -> type[Kind] | None:
 
 def loaded_kinds(base: Any) -> list[type[Any]]:
     """Return the kinds of users and other distributions that Python has made by now."""
-    return [kind for kind in _derived(base) if kind.resolved and not _is_ours(kind)]
+    return [kind for kind in subclasses_of(base) if kind.resolved and not _is_ours(kind)]
 
 
 def _is_ours(kind: type[Any]) -> bool:
     return kind.__module__.partition(".")[0] == "exu_press"
 
 
-def _derived(base: type[Kind]) -> Iterator[type[Kind]]:
+def subclasses_of(base: type[Kind]) -> Iterator[type[Kind]]:
     for kind in base.__subclasses__():
         yield kind
-        yield from _derived(kind)
+        yield from subclasses_of(kind)
 
 
 def _kinds_in(data: Any, path: str = "") -> Iterator[tuple[str, str]]:
@@ -250,7 +252,7 @@ def refusal(name: str) -> str:
     )
 
 
-def _told(error: BaseException) -> str:
+def _error_text(error: BaseException) -> str:
     """Return an error of an import in words, with file and line of the user's module."""
     kind = "" if isinstance(error, ImportError) else f"{type(error).__name__}: "
     own = [

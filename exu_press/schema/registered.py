@@ -40,22 +40,24 @@ def registered_class(key: str, name: str, base: type[Any], group: str = GROUP) -
     }
     if not entries:
         return None
-    said = f"{key} = {name!r}, registered by {' and '.join(owner for _, owner in entries.values())}"
+    owners = (
+        f"{key} = {name!r}, registered by {' and '.join(owner for _, owner in entries.values())}"
+    )
     if len(entries) > 1:
-        raise InputError(f"{said}: allowed is one of them; remove the other")
+        raise InputError(f"{owners}: allowed is one of them; remove the other")
     entry, _ = next(iter(entries.values()))
-    _refuse_other_module(said, entry)
+    _refuse_other_module(owners, entry)
     try:
-        found = entry.load()
+        kind_class = entry.load()
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # a module may raise anything, and SystemExit
-        raise InputError(f"{said}: {type(error).__name__}: {error}") from None
-    if not (isinstance(found, type) and issubclass(found, base)):
-        raise InputError(f"{said}: {entry.value} is no class derived from {base.__name__}")
-    kind: Any = found
+        raise InputError(f"{owners}: {type(error).__name__}: {error}") from None
+    if not (isinstance(kind_class, type) and issubclass(kind_class, base)):
+        raise InputError(f"{owners}: {entry.value} is no class derived from {base.__name__}")
+    kind: Any = kind_class
     kind.registered_name = name
-    return found
+    return kind_class
 
 
 def _folders() -> list[str]:
@@ -73,17 +75,17 @@ def _named_in(folder: Path) -> Iterator[str]:
                 yield str(folder / line.strip())
 
 
-def _refuse_other_module(said: str, entry: EntryPoint) -> None:
+def _refuse_other_module(owners: str, entry: EntryPoint) -> None:
     """Raise InputError where Python would import another module than the distribution's."""
     top = entry.module.partition(".")[0]
     if top in sys.stdlib_module_names:
-        raise InputError(f"{said}: {entry.module} is one of Python's own modules")
+        raise InputError(f"{owners}: {entry.module} is one of Python's own modules")
     own = PathFinder.find_spec(top, _folders()) or _editable(top)
     usual = find_spec(top)
     if own is None or usual is None or _place(own) != _place(usual):
         where = "nowhere" if usual is None else usual.origin or _place(usual)[1]
         raise InputError(
-            f"{said}: Python finds its module {top!r} in {where}; allowed is the one that is "
+            f"{owners}: Python finds its module {top!r} in {where}; allowed is the one that is "
             "installed: work in another folder, or take it out of PYTHONPATH"
         )
 

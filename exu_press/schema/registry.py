@@ -17,13 +17,13 @@ from exu_press.schema.kinds import (
     refusal,
 )
 
-__all__ = ["Alternatives", "Choice", "Registry", "alternatives", "choice", "loaded"]
+__all__ = ["Alternatives", "Choice", "Registry", "alternatives", "choice", "load_object"]
 
 PlaceOf = Callable[[str], str]
 """Name of a key in its table -> the dotted name that a message has for it."""
 
 
-def loaded(home: str) -> Any:
+def load_object(home: str) -> Any:
     """Return the class or function "module:name" of this package."""
     module, _, name = home.partition(":")
     return getattr(import_module(f"exu_press.{module}"), name)
@@ -43,7 +43,7 @@ class Registry(Mapping[Any, type[Any]]):
         self._homes, self._base = dict(homes), base
 
     def __getitem__(self, name: Any) -> type[Any]:
-        kind: type[Any] = loaded(self._homes[name])
+        kind: type[Any] = load_object(self._homes[name])
         return kind
 
     def __contains__(self, name: object) -> bool:
@@ -59,7 +59,7 @@ class Registry(Mapping[Any, type[Any]]):
         """Yield name and dataclass of all kinds, also of those from elsewhere that are loaded."""
         yield from self.items()
         if self._base:
-            yield from ((kind_name(kind), kind) for kind in loaded_kinds(loaded(self._base)))
+            yield from ((kind_name(kind), kind) for kind in loaded_kinds(load_object(self._base)))
 
     def find(self, key: str, name: Any, keys: Collection[str] = ()) -> type[Any] | None:
         """Return the kind of a name, also one that users or distributions offer, or None.
@@ -75,8 +75,10 @@ class Registry(Mapping[Any, type[Any]]):
         if name in self:
             return self[name]
         if isinstance(name, UnresolvedName) and self._base:
-            return _unresolved_kind(loaded(self._base), name, tuple(sorted(name.keys & {*keys})))
-        return custom_class(key, name, loaded(self._base)) if self._base else None
+            return _unresolved_kind(
+                load_object(self._base), name, tuple(sorted(name.keys & {*keys}))
+            )
+        return custom_class(key, name, load_object(self._base)) if self._base else None
 
 
 @functools.cache
@@ -149,8 +151,8 @@ class Choice:
             holders: names of the kinds that use it.
         """
         name = chosen.kind
-        shown = str(name).lower() if isinstance(name, bool) else repr(name)
-        return f"{place_of(key)} is {shown}; it belongs to {' or '.join(holders)}"
+        name_text = str(name).lower() if isinstance(name, bool) else repr(name)
+        return f"{place_of(key)} is {name_text}; it belongs to {' or '.join(holders)}"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -172,18 +174,20 @@ class Alternatives:
             (home for name, home in self.homes.items() if keys.get(name) not in (None, [], ())),
             self.homes.get("", ""),
         )
-        return loaded(home) if home else None
+        return load_object(home) if home else None
 
     def classes(self) -> Iterator[tuple[str, type[Any]]]:
         """Yield every deciding key with its dataclass."""
         for name, home in self.homes.items():
             if home:
-                yield name, loaded(home)
+                yield name, load_object(home)
 
     def reason(self, key: str, place_of: PlaceOf, chosen: Any, holders: list[str]) -> str:
         """Return why a key of other kinds is not used; arguments as of `Choice`."""
         order = list(self.homes)
-        deciding = [n for n, home in self.homes.items() if home and loaded(home) is type(chosen)]
+        deciding = [
+            n for n, home in self.homes.items() if home and load_object(home) is type(chosen)
+        ]
         first = next((n for n in deciding if getattr(chosen, n, None) is not None), "")
         if (first and order.index(first) < order.index(holders[0])) or holders == [""]:
             because = getattr(chosen, "because", "")

@@ -81,7 +81,10 @@ def _checked(kind: Any, value: Any, where: str) -> Any:
             inner = inner[:1] * len(value)
         if len(inner) != len(value):
             raise InputError(f"{where} = {shown(value)}: allowed are {len(inner)} values")
-        values = [_checked(each, one, where) for each, one in zip(inner, value, strict=True)]
+        values = [
+            _checked(kind_of_item, item, where)
+            for kind_of_item, item in zip(inner, value, strict=True)
+        ]
         return tuple(values) if plain is tuple else values
     return value
 
@@ -93,7 +96,10 @@ def _table(kind: Any, value: dict[str, Any], where: str) -> dict[str, Any]:
         raise InputError(f"{where}: has no {name}")
     for name in value.keys() - kinds.keys():
         raise InputError(f"{_inside(where, name)}: unknown key; allowed are {', '.join(kinds)}")
-    return {name: _checked(kinds[name], each, f"{where}.{name}") for name, each in value.items()}
+    return {
+        name: _checked(kinds[name], kind_of_item, f"{where}.{name}")
+        for name, kind_of_item in value.items()
+    }
 
 
 def _inside(where: str, name: str) -> str:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Self, TypeVar
 from exu_press.errors import InputError, UnusedKeyError
 from exu_press.schema.checks import allowed_text, checked_value, demand_known
 from exu_press.schema.kinds import UnresolvedName
-from exu_press.schema.registry import loaded
+from exu_press.schema.registry import load_object
 
 __all__ = [
     "RENAMED",
@@ -21,7 +21,7 @@ __all__ = [
     "given_keys",
     "given_names",
     "key_values",
-    "nested",
+    "nested_table",
     "plain",
     "refuse_unknown_keys",
     "resolve",
@@ -80,7 +80,7 @@ class Table:
         return table
 
     @property
-    def given(self) -> dict[str, Any]:
+    def given_values(self) -> dict[str, Any]:
         """The keys that were given, with their values."""
         names: frozenset[str] = self._given  # type: ignore[attr-defined]
         keys: dict[str, Any] = {}
@@ -89,7 +89,7 @@ class Table:
             if "part" in field.metadata:
                 if value is not None:
                     keys |= {field.name: value.kind} if field.name in names else {}
-                    keys |= value.given
+                    keys |= value.given_values
             elif field.name in names and value is not None:
                 keys[field.name] = value
         return keys
@@ -97,14 +97,14 @@ class Table:
     def __post_init__(self) -> None:
         """Check every key; raise InputError for the first one that is not allowed."""
         for field in _fields(type(self)):
-            name = dotted(self.table, field.name)
+            name = dotted_name(self.table, field.name)
             value, meta = getattr(self, field.name), field.metadata
             if "part" in meta:
                 if not isinstance(value, Table):
                     keys = {} if value is None else {field.name: value}
                     value = _part(type(self), field, self.table, keys)
             elif "nested" in meta and value is not None:
-                value = table_from(loaded(meta["nested"]), name, value)
+                value = table_from(load_object(meta["nested"]), name, value)
             elif "meaning" in meta:
                 value = checked_value(field, name, value)
                 if value is None and field.name in self.required:
@@ -112,23 +112,23 @@ class Table:
             object.__setattr__(self, field.name, value)
         for first, second in self.exclusive_with.items():
             if None not in (getattr(self, first, None), getattr(self, second, None)):
-                names = dotted(self.table, second), dotted(self.table, first)
+                names = dotted_name(self.table, second), dotted_name(self.table, first)
                 raise InputError(f"{' and '.join(names)}: allowed is one of the two")
 
     def refuse_unused(self, keys: Collection[str], reason: str) -> None:
         """Raise UnusedKeyError for the first of some keys that is given, all without default."""
         for key in keys:
             if (value := getattr(self, key)) is not None:
-                name = dotted(self.table, key)
+                name = dotted_name(self.table, key)
                 raise UnusedKeyError(name, f"{name} = {value!r}", reason)
 
 
-def nested(home: str) -> Any:
+def nested_table(home: str) -> Any:
     """Declare a table within a table, "module:Class", loaded where it is given; None elsewhere."""
     return dataclasses.field(default=None, metadata={"nested": home})
 
 
-def dotted(place: str, key: str) -> str:
+def dotted_name(place: str, key: str) -> str:
     """Return the name of a key in the table `place`, "" of the scene itself."""
     return f"{place}.{key}" if place else key
 
@@ -152,8 +152,8 @@ def table_from(kind: type[T], name: str, data: Any) -> T:
     table = resolve(kind, name, keys)
     for key, value in keys.items():
         if key not in used and value is not None:
-            place = dotted(name, key)
-            reason = unused_reason(table, key, lambda key: dotted(table.table, key)) or ""
+            place = dotted_name(name, key)
+            reason = unused_reason(table, key, lambda key: dotted_name(table.table, key)) or ""
             raise UnusedKeyError(place, f"{place} = {value!r}", reason)
     return table
 
@@ -194,13 +194,13 @@ def _kind_of_part(
 ) -> type[Table] | None:
     """Return the dataclass that some keys choose for a part of a table."""
     if isinstance(keys.get(field.name), UnresolvedName):  # all other keys may be its own
-        keys = {key: value for key, value in keys.items() if key not in _beside(table, field)}
-    place = dotted(name, field.name)
+        keys = {key: value for key, value in keys.items() if key not in _keys_beside(table, field)}
+    place = dotted_name(name, field.name)
     kind: type[Table] | None = field.metadata["part"].select(field.name, place, keys, field.default)
     return kind
 
 
-def _beside(table: type[Table], part: Field) -> set[str]:
+def _keys_beside(table: type[Table], part: Field) -> set[str]:
     """Return the keys of a table that are not of one of its parts."""
     names: set[str] = set()
     for field in _fields(table):
@@ -233,7 +233,7 @@ def refuse_unknown_keys(
     for key, value in keys.items():
         if key in used:
             continue
-        place = dotted(name, key)
+        place = dotted_name(name, key)
         known = [*(name for kind in kinds for name in declared_keys(kind)), *sorted(used)]
         if key not in known and {place, key} & RENAMED.keys():
             now = RENAMED.get(place) or RENAMED[key]
@@ -287,7 +287,7 @@ def check_keys(
             continue
         field = next((f for k in kinds for n, f in declared_keys(k).items() if n == key), None)
         if field is not None and "meaning" in field.metadata:
-            keys[key] = checked_value(field, dotted(name, key), value)
+            keys[key] = checked_value(field, dotted_name(name, key), value)
     return keys
 
 
@@ -325,20 +325,20 @@ def demand_keys(place: str, table: Table, keys: Collection[str], law: str, where
         where: they may be given.
     """
     for name, value, field in key_values(table):
-        if value is None and (name in keys or name in _needed(table)):
+        if value is None and (name in keys or name in _needed_keys(table)):
             meta, example = field.metadata, field.metadata.get("example")
             if isinstance(example, float):
                 example = f"{example:g}"
-            shown = "" if example is None else f", as in {name} = {example}"
+            example_text = "" if example is None else f", as in {name} = {example}"
             raise InputError(
-                f"{place} needs {dotted(law, name)} ({meta['meaning']}, {meta['unit']}), which "
-                f"decides its result and has no default; give it in {where}{shown}"
+                f"{place} needs {dotted_name(law, name)} ({meta['meaning']}, {meta['unit']}), "
+                f"which decides its result and has no default; give it in {where}{example_text}"
             )
 
 
-def _needed(table: Table) -> set[str]:
+def _needed_keys(table: Table) -> set[str]:
     parts = [getattr(table, f.name) for f in _fields(type(table)) if "part" in f.metadata]
-    return {*table.needed}.union(*(_needed(part) for part in parts if part is not None))
+    return {*table.needed}.union(*(_needed_keys(part) for part in parts if part is not None))
 
 
 def changed_table(
@@ -359,7 +359,7 @@ def changed_table(
         name, dot, rest = path.partition(".")
         change: Any = {rest: value} if dot else value
         if name in inner_tables and isinstance(change, Mapping | Table):
-            inner = loaded(inner_tables[name].metadata["nested"])
+            inner = load_object(inner_tables[name].metadata["nested"])
             changed[name] = changed_table(inner, given_keys(changed.get(name)), given_keys(change))
         elif dot and name in by_place:
             at, _, key_there = rest.partition(".")
@@ -368,9 +368,9 @@ def changed_table(
             changed[name] = {**there, at: change}
         else:
             changed[path] = value
-    given = {path.partition(".")[0] for path, value in changes.items() if value is not None}
+    names = {path.partition(".")[0] for path, value in changes.items() if value is not None}
     for first, second in kind.exclusive_with.items():
-        if first in given and second not in given:
+        if first in names and second not in names:
             changed.pop(second, None)
     return changed
 
@@ -388,7 +388,7 @@ def plain(table: Table) -> dict[str, Any]:
 
 def given_keys(table: Any) -> dict[str, Any]:
     """Return the keys that a table gives, as a mapping or as its dataclass; none of None."""
-    keys = table.given if isinstance(table, Table) else table or {}
+    keys = table.given_values if isinstance(table, Table) else table or {}
     return dict(keys) if isinstance(keys, Mapping) else {}
 
 

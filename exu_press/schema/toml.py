@@ -40,7 +40,7 @@ def parse_toml(text: str, where: str) -> dict[str, Any]:
     """
     too_deep = InputError(f"{where}: nests too deep; allowed are {MOST_LEVELS} levels")
     try:
-        found = tomllib.loads(text)
+        data = tomllib.loads(text)
     except RecursionError:
         raise too_deep from None
     except tomllib.TOMLDecodeError as error:
@@ -49,17 +49,17 @@ def parse_toml(text: str, where: str) -> dict[str, Any]:
         raise InputError(f"{where}: not a TOML file ({error}{cure})") from None
     except ValueError:  # Python's own limit on whole numbers
         raise InputError(f"{where}: a number has too many digits; allowed are 4300") from None
-    if _deeper(found, MOST_LEVELS):
+    if _deeper(data, MOST_LEVELS):
         raise too_deep
-    return found
+    return data
 
 
 def _deeper(value: Any, levels: int) -> bool:
     """Return whether tables and lists lie within each other on more levels."""
     layer = [value]
     for _ in range(levels):
-        tables = (one.values() if isinstance(one, Mapping) else one for one in layer)
-        layer = [inner for one in tables for inner in one if isinstance(inner, Mapping | list)]
+        tables = (table.values() if isinstance(table, Mapping) else table for table in layer)
+        layer = [inner for table in tables for inner in table if isinstance(inner, Mapping | list)]
         if not layer:
             return False
     return True

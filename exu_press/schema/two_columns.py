@@ -60,18 +60,18 @@ def read_two_columns(path: Path) -> TwoColumns:
             if comma and "." in line:
                 raise InputError(f"{where}; allowed is a decimal comma, as on other lines")
             cells = (c.replace(",", ".") if comma else c for c in _cells(line, dialect))
-            place, value = map(float, cells)
+            position, value = map(float, cells)
         except InputError:
             raise
         except (ValueError, csv.Error):
             raise InputError(f"{where}; allowed are two numbers") from None
-        if not (abs(place) < LARGEST and abs(value) < LARGEST):
+        if not (abs(position) < LARGEST and abs(value) < LARGEST):
             raise InputError(f"{where}; allowed are finite numbers below {LARGEST:g}")
-        if places and not place > places[-1]:
+        if places and not position > places[-1]:
             raise InputError(
-                f"{path}, line {number}: {place:g} after {places[-1]:g}; allowed is increasing"
+                f"{path}, line {number}: {position:g} after {places[-1]:g}; allowed is increasing"
             )
-        places.append(place)
+        places.append(position)
         values.append(value)
     return TwoColumns(comments, names, places, values)
 

@@ -82,7 +82,7 @@ def test_what_friction_and_damping_of_guides_need_is_in_the_scenes_tables():
     assert damped.contact["damping"] == "hu_guo"
     assert damped.contact.keys() == {"damping", "restitution", "tension"}
     contact = damped.guide.contact(damped.contact)
-    law = contact.damped(hertz(1e8, 1.0), LOOSE["clearance"], damped.angular_speed)
+    law = contact.normal_contact(hertz(1e8, 1.0), LOOSE["clearance"], damped.angular_speed)
     assert delivered_restitution(law, 10.0, 0.1) == pytest.approx(0.5, abs=0.02)
     with pytest.raises(InputError, match=r"contact\.modulus = 1e\+?11|contact\.modulus = 1000"):
         Scene.from_dict({**IDEAL, "guide": LOOSE, "contact": {"modulus": 1e11}})

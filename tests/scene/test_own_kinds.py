@@ -10,7 +10,7 @@ import pytest
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
 from exu_press.scene.assumptions import keys_of
-from exu_press.schema.kinds import CustomKind, _derived, custom_modules
+from exu_press.schema.kinds import CustomKind, custom_modules, subclasses_of
 from exu_press.schema.toml import toml_text
 
 KINDS = """
@@ -96,7 +96,7 @@ def forget():
     """Let no class of the modules be known any more, as in a new process."""
     for module in ("own_kinds", "installed_kinds"):
         sys.modules.pop(module, None)
-        for kind in _derived(CustomKind):
+        for kind in subclasses_of(CustomKind):
             if kind.__module__ == module:
                 kind.__module__, kind.registered_name = "forgotten", ""
     gc.collect()

@@ -43,7 +43,7 @@ LONGEST_RUN = 1e9
 WARM = 3.0
 """Revolutions in which films find their temperature."""
 
-STARTS = ("load_object", "centred")
+STARTS = ("loaded", "centred")
 """The first one is that of a mechanism without a default of its own."""
 
 ONLY_WHERE_GIVEN = ("drive", "guide", "output", "wear")

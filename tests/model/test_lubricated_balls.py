@@ -123,4 +123,4 @@ def test_narrower_caps_carry_less():
 
 def test_the_user_force_element_knows_that_there_is_a_film():
     _container, mbs, _, _, _ = alone((0.0, 0.0, 1.0))
-    assert user_force_of(mbs).lubricated
+    assert user_force_of(mbs).has_film

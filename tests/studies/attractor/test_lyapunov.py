@@ -162,10 +162,10 @@ def test_the_command_writes_what_it_found(short, tmp_path, capsys, monkeypatch):
 
     def known(scene, revolutions, skip, most, names, **_):
         assert (scene, revolutions, skip, most) == (FILM, 20, 2, 4)
-        assert names == ["joints.crank_pin.peak_force"]
+        assert names == ("joints.crank_pin.peak_force",)
         return short
 
-    monkeypatch.setattr("exu_press.studies.attractor.attractor", known)
+    monkeypatch.setattr("exu_press.studies.attractor.run.attractor", known)
     scene = tmp_path / "film.toml"
     FILM.save(scene)
     given = ["attractor", str(scene), "--revolutions", "20", "--skip", "2", "--longest", "4"]

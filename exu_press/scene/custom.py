@@ -32,10 +32,10 @@ class CustomJoint(Joint, ABC):
     def interfaces(self) -> Sequence["InterfaceLaw"]:
         """Return the interface laws that act in parallel; the first has the joint's clearance."""
 
-    def demand_keys(self, place: str) -> None:
+    def demand_keys(self, path: str) -> None:
         """Raise InputError for the first key without default that is missing."""
         keys = [field.name for field in dataclasses.fields(self)]
-        demand_keys(place, self, keys, "", f"[{place}]")
+        demand_keys(path, self, keys, "", f"[{path}]")
 
     def check_laws(self) -> None:
         """Raise InputError unless it has interface laws."""
@@ -71,7 +71,7 @@ class UnresolvedJoint(CustomJoint):
         """Name of the class, as the result has it."""
         return self.name
 
-    def demand_keys(self, place: str) -> None:
+    def demand_keys(self, path: str) -> None:
         """Demand nothing: the keys are unknown."""
 
     def to_dict(self, laws: Mapping[str, Mapping[str, Any] | None]) -> dict[str, Any]:

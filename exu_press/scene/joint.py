@@ -72,11 +72,11 @@ class Joint(CustomKind, Table):
         """Whether the code of its kind and its laws is loaded."""
         return all(kind.resolved for kind in self.kinds().values())
 
-    def demand_keys(self, place: str) -> None:
+    def demand_keys(self, path: str) -> None:
         """Raise InputError for the first missing key that decides its behaviour.
 
         Args:
-            place: dotted name of the joint.
+            path: dotted name of the joint.
         """
 
     def check_laws(self) -> None:
@@ -128,13 +128,13 @@ class TouchingJoint(Joint):
                 f"clearance = {self.clearance!r}: allowed is a number < radius = {self.radius!r}"
             )
 
-    def demand_keys(self, place: str) -> None:
+    def demand_keys(self, path: str) -> None:
         """Raise InputError for the first missing key that decides its behaviour."""
-        demand_keys(place, self, SIZES, "", f"[{place}]")
+        demand_keys(path, self, SIZES, "", f"[{path}]")
         if self.contact is not None:
             lengths = () if self.film_length else ("length",)
-            where = f"[contact] or [{place}.contact]"
-            demand_keys(place, self.contact, lengths, "contact", where)
+            where = f"[contact] or [{path}.contact]"
+            demand_keys(path, self.contact, lengths, "contact", where)
 
     def check_laws(self) -> None:
         """Make every law once, so that values outside its range are refused before a run."""
@@ -196,14 +196,14 @@ class LubricatedJoint(TouchingJoint):
         """Gap at which the surfaces' asperities begin to touch, m; None: the film ends the run."""
         return self.film.contact_gap
 
-    def demand_keys(self, place: str) -> None:
+    def demand_keys(self, path: str) -> None:
         """Raise InputError for the first missing key that decides its behaviour."""
-        super().demand_keys(place)
+        super().demand_keys(path)
         viscosity = () if self.film.oil is not None else ("viscosity",)
-        demand_keys(place, self.film, viscosity, "film", f"[film] or [{place}.film]")
+        demand_keys(path, self.film, viscosity, "film", f"[film] or [{path}.film]")
         if self.film.oil is not None:
-            where = f"[film.oil] or [{place}.film.oil]"
-            demand_keys(place, self.film.oil, (), "film.oil", where)
+            where = f"[film.oil] or [{path}.film.oil]"
+            demand_keys(path, self.film.oil, (), "film.oil", where)
 
     def check_laws(self) -> None:
         """Make every law once, so that values outside its range are refused before a run."""

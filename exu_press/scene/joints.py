@@ -240,60 +240,60 @@ def _joint(
     *,
     spherical: bool,
 ) -> Joint:
-    place, kind = f"joints.{name}", table.get("kind")
-    chosen = JOINT_KINDS.find(f"{place}.kind", kind)
+    path, kind = f"joints.{name}", table.get("kind")
+    chosen = JOINT_KINDS.find(f"{path}.kind", kind)
     if chosen is None:
-        what = f"{place}.kind = {kind!r}" if "kind" in table else f"{place} has no kind"
+        what = f"{path}.kind = {kind!r}" if "kind" in table else f"{path} has no kind"
         raise InputError(f"{what}: allowed is one of {', '.join(map(repr, JOINT_KINDS))}")
     keys = [field.name for field in dataclasses.fields(chosen)]
     is_custom = issubclass(chosen, CustomJoint)
-    refuse_unknown(place, table, ("kind", *keys) if is_custom else OF_JOINTS)
+    refuse_unknown(path, table, ("kind", *keys) if is_custom else OF_JOINTS)
     for law in [law for law in LAWS if table.get(law) is not None]:
-        _check_names(place, law, table[law], laws, spherical)
+        _check_names(path, law, table[law], laws, spherical)
     values: dict[str, Any] = {**sizes, **table}
     if "film" in keys:
-        values["film"] = film = _law(place, "film", table.get("film"), laws, spherical)
+        values["film"] = film = _law(path, "film", table.get("film"), laws, spherical)
         if film.contact_gap is None:
             keys = [key for key in keys if key not in TOUCHING]
     for unused in [key for key in table if key not in ("kind", *keys)]:
         stops = "film" in keys and unused in TOUCHING
-        reason = "film.at_contact is 'stop'" if stops else f"{place} is {kind!r}"
-        raise UnusedKeyError(f"{place}.{unused}", f"{place}.{unused}", reason)
+        reason = "film.at_contact is 'stop'" if stops else f"{path} is {kind!r}"
+        raise UnusedKeyError(f"{path}.{unused}", f"{path}.{unused}", reason)
     for law in [key for key in keys if key in TOUCHING]:
-        values[law] = _law(place, law, table.get(law), laws, spherical)
+        values[law] = _law(path, law, table.get(law), laws, spherical)
     if table.get("worn") is not None:
         if spherical:
-            raise UnusedKeyError(f"{place}.worn", f"{place}.worn", f"{place} is a ball")
-        with error_prefix(f"{place}."):
+            raise UnusedKeyError(f"{path}.worn", f"{path}.worn", f"{path} is a ball")
+        with error_prefix(f"{path}."):
             from exu_press.scene.worn import Worn
 
             values["worn"] = table_from(Worn, "worn", table["worn"])
-    with error_prefix(f"{place}."):
+    with error_prefix(f"{path}."):
         joint: Joint = chosen(**{key: values[key] for key in keys if key in values})
-    joint.demand_keys(place)
+    joint.demand_keys(path)
     try:
         if joint.is_resolved:
             joint.check_laws()
     except InputError as error:
-        raise InputError(f"{error} ({place})") from None
+        raise InputError(f"{error} ({path})") from None
     return joint
 
 
-def _check_names(place: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> None:
+def _check_names(path: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> None:
     """Raise InputError for the first key of a joint's law that no such law has."""
     kind = law_kind(law, spherical)
     if not isinstance(own, Mapping | Table):
-        raise InputError(f"{place}.{law} = {own!r:.200}: allowed is a table of keys")
+        raise InputError(f"{path}.{law} = {own!r:.200}: allowed is a table of keys")
     keys = given_keys(own)
-    with error_prefix(f"{place}."):
+    with error_prefix(f"{path}."):
         merged = changed_table(kind, laws.keys_of(law), keys)
         refuse_unknown_keys([*LAWS[law].values()], law, keys, used_names(kind, law, merged))
 
 
-def _law(place: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> Any:
+def _law(path: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> Any:
     """Return a joint's law: the scene's, but for its own keys."""
     kind = law_kind(law, spherical)
-    with error_prefix(f"{place}."):
+    with error_prefix(f"{path}."):
         return resolve(kind, law, changed_table(kind, laws.keys_of(law), given_keys(own)))
 
 

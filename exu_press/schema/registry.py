@@ -116,12 +116,12 @@ class Choice:
 
     kinds: Registry
 
-    def select(self, key: str, place: str, keys: Mapping[str, Any], default: Any) -> type[Any]:
+    def select(self, key: str, path: str, keys: Mapping[str, Any], default: Any) -> type[Any]:
         """Return the dataclass that a table's keys choose.
 
         Args:
             key: that chooses.
-            place: its dotted name.
+            path: its dotted name.
             keys: of the table.
             default: value of the key.
 
@@ -129,11 +129,11 @@ class Choice:
             InputError: there is no such kind.
         """
         name = keys.get(key, default)
-        kind = self.kinds.find(place, name, keys)
+        kind = self.kinds.find(path, name, keys)
         if kind is None:
             names = ", ".join(map(repr, self.kinds))
             allowed = "true or false" if True in self.kinds else f"one of {names}"
-            raise InputError(f"{place} = {name!r:.200}: allowed is {allowed}")
+            raise InputError(f"{path} = {name!r:.200}: allowed is {allowed}")
         return kind
 
     def classes(self) -> Iterator[tuple[str, type[Any]]]:
@@ -167,7 +167,7 @@ class Alternatives:
     homes: Mapping[str, str]
 
     def select(
-        self, key: str, place: str, keys: Mapping[str, Any], default: Any
+        self, key: str, path: str, keys: Mapping[str, Any], default: Any
     ) -> type[Any] | None:
         """Return the dataclass that a table's keys choose, or None; arguments as of `Choice`."""
         home = next(

@@ -128,9 +128,9 @@ def nested_table(home: str) -> Any:
     return dataclasses.field(default=None, metadata={"nested": home})
 
 
-def dotted_name(place: str, key: str) -> str:
+def dotted_name(path: str, key: str) -> str:
     """Return the name of a key in the table `place`, "" of the scene itself."""
-    return f"{place}.{key}" if place else key
+    return f"{path}.{key}" if path else key
 
 
 def table_from(kind: type[T], name: str, data: Any) -> T:
@@ -152,9 +152,9 @@ def table_from(kind: type[T], name: str, data: Any) -> T:
     table = resolve(kind, name, keys)
     for key, value in keys.items():
         if key not in used and value is not None:
-            place = dotted_name(name, key)
+            path = dotted_name(name, key)
             reason = unused_reason(table, key, lambda key: dotted_name(table.table, key)) or ""
-            raise UnusedKeyError(place, f"{place} = {value!r}", reason)
+            raise UnusedKeyError(path, f"{path} = {value!r}", reason)
     return table
 
 
@@ -162,10 +162,10 @@ def used_names(kind: type[Table], name: str, keys: Mapping[str, Any]) -> set[str
     """Return the names of the keys that the table of some keys may have."""
     names: set[str] = set()
     for field in _fields(kind):
-        part = field.metadata.get("part")
-        if part is None or "meaning" in field.metadata:
+        selector = field.metadata.get("part")
+        if selector is None or "meaning" in field.metadata:
             names.add(field.name)
-        if part is not None:
+        if selector is not None:
             chosen = _kind_of_part(kind, field, name, keys)
             names |= set() if chosen is None else used_names(chosen, name, keys)
     return names
@@ -195,16 +195,16 @@ def _kind_of_part(
     """Return the dataclass that some keys choose for a part of a table."""
     if isinstance(keys.get(field.name), UnresolvedName):  # all other keys may be its own
         keys = {key: value for key, value in keys.items() if key not in _keys_beside(table, field)}
-    place = dotted_name(name, field.name)
-    kind: type[Table] | None = field.metadata["part"].select(field.name, place, keys, field.default)
+    path = dotted_name(name, field.name)
+    kind: type[Table] | None = field.metadata["part"].select(field.name, path, keys, field.default)
     return kind
 
 
-def _keys_beside(table: type[Table], part: Field) -> set[str]:
+def _keys_beside(table: type[Table], chosen: Field) -> set[str]:
     """Return the keys of a table that are not of one of its parts."""
     names: set[str] = set()
     for field in _fields(table):
-        if field is part:
+        if field is chosen:
             continue
         names.add(field.name)
         if "part" in field.metadata:
@@ -233,12 +233,12 @@ def refuse_unknown_keys(
     for key, value in keys.items():
         if key in used:
             continue
-        place = dotted_name(name, key)
+        path = dotted_name(name, key)
         known = [*(name for kind in kinds for name in declared_keys(kind)), *sorted(used)]
-        if key not in known and {place, key} & RENAMED.keys():
-            now = RENAMED.get(place) or RENAMED[key]
-            raise InputError(f"{place} = {value!r:.200}: is {now} now")
-        demand_known(f"{place} = {value!r:.200}: unknown key", key, dict.fromkeys(known))
+        if key not in known and {path, key} & RENAMED.keys():
+            now = RENAMED.get(path) or RENAMED[key]
+            raise InputError(f"{path} = {value!r:.200}: is {now} now")
+        demand_known(f"{path} = {value!r:.200}: unknown key", key, dict.fromkeys(known))
 
 
 def unused_reason(table: Table, key: str, place_of: Callable[[str], str]) -> str | None:
@@ -250,20 +250,20 @@ def unused_reason(table: Table, key: str, place_of: Callable[[str], str]) -> str
         place_of: dotted names of keys.
     """
     for field in _fields(type(table)):
-        part, value = field.metadata.get("part"), getattr(table, field.name)
-        if part is None:
+        selector, value = field.metadata.get("part"), getattr(table, field.name)
+        if selector is None:
             continue
         if value is not None and (reason := unused_reason(value, key, place_of)) is not None:
             return reason
-        holders = [name for name, kind in part.classes() if key in declared_keys(kind)]
+        holders = [name for name, kind in selector.classes() if key in declared_keys(kind)]
         if holders:
-            reason = part.reason(field.name, place_of, value, holders)
+            reason = selector.reason(field.name, place_of, value, holders)
             return typing.cast(str, reason)
     return None
 
 
 def check_keys(
-    kinds: Collection[type[Table]], name: str, data: Any, others: Collection[str] = ()
+    kinds: Collection[type[Table]], name: str, data: Any, more_names: Collection[str] = ()
 ) -> dict[str, Any]:
     """Return the keys of a table which some of several kinds of tables may use, checked.
 
@@ -271,14 +271,14 @@ def check_keys(
         kinds: of tables.
         name: dotted, of the table.
         data: key -> value.
-        others: keys that are known beside those, and not checked.
+        more_names: keys that are known beside those, and not checked.
 
     Raises:
         InputError: a key is none of theirs, or its value is not allowed.
     """
     keys = dict(_as_keys(name, data))
     names = {key for kind in kinds for key in used_names(kind, name, keys)}
-    refuse_unknown_keys(kinds, name, keys, names | {*others})
+    refuse_unknown_keys(kinds, name, keys, names | {*more_names})
     tables = [resolve(kind, name, keys) for kind in kinds]
     used = {key: value for table in tables for key, value, _ in key_values(table)}
     for key, value in keys.items():
@@ -294,10 +294,10 @@ def check_keys(
 def key_values(table: Table) -> Iterator[tuple[str, Any, Field]]:
     """Yield every key that a table uses with its value and declaration; of a part its own, too."""
     for field in _fields(type(table)):
-        value, part = getattr(table, field.name), field.metadata.get("part")
-        if part is None or "meaning" in field.metadata:
-            yield field.name, value if part is None else value.kind, field
-        if part is not None and value is not None:
+        value, selector = getattr(table, field.name), field.metadata.get("part")
+        if selector is None or "meaning" in field.metadata:
+            yield field.name, value if selector is None else value.kind, field
+        if selector is not None and value is not None:
             yield from key_values(value)
 
 
@@ -305,20 +305,20 @@ def declared_keys(kind: type[Table]) -> Mapping[str, Field]:
     """Return every key that a table may have, of all kinds of its parts, with its declaration."""
     keys: dict[str, Field] = {}
     for field in _fields(kind):
-        part = field.metadata.get("part")
-        if part is None or "meaning" in field.metadata:
+        selector = field.metadata.get("part")
+        if selector is None or "meaning" in field.metadata:
             keys.setdefault(field.name, field)
-        for _, inner in part.classes() if part is not None else ():
+        for _, inner in selector.classes() if selector is not None else ():
             for name, of_part in declared_keys(inner).items():
                 keys.setdefault(name, of_part)
     return keys
 
 
-def demand_keys(place: str, table: Table, keys: Collection[str], law: str, where: str) -> None:
+def demand_keys(path: str, table: Table, keys: Collection[str], law: str, where: str) -> None:
     """Raise InputError for the first of some keys that a table does not have.
 
     Args:
-        place: that needs them.
+        path: that needs them.
         table: with them.
         keys: that are needed, each with an example, beside those that the table itself needs.
         law: name of the table in the message, if it has one.
@@ -331,14 +331,14 @@ def demand_keys(place: str, table: Table, keys: Collection[str], law: str, where
                 example = f"{example:g}"
             example_text = "" if example is None else f", as in {name} = {example}"
             raise InputError(
-                f"{place} needs {dotted_name(law, name)} ({meta['meaning']}, {meta['unit']}), "
+                f"{path} needs {dotted_name(law, name)} ({meta['meaning']}, {meta['unit']}), "
                 f"which decides its result and has no default; give it in {where}{example_text}"
             )
 
 
 def _needed_keys(table: Table) -> set[str]:
     parts = [getattr(table, f.name) for f in _fields(type(table)) if "part" in f.metadata]
-    return {*table.needed}.union(*(_needed_keys(part) for part in parts if part is not None))
+    return {*table.needed}.union(*(_needed_keys(inner) for inner in parts if inner is not None))
 
 
 def changed_table(
@@ -392,9 +392,9 @@ def given_keys(table: Any) -> dict[str, Any]:
     return dict(keys) if isinstance(keys, Mapping) else {}
 
 
-def given_names(table: Any, place: str = "") -> Iterator[str]:
+def given_names(table: Any, path: str = "") -> Iterator[str]:
     """Yield the dotted names of the keys that a table gives, and of those of tables within it."""
     for name, value in given_keys(table).items():
         if value is not None:
-            yield place + name
-            yield from given_names(value, f"{place}{name}.")
+            yield path + name
+            yield from given_names(value, f"{path}{name}.")

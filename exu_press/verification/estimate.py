@@ -26,7 +26,7 @@ chance; scripts/calibrate_errors.py measures ORDER."""
 
 PREDICTION_FACTORS = {1: 11.0, 2: 3.85, 3: 2.9, 4: 2.55}
 """Number of differences -> half the width of the interval that holds 95 % of further samples, over
-the root mean square of a normal sample's differences (tests/confidence/test_estimate.py)."""
+the root mean square of a normal sample's differences (tests/verification/test_estimate.py)."""
 
 DETERMINED = 0.05
 """Relative error within which a quantity is determined, however chaotic the motion is."""

@@ -102,7 +102,7 @@ def test_rows_are_kept_byte_by_byte_on_a_system_without_links_and_pipes(home, mo
     with RowFile(home / "runs.jsonl") as file:
         file.append("key", None, row)
     with RowFile(home / "runs.jsonl") as file:
-        assert file.finished("key", None) == row
+        assert file.finished_row("key", None) == row
 
 
 def test_temporary_folders_need_no_lock_of_files(monkeypatch):

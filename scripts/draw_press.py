@@ -34,13 +34,17 @@ def labels():
 
     return [
         (
-            text("linkage (11)", SIZE.counter_linkage_length, SIZE.counter_linkage_mass),
+            text(
+                "linkage (11)",
+                SIZE.counterweight.counter_linkage_length,
+                SIZE.counterweight.counter_linkage_mass,
+            ),
             dimension("counter_pin", "counterweight_pin"),
             0.04,
         ),
         (text("crank (2)", SIZE.crank_radius, SIZE.crank_mass), (0.0, 0.015), 0.07),
         (
-            f"counter-eccentric: {1e3 * SIZE.counter_eccentricity:g} mm (assumed)",
+            f"counter-eccentric: {1e3 * SIZE.counterweight.counter_eccentricity:g} mm (assumed)",
             AT["counter_pin"],
             0.02,
         ),
@@ -82,7 +86,14 @@ def main(path):
     _, ball_y = AT["ball_right"]
     block(axes, "main slider (10)", SIZE.slider_mass, (0.0, ball_y - 0.07), 0.5, 0.14)
     _, weight_y = AT["counterweight_pin"]
-    block(axes, "counterweight (12)", SIZE.counterweight_mass, (0.0, weight_y + 0.065), 0.5, 0.13)
+    block(
+        axes,
+        "counterweight (12)",
+        SIZE.counterweight.counterweight_mass,
+        (0.0, weight_y + 0.065),
+        0.5,
+        0.13,
+    )
     for body in MECHANISM.bodies:
         ends = sorted(
             {joint.at for joint in MECHANISM.joints if body.name in (joint.journal, joint.bearing)}

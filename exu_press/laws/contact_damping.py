@@ -25,7 +25,7 @@ __all__ = [
 ]
 
 SLOWEST_IMPACT = 1e-3
-"""m/s, unless one is given, as scenes do (`exu_press.scene.contact.Contact.normal_contact`)."""
+"""m/s, unless one is given, as scenes do (`exu_press.scene.contact.Restitution`)."""
 
 
 def step(x: float, x0: float, h0: float, x1: float, h1: float) -> tuple[float, float]:

@@ -112,8 +112,9 @@ def values_in(scene: Scene, changes: Changes) -> dict[str, Any]:
     for name, value in changes.items():
         table, _, inner = name.rpartition(".")
         if (place := _place(scene, table)) is not None:
-            now = place[inner] if isinstance(place, Mapping) else getattr(place, inner)
-            values[name] = value(now) if callable(value) else value
+            if callable(value):
+                value = value(place[inner] if isinstance(place, Mapping) else getattr(place, inner))
+            values[name] = value
     return values
 
 

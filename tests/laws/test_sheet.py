@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 
 from exu_press.laws.load_curve import LoadCurve
 from exu_press.laws.sheet import PunchStroke, Sheet
-from exu_press.quantities.sheet import given_back
+from exu_press.quantities.sheet import released_work
 
 CURVE = LoadCurve([0.0, 1e-4, 8e-4], [0.0, 8e4, 1e5])
 SHEET = Sheet(CURVE, thickness=2e-3, crack_time=1e-4, stripping=1e4, fade=1e-3)
@@ -97,7 +97,7 @@ def test_a_released_spring_gives_back_what_it_has_stored():
     period = 2.0 * np.pi * np.sqrt(mass / stiffness)
     times = np.linspace(0.0, 0.5 * period, 2001)
     found = solve_ivp(motion, (0.0, times[-1]), [start, 0.0], t_eval=times, rtol=1e-10, atol=1e-14)
-    energy = given_back(times, -stiffness * found.y[0], found.y[1])
+    energy = released_work(times, -stiffness * found.y[0], found.y[1])
     assert energy == pytest.approx(pressed**2 / (2.0 * stiffness), rel=1e-4)
     assert found.y[1].min() == pytest.approx(-start * np.sqrt(stiffness / mass), rel=1e-4)
     assert -stiffness * found.y[0].min() == pytest.approx(pressed, rel=1e-4)  # all of it returns

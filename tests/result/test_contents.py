@@ -67,7 +67,7 @@ def test_metadata_of_another_kind(original, changed, change, message):
         ({"scene": "{}"}, "bodies = .*: allowed are the scene's, crank, linkage"),
         ({"bodies": "[]"}, r"bodies = \(\): allowed are the scene's, crank, rod, slider"),
         ({"bodies": '["crank", "$", "slider"]'}, "bodies = .*: allowed are the scene's"),
-        ({"format": "exu_press result 99"}, "has no format = 'exu_press result 2'"),
+        ({"format": "exu_press result 99"}, "is of format 99, written by a newer version"),
     ],
 )
 def test_texts_of_the_file(changed, texts, message):

@@ -59,7 +59,7 @@ WORN = {"kind": "dry", "worn": {"bearing_depth": [0.0, 0.0, 4e-6, 8e-6, 4e-6, 0.
 def shipped_scene(name: str, revolutions: float) -> Scene:
     """Return a shipped scene, shortened, with the start included unless a schedule needs it."""
     scene = Scene.load(SHIPPED / f"{name}.toml")
-    scheduled = scene.drive is not None and scene.drive.scheduled
+    scheduled = scene.drive is not None and scene.drive.has_schedule
     return scene.replace({"revolutions": revolutions} | ({} if scheduled else {"settle": 0.0}))
 
 

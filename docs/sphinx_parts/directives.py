@@ -17,7 +17,7 @@ from exu_press.scene import DryJoint, Flexible
 from exu_press.scene.load import LOAD_KINDS
 from exu_press.scene.oil import Oil
 from exu_press.scene.usage import TABLES, table_keys
-from exu_press.scene.worn import Worn
+from exu_press.scene.worn import WornDepths
 from exu_press.schema.registry import Choice
 from exu_press.schema.table import Table, declared_keys
 
@@ -39,7 +39,7 @@ class SceneKeys(Directive):
     def run(self) -> list[nodes.Node]:
         """Return a section a table."""
         content: list[nodes.Node] = []
-        named = {"joints.NAME": DryJoint, "joints.NAME.worn": Worn, "bodies.NAME": Flexible}
+        named = {"joints.NAME": DryJoint, "joints.NAME.worn": WornDepths, "bodies.NAME": Flexible}
         named |= {f"load.NAME, {kind}": load for kind, load in LOAD_KINDS.items()}
         for name, kind in {"at the top": Scene, **named, **TABLES, "film.oil": Oil}.items():
             title = name if kind is Scene else f"[{name}]"

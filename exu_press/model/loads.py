@@ -48,7 +48,7 @@ class ActingLoad:
         """Return the force in its direction, N."""
         moves = self.applied.fade is not None or self.applied.damping
         velocity = self._height(time)[1] if moves else 0.0
-        return self.applied.at(self._position(time)[0], velocity)
+        return self.applied.force_at(self._position(time)[0], velocity)
 
     def force_at_rest(self, time: float) -> float:
         """Return the force, N; of forming, just before the output came to rest."""

@@ -94,7 +94,7 @@ def _marks(result: Result, curves: list[Curve], windowed: Result) -> dict[str, A
     impact_list, more = impacts(result)
     stated = peaks(result, curves)
     horizon, settled = result.info.get("horizon"), 60.0 / result.scene.speed_rpm
-    settled *= result.scene.settled
+    settled *= result.scene.settle_revolutions
     return {
         "peaks": {name: mark for name, mark in stated.items() if begin <= mark["at"] <= end},
         "impacts": [mark for mark in impact_list if begin <= mark["peak"] <= end],

@@ -69,7 +69,7 @@ def angle_axis(
 
 def _lighten_start(panels: Iterable[Axes], results: Mapping[str, Result]) -> None:
     """Cover the revolutions before those from which quantities are read."""
-    settled = {result.scene.settled for result in results.values()}
+    settled = {result.scene.settle_revolutions for result in results.values()}
     begin, end = angle_range(results)
     if len(settled) == 1 and 0.0 < (turns := settled.pop()) < (end - begin) / 360.0:
         for axes in panels:

@@ -28,7 +28,7 @@ def describe(scenes: Iterable[Scene], width: float = 130) -> str:
     A joint that only some scenes have with clearance is named with that clearance.
     """
     scenes = list(scenes)
-    joints = dict.fromkeys(name for scene in scenes for name in scene.joints.grouped)
+    joints = dict.fromkeys(name for scene in scenes for name in scene.joints.by_group)
     same = len({str(_of_many(scene)) for scene in scenes}) == 1
     phrases_of_scene = [
         _parts(scene, joints, grouped=same or len(joints) > FEW) for scene in scenes
@@ -139,7 +139,7 @@ def _of_each(scene: Scene, joints: Iterable[str]) -> dict[str, str]:
 def _of_many(scene: Scene) -> dict[str, str]:
     """Return the joints and groups of each kind and clearance in one phrase."""
     alike: dict[tuple[str, float], list[str]] = {}
-    for name, joint in scene.joints.grouped.items():
+    for name, joint in scene.joints.by_group.items():
         alike.setdefault((joint.kind, joint.clearance), []).append(name.replace("_", " "))
     return {
         f"{kind} {clearance}": f"{', '.join(names)} {kind}, clearance {clearance * 1e3:g} mm"

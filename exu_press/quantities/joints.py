@@ -84,7 +84,7 @@ START = Quantity(
     "start_ratio", "",
     "largest joint force before quantities are read, over the largest one after it",
     MEASURE, _start,
-    available=lambda scene, _: scene.settled > 0.0,
+    available=lambda scene, _: scene.settle_revolutions > 0.0,
     title="largest joint force of the start, over that", is_detail=True, digits=3,
 )  # fmt: skip
 

@@ -35,7 +35,8 @@ def oil_warnings(run: Reading) -> Iterator[str]:
     if added:
         yield (
             f"{added} revolution{'s' if added > 1 else ''} more than asked for, until the films' "
-            f"heat and temperature stayed as they were: settle is {result.scene.settled:g} now"
+            "heat and temperature stayed as they were: settle is "
+            f"{result.scene.settle_revolutions:g} now"
         )
     for name, joint in result.scene.joints.items():
         if isinstance(joint, LubricatedJoint) and f"{name}_temperature" in result:

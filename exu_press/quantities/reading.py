@@ -69,7 +69,7 @@ class Reading:
     @property
     def _starts_or_stops(self) -> bool:
         motor = self.result.scene.drive
-        return motor is not None and motor.scheduled
+        return motor is not None and motor.has_schedule
 
     @property
     def span(self) -> tuple[float, float]:

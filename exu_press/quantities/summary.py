@@ -16,7 +16,7 @@ from exu_press.quantities.start_stop import still_turns
 from exu_press.quantities.value import values_of
 from exu_press.result import JointRecord, Result
 from exu_press.scene import DryJoint, LubricatedJoint, Scene, mechanism_of
-from exu_press.scene.assumptions import assumed
+from exu_press.scene.assumptions import assumed_values
 from exu_press.scene.joint import Joint
 from exu_press.scene.warnings import scene_warnings
 
@@ -53,7 +53,7 @@ def summary(result: Result) -> dict[str, Any]:
         "reason": info["reason"],
         "end_time": info["end_time"],
         "warnings": figures["warnings"] if figures else run_warnings(run),
-        "assumed": assumed(result.scene),
+        "assumed": assumed_values(result.scene),
         "read_from": figures["read_from"]
         if figures
         else dict(zip(("from", "to"), run.span, strict=True)),

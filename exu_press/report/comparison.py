@@ -14,7 +14,7 @@ from exu_press.report.page_file import ALL, Span
 from exu_press.report.run import live_part, scene_parts, warnings_of
 from exu_press.report.study import reading
 from exu_press.result import Result
-from exu_press.schema.stored import from_json, shown
+from exu_press.schema.stored import from_json, short_text
 from exu_press.studies.compare import different_keys
 from exu_press.studies.curve_comparison import MEASURED, MEASURED_PICTURE, comparison_rows
 from fe_models.temporary import TemporaryFolder
@@ -98,5 +98,5 @@ def _runs(file: Path) -> dict[str, Path]:
     names = {label: folder_name(label) for label in labels}
     for label, name in names.items():
         if Path(name).name != name or not name.isprintable():
-            raise InputError(f"{file}: {shown(label)}: allowed is the name of a variant")
+            raise InputError(f"{file}: {short_text(label)}: allowed is the name of a variant")
     return {label: file.parent / name / "run.nc" for label, name in names.items()}

@@ -105,7 +105,7 @@ def live_part(results: Mapping[str, Result], span: Span = ALL) -> Live | None:
 def changed_keys(scene: Scene) -> str:
     """Return a table of the keys that a scene gives."""
     keys = keys_of(scene).values()
-    changed = [_row(key.name, key.value, key.unit, key.meaning) for key in keys if key.changed]
+    changed = [_row(key.name, key.value, key.unit, key.meaning) for key in keys if key.is_changed]
     if not changed:
         return paragraph("Every key is at its default.")
     return table(HEAD, changed, "Keys that differ from their defaults")
@@ -115,7 +115,7 @@ def scene_parts(scene: Scene) -> list[tuple[str, str]]:
     """Return the sections about the scene: changed keys, assumptions, every key."""
     keys = keys_of(scene).values()
     everything = [
-        _row(key.name, key.value, key.unit, key.meaning, "assumed" if key.assumed else "given")
+        _row(key.name, key.value, key.unit, key.meaning, "assumed" if key.is_assumed else "given")
         for key in keys
     ]
     assumed = [

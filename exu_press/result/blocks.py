@@ -67,7 +67,10 @@ def block_by_block(
             may_add = settling and added < MOST_ADDED and block.completed
             if may_add and _needs_revolution(model, scene, remaining):
                 remaining, added = remaining + 1.0, added + 1
-                later = {"revolutions": scene.revolutions + 1.0, "settle": scene.settled + 1.0}
+                later = {
+                    "revolutions": scene.revolutions + 1.0,
+                    "settle": scene.settle_revolutions + 1.0,
+                }
                 scene = scene.replace(later)
             ended = remaining < _negligible_rest(scene) or model.has_stood(block.info["end_time"])
             if ended or not block.completed or steps < 1:
@@ -83,7 +86,7 @@ def block_by_block(
 def _needs_revolution(model: Model, scene: Scene, remaining: float) -> bool:
     """Return whether quantities would be read from revolutions before films have settled."""
     completed = scene.revolutions - remaining + _negligible_rest(scene)
-    if not scene.settled or completed < scene.settled:
+    if not scene.settle_revolutions or completed < scene.settle_revolutions:
         return False
     return any(not film.is_steady for film in model.warm.values())
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
-from exu_press.schema.stored import shown
+from exu_press.schema.stored import short_text
 
 __all__ = ["CHECKSUM", "Classic", "Variable", "checksum", "header_checksum", "open_classic"]
 
@@ -162,7 +162,7 @@ class _Header:
         try:
             return name.decode()
         except UnicodeDecodeError:
-            raise InputError(f"{shown(name)}: allowed is a name in UTF-8") from None
+            raise InputError(f"{short_text(name)}: allowed is a name in UTF-8") from None
 
     def _list(self, kind: int, read: Callable[[], T]) -> list[T]:
         """Return a list of the header; an empty one may be without its kind."""
@@ -187,7 +187,7 @@ class _Header:
         try:
             axes = dict(self._dimensions[self._number()] for _ in range(self._number()))
         except IndexError:
-            raise InputError(f"{shown(name)}: has a dimension that is none") from None
+            raise InputError(f"{short_text(name)}: has a dimension that is none") from None
         attributes = dict(self._list(ATTRIBUTE, self._attribute))
         dtype = np.dtype(TYPES[self._type()])
         self._number()  # size, which the dimensions tell
@@ -196,6 +196,6 @@ class _Header:
         self._unclaimed -= size
         inside = 0 <= begin <= len(self._data) - size and self._unclaimed >= 0
         if not inside or min(axes.values(), default=1) < 1:
-            raise InputError(f"{shown(name)}: does not lie within the file")
+            raise InputError(f"{short_text(name)}: does not lie within the file")
         stored = self._data[begin : begin + size].view(dtype).reshape(tuple(axes.values()))
         return name, Variable(axes, attributes, stored)

@@ -14,7 +14,7 @@ from exu_press.result.channels import channel_headers
 from exu_press.result.info import Info
 from exu_press.result.recorders import expected_channels
 from exu_press.scene import Scene, mechanism_of
-from exu_press.schema.stored import shown
+from exu_press.schema.stored import short_text
 
 if TYPE_CHECKING:
     from exu_press.result.surface import Surface
@@ -46,12 +46,12 @@ def _check(result: Contents) -> None:
     status = result.info["status"]
     if status not in (member.value for member in SolverStatus):
         allowed = ", ".join(repr(member.value) for member in SolverStatus)
-        raise InputError(f"info.status = {shown(status)}: allowed is one of {allowed}")
+        raise InputError(f"info.status = {short_text(status)}: allowed is one of {allowed}")
     scene, mechanism = result.scene, mechanism_of(result.scene)
     bodies = tuple(body.name for body in mechanism.bodies)
     if result.bodies != bodies:
         raise InputError(
-            f"bodies = {shown(result.bodies)}: allowed are the scene's, {', '.join(bodies)}"
+            f"bodies = {short_text(result.bodies)}: allowed are the scene's, {', '.join(bodies)}"
         )
     whole = "figures" not in result.info
     expected = expected_channels(scene, own_items=bool(result.info["own_items"]))
@@ -83,7 +83,7 @@ def _check_channels(
         allowed, _ = expected.get(name, (channel.axis, False))  # one face of several is not known
         if channel.axis != allowed:
             raise InputError(
-                f"channel {name}: columns are {shown(channel.axis)}; allowed is {allowed!r}"
+                f"channel {name}: columns are {short_text(channel.axis)}; allowed is {allowed!r}"
             )
         if not computed_later and len(channel.values) != count:
             raise InputError(f"channel {name}: {len(channel.values)} values; time has {count}")
@@ -98,7 +98,7 @@ def _check_surfaces(result: Contents) -> None:
     """Check that surfaces belong to bodies, and their modes to channels."""
     for body, surface in result.surfaces.items():
         if body not in result.bodies:
-            raise InputError(f"surface of {shown(body)}: the scene has no such body")
+            raise InputError(f"surface of {short_text(body)}: the scene has no such body")
         name, modes = f"{body}_modes", surface.modes.shape[-1]
         if name not in result.channels or result.channels[name].values.shape[1:] != (modes,):
             raise InputError(f"channel {name}: allowed are {modes} columns, as the surface's modes")

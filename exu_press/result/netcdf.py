@@ -25,7 +25,7 @@ from exu_press.result.contents import Contents
 from exu_press.result.info import Info
 from exu_press.result.surface import ARRAYS, Surface
 from exu_press.scene import Scene
-from exu_press.schema.stored import from_json, shown
+from exu_press.schema.stored import from_json, short_text
 
 if TYPE_CHECKING:
     from scipy.io import netcdf_file
@@ -139,7 +139,7 @@ def _text(attributes: Mapping[str, bytes], name: str) -> str:
     try:
         return attributes[name].decode()
     except UnicodeDecodeError:
-        raise InputError(f"{name} = {shown(attributes[name])}: allowed is UTF-8") from None
+        raise InputError(f"{name} = {short_text(attributes[name])}: allowed is UTF-8") from None
 
 
 def _channels(file: Classic, along: str) -> dict[str, Channel]:
@@ -155,7 +155,7 @@ def _channels(file: Classic, along: str) -> dict[str, Channel]:
 def _channel(name: str, variable: Variable) -> Channel:
     """Return a channel; its last dimension names its columns."""
     _, *inner = variable.dimensions
-    with error_prefix(f"channel {shown(name)}: "):
+    with error_prefix(f"channel {short_text(name)}: "):
         return Channel(
             variable.values(np.float64),
             _text(variable.attributes, "units"),
@@ -233,7 +233,7 @@ def _surface(file: Classic, body: str) -> Surface:
             raise InputError(f"has no {name}")
         return file.variables[f"{body}_surface_{name}"].values(dtype)
 
-    with error_prefix(f"surface of {shown(body)}: "):
+    with error_prefix(f"surface of {short_text(body)}: "):
         modes = array("modes", np.float32)
         stress = np.zeros((0, 6, modes.shape[-1]), np.float32)
         if f"{body}_surface_stress" in file.variables:

@@ -22,7 +22,7 @@ def settled_part(run: Result) -> Result:
     The whole run where nothing settles, or where it ends before that. Energies count from the
     part's begin. An incomplete revolution at the end is left out, unless it is the only one.
     """
-    settle_revolutions, start = run.scene.settled, run.scene.start_angle
+    settle_revolutions, start = run.scene.settle_revolutions, run.scene.start_angle
     angle = run["crank_angle"]
     if not settle_revolutions or len(angle) < 2:
         return run

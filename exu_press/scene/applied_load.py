@@ -54,7 +54,7 @@ class AppliedLoad:
     sheet: Sheet | None = None
     top: float = 0.0
 
-    def at(self, position: float, velocity: float) -> float:
+    def force_at(self, position: float, velocity: float) -> float:
         """Return the force, N, at a place on its curve and a velocity of the output, m/s."""
         force = self.curve(position)
         if self.damping:
@@ -84,7 +84,7 @@ class AppliedLoad:
         else:
             position = {"time": time, "crank_angle_deg": crank[0], "height": slider[0]}[self.over]
         pairs = zip(position.tolist(), slider[1].tolist(), strict=True)
-        return np.array([self.at(*pair) for pair in pairs])
+        return np.array([self.force_at(*pair) for pair in pairs])
 
     def moment(self, force: Array, angle: Array) -> Array:
         """Return the moment about the body's centre of mass, (n,), N m.

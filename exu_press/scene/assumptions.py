@@ -21,8 +21,8 @@ __all__ = [
     "ASSUMPTIONS",
     "Assumption",
     "Key",
-    "assumed",
     "assumed_line",
+    "assumed_values",
     "engineering_values",
     "keys_of",
     "used_assumptions",
@@ -112,14 +112,14 @@ class Key:
     asked: bool = False
 
     @property
-    def changed(self) -> bool:
+    def is_changed(self) -> bool:
         """Return whether it is not at its default."""
         return bool(self.value != self.default)
 
     @property
-    def assumed(self) -> bool:
+    def is_assumed(self) -> bool:
         """Return whether it is at its default, and not because the user said so."""
-        return not (self.changed or self.asked)
+        return not (self.is_changed or self.asked)
 
     def __str__(self) -> str:
         return f"{self.name} = {_text(self.value)} {self.unit}".rstrip()
@@ -162,7 +162,7 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
         unchanged = tuple(
             key
             for name, key in keys.items()
-            if key.assumed and any(fnmatchcase(name, pattern) for pattern in assumption.keys)
+            if key.is_assumed and any(fnmatchcase(name, pattern) for pattern in assumption.keys)
         )
         ideal = scene.guide is None or not scene.guide.soft
         by_absence = assumption.keys == ("guide",) and ideal
@@ -174,7 +174,7 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
 
 def engineering_values(scene: Scene) -> list[Key]:
     """Return the defaults that decide results and are neither the scene's nor its mechanism's."""
-    deciding = [key for key in _decisive(scene).values() if key.source and key.assumed]
+    deciding = [key for key in _decisive(scene).values() if key.source and key.is_assumed]
     return deciding + _slowest_impacts(scene)
 
 
@@ -218,7 +218,7 @@ def _is_used_by_some(scene: Scene, key: Key) -> bool:
     return False
 
 
-def assumed(scene: Scene) -> list[str]:
+def assumed_values(scene: Scene) -> list[str]:
     """Return the defaults of laws, loads and the start that were assumed, each with its source."""
     numbered = [
         f"{key} (A-{assumption.number})"
@@ -231,7 +231,7 @@ def assumed(scene: Scene) -> list[str]:
 
 def assumed_line(scene: Scene) -> str:
     """Return the assumptions in one line; empty without any."""
-    named = assumed(scene)
+    named = assumed_values(scene)
     return f"assumed: {', '.join(named)}" if named else ""
 
 
@@ -253,10 +253,10 @@ def _nested_value(table: Table | None, name: str) -> Any:
 def _joint_keys(scene: Scene) -> dict[str, Key]:
     """Return the keys of the joints with clearance, and of those that are ideal against habit."""
     mechanism = mechanism_of(scene)
-    usual = mechanism.defaults.get("joints", {}) if scene.shipped else {}
+    usual = mechanism.defaults.get("joints", {}) if scene.shipped_name else {}
     sizes = {name: mechanism.defaults.get(name) for name in SIZES}
     by_joint = {j: kind for name, kind in usual.items() for j in scene.joints.members(name)}
-    joints: dict[str, Joint] = {**scene.joints.grouped}
+    joints: dict[str, Joint] = {**scene.joints.by_group}
     joints |= {name: scene.joints[name] for name in by_joint if name in scene.joints.ideal}
     joint_keys = []
     for name, joint in joints.items():
@@ -270,7 +270,7 @@ def _joint_keys(scene: Scene) -> dict[str, Key]:
             own, law = getattr(joint, field.name), scene.laws.get(field.name)
             if own is not None and law is not None:
                 keys = _keys_in(f"{joint_name}.{field.name}", own, law)
-                joint_keys += (key for key in keys.values() if key.changed)
+                joint_keys += (key for key in keys.values() if key.is_changed)
     return {key.name: key for key in joint_keys}
 
 

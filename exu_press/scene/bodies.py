@@ -194,8 +194,8 @@ def bodies_of(
         with error_prefix(f"bodies.{name}."):
             body = bodies[name] = table_from(Flexible, "", _keys(value))
         for joint in body.faces:
-            said = f"bodies.{name}.faces.{joint}: {name} has no such joint"
-            demand_known(said, joint, joints[name])
+            problem = f"bodies.{name}.faces.{joint}: {name} has no such joint"
+            demand_known(problem, joint, joints[name])
     return bodies
 
 

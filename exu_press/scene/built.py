@@ -8,10 +8,10 @@ if TYPE_CHECKING:
 
     from exu_press.integrate import Outcome
 
-__all__ = ["Built"]
+__all__ = ["AssembledModel"]
 
 
-class Built(Protocol):
+class AssembledModel(Protocol):
     """An assembled Exudyn system; `exu_press.model.Model` has all of its parts."""
 
     @property

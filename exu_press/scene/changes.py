@@ -50,15 +50,15 @@ def changed_keys(
         with error_prefix("mechanism."):
             data["mechanism"] = change_mechanism(drawn, drawing)
     for table, keys in inner.items():
-        before = data.get(table, {})
-        if table not in TABLES or not isinstance(before, Mapping):
+        current = data.get(table, {})
+        if table not in TABLES or not isinstance(current, Mapping):
             why = RENAMED.get(table, "")
             known = [*TABLES, "joints", "bodies", "load", "mechanism"]
             unknown = f"{table} is no table of a scene{nearest(table, known)}"
             why = f"is {why} now" if why else unknown
             key, value = next(iter(keys.items()))
             raise InputError(f"{table}.{key} = {value!r}: {why}")
-        data[table] = changed_table(TABLES[table], before, keys)
+        data[table] = changed_table(TABLES[table], current, keys)
     if bodies and isinstance(data.get("bodies", {}), Mapping):
         data["bodies"] = changed_bodies(data.get("bodies", {}), bodies)
     if loads:

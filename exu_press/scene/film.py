@@ -69,7 +69,7 @@ class FilmLaw(CustomKind, Table, ABC):
         return low <= length_to_diameter <= high
 
 
-class _Published(FilmLaw):
+class _CatalogueFilmLaw(FilmLaw):
     """A law of `exu_press.laws.catalogue`."""
 
     def __init_subclass__(cls) -> None:
@@ -86,25 +86,25 @@ class _Published(FilmLaw):
         return FILM_LAWS[self.kind].side_flow(length_to_diameter)
 
 
-class Pinkus(_Published):
+class Pinkus(_CatalogueFilmLaw):
     """A long bearing with Gümbel's condition, as printed by Pinkus and Sternlicht."""
 
     registered_name: ClassVar[str] = "pinkus"
 
 
-class PiFilm(_Published):
+class PiFilm(_CatalogueFilmLaw):
     """A long bearing, of whose film half bears."""
 
     registered_name: ClassVar[str] = "pi_film"
 
 
-class Short(_Published):
+class Short(_CatalogueFilmLaw):
     """A short bearing."""
 
     registered_name: ClassVar[str] = "short"
 
 
-class Finite(_Published):
+class Finite(_CatalogueFilmLaw):
     """A bearing of any usual length."""
 
     registered_name: ClassVar[str] = "finite"

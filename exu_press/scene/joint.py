@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from exu_press.scene.film import BallFilm, JournalFilm
     from exu_press.scene.friction import Friction
     from exu_press.scene.oil import Oil
-    from exu_press.scene.worn import Worn
+    from exu_press.scene.worn import WornDepths
 
 __all__ = [
     "JOINT_KINDS",
@@ -52,7 +52,7 @@ class Joint(CustomKind, Table):
     contact: "JournalContact | BallContact | None" = None
     friction: "Friction | None" = None
     film: "JournalFilm | BallFilm | None" = None
-    worn: "Worn | None" = None
+    worn: "WornDepths | None" = None
     onset: float | None = None
     """Gap at which the surfaces begin to touch, m; None where they never do."""
 
@@ -172,7 +172,7 @@ class DryJoint(TouchingJoint):
     radius: float = _radius()
     contact: "JournalContact | BallContact | None" = None
     friction: "Friction | None" = None
-    worn: "Worn | None" = None
+    worn: "WornDepths | None" = None
     onset: ClassVar[float] = 0.0  # type: ignore[misc]
 
 
@@ -189,7 +189,7 @@ class LubricatedJoint(TouchingJoint):
     film: "JournalFilm | BallFilm" = dataclasses.field(default=cast(Any, None))
     contact: "JournalContact | BallContact | None" = None
     friction: "Friction | None" = None
-    worn: "Worn | None" = None
+    worn: "WornDepths | None" = None
 
     @property
     def onset(self) -> float | None:  # type: ignore[override]

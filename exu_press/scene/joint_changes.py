@@ -49,7 +49,7 @@ def changed_joints(
             elif not last:
                 keys[key or "kind"] = value
             elif key in TABLES_OF_JOINTS and isinstance(keys.setdefault(key, {}), dict):
-                kind = load_object("scene.worn:Worn") if key == "worn" else TABLES[key]
+                kind = load_object("scene.worn:WornDepths") if key == "worn" else TABLES[key]
                 keys[key] = changed_table(kind, keys[key], {last: value})
             else:
                 raise InputError(

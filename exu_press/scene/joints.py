@@ -83,7 +83,7 @@ class Joints(Mapping[str, Joint]):
         return {n: j for n, j in self._joints.items() if not isinstance(j, IdealJoint)}
 
     @property
-    def grouped(self) -> dict[str, Joint]:
+    def by_group(self) -> dict[str, Joint]:
         """The joints with clearance, those of a group that are all the same under its name."""
         loose = self.with_clearance
         joints: dict[str, Joint] = {}
@@ -265,9 +265,9 @@ def _joint(
         if spherical:
             raise UnusedKeyError(f"{path}.worn", f"{path}.worn", f"{path} is a ball")
         with error_prefix(f"{path}."):
-            from exu_press.scene.worn import Worn
+            from exu_press.scene.worn import WornDepths
 
-            values["worn"] = table_from(Worn, "worn", table["worn"])
+            values["worn"] = table_from(WornDepths, "worn", table["worn"])
     with error_prefix(f"{path}."):
         joint: Joint = chosen(**{key: values[key] for key in keys if key in values})
     joint.demand_keys(path)

@@ -15,30 +15,30 @@ class LawKeys:
     """The keys from which each joint and guide takes those that it uses.
 
     Attributes:
-        given: law -> the scene's keys, or None.
+        scene_keys: law -> the scene's keys, or None.
     """
 
     def __init__(
         self,
-        given: Mapping[str, Any],
+        scene_keys: Mapping[str, Any],
         defaults: Mapping[str, Any],
         tables: Iterable[tuple[str, Mapping[str, Any]]] = (),
     ) -> None:
         """Check the scene's keys.
 
         Args:
-            given: law -> the scene's keys, or None.
+            scene_keys: law -> the scene's keys, or None.
             defaults: of its mechanism, likewise.
             tables: law and keys of joints and guides, which may name laws of their own.
 
         Raises:
             InputError: a key is not allowed.
         """
-        self.given = given
+        self.scene_keys = scene_keys
         self._defaults = defaults
         self._tables = tuple(tables)
         self._checked: dict[str, dict[str, Any]] = {}
-        for law, keys in given.items():
+        for law, keys in scene_keys.items():
             if keys is not None:
                 self.keys_of(law)
 
@@ -46,7 +46,7 @@ class LawKeys:
         """Return the keys of a law, checked when they are first asked for."""
         if law not in self._checked:
             kinds = list(LAWS[law].values())
-            keys = self.given[law]
+            keys = self.scene_keys[law]
             if keys is None or isinstance(keys, Mapping):
                 keys = changed_table(kinds[0], self._defaults.get(law, {}), keys or {})
             self._checked[law] = check_keys(kinds, law, keys, self._of_own_laws(law, keys))

@@ -19,7 +19,15 @@ from exu_press.schema.kinds import CustomKind
 from exu_press.schema.registry import Registry
 from exu_press.schema.table import Table, demand_keys
 
-__all__ = ["COLUMNS", "LOAD_KINDS", "PLACE", "CustomLoad", "Load", "UnresolvedLoad", "check_height"]
+__all__ = [
+    "ATTACHMENT",
+    "COLUMNS",
+    "LOAD_KINDS",
+    "CustomLoad",
+    "Load",
+    "UnresolvedLoad",
+    "check_height",
+]
 
 LOAD_KINDS = Registry(
     {
@@ -34,7 +42,7 @@ LOAD_KINDS = Registry(
 COLUMNS = ("time", "crank_angle_deg", "height")
 """Variables that a table's forces may be given over."""
 
-PLACE = ("body", "offset", "joint", "face", "direction")
+ATTACHMENT = ("body", "offset", "joint", "face", "direction")
 """Keys of every load."""
 
 
@@ -68,9 +76,9 @@ class Load(CustomKind, Table, ABC):
     )
 
     def __post_init__(self) -> None:
-        given: Any = self.face
-        if given is not None:
-            object.__setattr__(self, "face", patch_given("face", given))
+        face: Any = self.face
+        if face is not None:
+            object.__setattr__(self, "face", patch_given("face", face))
         super().__post_init__()
         if self.direction is not None and math.hypot(*self.direction) == 0.0:
             raise InputError("direction = [0, 0]: allowed is a direction, such as [0, 1]")
@@ -115,7 +123,7 @@ class CustomLoad(Load, ABC):
     def check_code(self, where: str, angular_speed: float) -> None:
         """Make its curve once, so that it is refused before anything is run."""
         own = [field.name for field in dataclasses.fields(self) if field.default is None]
-        demand_keys(where, self, [name for name in own if name not in PLACE], "", f"[{where}]")
+        demand_keys(where, self, [name for name in own if name not in ATTACHMENT], "", f"[{where}]")
         if self.over not in COLUMNS:
             raise InputError(
                 f"{where}: {self.kind}.over = {self.over!r}: allowed is one of {COLUMNS}"
@@ -149,7 +157,7 @@ class UnresolvedLoad(CustomLoad):
     @classmethod
     def from_keys(cls, name: str, keys: Mapping[str, Any]) -> Self:
         """Return the load of a kind and its keys."""
-        placed = {k: v for k, v in keys.items() if k in PLACE}
+        placed = {k: v for k, v in keys.items() if k in ATTACHMENT}
         return cls(**placed, name=name, keys=keys)
 
     @property

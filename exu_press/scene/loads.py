@@ -8,7 +8,7 @@ from typing import Any
 from exu_press.errors import InputError, UnusedKeyError, error_prefix
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
-from exu_press.scene.load import COLUMNS, LOAD_KINDS, PLACE, Load, UnresolvedLoad
+from exu_press.scene.load import ATTACHMENT, COLUMNS, LOAD_KINDS, Load, UnresolvedLoad
 from exu_press.scene.solver import RPM
 from exu_press.schema.checks import demand_known, demand_name
 from exu_press.schema.table import declared_keys, plain
@@ -79,7 +79,7 @@ def changed_loads(loads: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[
             continue
         keys = changed.setdefault(name, {})
         if inner == "kind" and keys.get("kind") != value:
-            changed[name] = keys = {k: v for k, v in keys.items() if k in PLACE}
+            changed[name] = keys = {k: v for k, v in keys.items() if k in ATTACHMENT}
         if inner == "file":
             for column in (*COLUMNS, "force"):
                 keys.pop(column, None)

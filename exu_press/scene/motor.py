@@ -174,6 +174,6 @@ class Motor(Table):
         return self.begins != "turning"
 
     @property
-    def scheduled(self) -> bool:
+    def has_schedule(self) -> bool:
         """Whether the press starts or stops in the run."""
         return self.stands or self.stops or self.starts

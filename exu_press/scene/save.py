@@ -138,8 +138,8 @@ def load_lines(load: Load, comments: bool, *, absent: bool = False) -> list[str]
 
 def joint_lines(joints: Joints, laws: Laws, comments: bool) -> list[str]:
     """Return the joints with clearance, group by group; without any, all joints are ideal."""
-    lines = [] if joints.grouped else ["", "[joints]"]
-    for name, joint in joints.grouped.items():
+    lines = [] if joints.by_group else ["", "[joints]"]
+    for name, joint in joints.by_group.items():
         meanings = _meanings(joint)
         meanings["kind"] = "ideal | dry | lubricated; a joint that is not named is ideal"
         meanings["worn"] = "depths worn off the surfaces, m, by angle from the body's x axis"

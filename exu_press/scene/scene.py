@@ -51,7 +51,7 @@ ONLY_WHERE_GIVEN = ("drive", "guide", "output", "wear")
 
 
 if TYPE_CHECKING:
-    from exu_press.scene.built import Built
+    from exu_press.scene.built import AssembledModel
     from exu_press.scene.guide import ElasticGuide
     from exu_press.scene.load import Load
     from exu_press.scene.motor import Motor
@@ -165,7 +165,7 @@ class Scene(Table):
     def _check_start_stop(self) -> None:
         """Refuse keys that do not go with a press that starts or stops."""
         motor = self.drive
-        if motor is None or not motor.scheduled:
+        if motor is None or not motor.has_schedule:
             return
         if self.settle:
             raise InputError(
@@ -227,8 +227,8 @@ class Scene(Table):
             of_guides = self.guide.law_keys(law, laws.keys_of(law))
         used = {**self.joints.law_keys(law), **of_guides}
         if not of_guides:
-            self._refuse({law: unused} if unused else {}, law, laws.given[law])
-        for name, value in (laws.given[law] or {}).items():
+            self._refuse({law: unused} if unused else {}, law, laws.scene_keys[law])
+        for name, value in (laws.scene_keys[law] or {}).items():
             if name not in used and value is not None:
                 reason = f"{unused}, and guides do not use it" if unused else ""
                 reason = reason or self.joints.unused_reason(
@@ -385,7 +385,7 @@ class Scene(Table):
         data = changed_keys(data, groups, changes)
         while True:
             try:
-                return Scene.from_dict(data, asked, resolve=not self.unresolved)
+                return Scene.from_dict(data, asked, resolve=not self.has_unresolved_kinds)
             except InputError as error:
                 if not isinstance(error, UnusedKeyError) or gives_key(error.name, groups, changes):
                     raise InputError(by_group(str(error), groups, changes)) from None
@@ -397,7 +397,7 @@ class Scene(Table):
 
         return cell(self)
 
-    def build(self) -> "Built":
+    def build(self) -> "AssembledModel":
         """Return the assembled `exu_press.model.Model`; its mbs and SC are the real Exudyn objects.
 
         Every body has graphics for Exudyn's own renderer and SolutionViewer.
@@ -407,16 +407,16 @@ class Scene(Table):
         return build_with_graphics(self)
 
     @property
-    def unresolved(self) -> bool:
+    def has_unresolved_kinds(self) -> bool:
         """Whether a kind is code that is not loaded: the scene can be shown, and not built."""
-        return any(self._unresolved())
+        return any(self._unresolved_kinds())
 
     def require_code(self) -> None:
         """Raise InputError for a kind whose code is not loaded."""
-        for name, kind in self._unresolved():
+        for name, kind in self._unresolved_kinds():
             raise InputError(f"{name} = {kind!r}: {refusal(kind)}")
 
-    def _unresolved(self) -> Iterator[tuple[str, str]]:
+    def _unresolved_kinds(self) -> Iterator[tuple[str, str]]:
         """Yield key and name of each kind whose code is not loaded."""
         for name, joint in self.joints.items():
             for path, kind in joint.kinds().items():
@@ -429,7 +429,7 @@ class Scene(Table):
             yield "guide.friction", self.guide.friction.kind
 
     @property
-    def shipped(self) -> str:
+    def shipped_name(self) -> str:
         """Name of the shipped mechanism; empty where the scene has its own."""
         return self.mechanism if isinstance(self.mechanism, str) else ""
 
@@ -454,11 +454,11 @@ class Scene(Table):
         return self.angular_speed * mechanism_of(self).crank_radius
 
     @property
-    def settled(self) -> float:
+    def settle_revolutions(self) -> float:
         """Revolutions before quantities are read."""
         if self.settle is not None:
             return self.settle
-        if self.drive is not None and self.drive.scheduled:
+        if self.drive is not None and self.drive.has_schedule:
             return 0.0
         usual = mechanism_of(self).defaults.get("settle", 1.0)
         if self.warms and self.revolutions >= WARM + 1.0:

@@ -50,15 +50,16 @@ class TableLoad(Load):
             raise InputError(
                 f"{names} given: allowed is file, a CSV, or one of {', '.join(COLUMNS)} with force"
             )
-        places = getattr(self, columns[0])
-        check_columns((columns[0], "force"), places, self.force)
-        check_increasing(columns[0], places)
+        positions = getattr(self, columns[0])
+        check_columns((columns[0], "force"), positions, self.force)
+        check_increasing(columns[0], positions)
         if columns[0] == "crank_angle_deg":
-            turn = places[-1] - places[0]
+            turn = positions[-1] - positions[0]
             if turn > 360.0 or (turn == 360.0 and self.force[0] != self.force[-1]):
                 raise InputError(
-                    f"crank_angle_deg from {places[0]!r} to {places[-1]!r}: allowed is less than a "
-                    "revolution, or a whole one that ends with the force with which it begins"
+                    f"crank_angle_deg from {positions[0]!r} to {positions[-1]!r}: allowed is less "
+                    "than a revolution, or a whole one that ends with the force with which it "
+                    "begins"
                 )
 
     @classmethod
@@ -87,9 +88,9 @@ class TableLoad(Load):
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return the force over time, s, crank angle, rad, or height, m."""
         assert self.force is not None
-        places, forces = getattr(self, self.over), [self.factor * force for force in self.force]
+        positions, forces = getattr(self, self.over), [self.factor * force for force in self.force]
         if self.over != "crank_angle_deg":
-            return LoadCurve(places, forces)
-        if places[-1] - places[0] == 360.0:
-            places, forces = places[:-1], forces[:-1]
-        return LoadCurve([math.radians(place) for place in places], forces, REVOLUTION)
+            return LoadCurve(positions, forces)
+        if positions[-1] - positions[0] == 360.0:
+            positions, forces = positions[:-1], forces[:-1]
+        return LoadCurve([math.radians(angle) for angle in positions], forces, REVOLUTION)

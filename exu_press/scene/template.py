@@ -50,7 +50,7 @@ def _lines(scene: Scene) -> Iterator[str]:
         value = getattr(scene, field.name)
         if isinstance(value, Joints):
             yield from ("", *_all_joints(value), *joint_lines(value, scene.laws, True))
-            if not value.grouped:  # an example
+            if not value.by_group:  # an example
                 name = [joint for joint in value if joint not in value.spherical][-1]
                 dry = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
                 example = scene.replace({f"joints.{name}": dry, "contact": {"length": 0.05}})
@@ -118,7 +118,7 @@ def _a_flexible_body(scene: Scene) -> Iterator[str]:
     mechanism = mechanism_of(scene)
     guided = {guide.body for guide in mechanism.guides}
     free = [body.name for body in mechanism.bodies if body.name not in guided]
-    shipped = scene.shipped == "press"
+    shipped = scene.shipped_name == "press"
     name = "linkage" if shipped else free[-1]
     example = Flexible("linkage" if shipped else "my_part.step")
     yield f"[bodies.{name}]  # A flexible body: any one of the mechanism; rigid without it."

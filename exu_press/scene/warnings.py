@@ -67,7 +67,7 @@ def _drawing(scene: Scene) -> Iterator[str]:
     size = mechanism.size
     position = mechanism.ideal_slider(np.linspace(0.0, 2.0 * math.pi, 181), 1.0)[0]
     yield from drawing_warnings(mechanism, float(np.ptp(position)))
-    for name, joint in scene.joints.grouped.items():
+    for name, joint in scene.joints.by_group.items():
         if isinstance(joint, TouchingJoint) and joint.radius > size:
             yield (
                 f"joints.{name}.radius = {joint.radius:g} m is larger than the mechanism of "
@@ -87,7 +87,7 @@ def _guides(scene: Scene) -> Iterator[str]:
 
 
 def _clearances(scene: Scene) -> Iterator[str]:
-    for name, joint in scene.joints.grouped.items():
+    for name, joint in scene.joints.by_group.items():
         if not isinstance(joint, TouchingJoint):
             continue
         clearance, radius = joint.clearance, joint.radius
@@ -103,7 +103,7 @@ def _clearances(scene: Scene) -> Iterator[str]:
 
 def _films(scene: Scene) -> Iterator[tuple[str, LubricatedJoint]]:
     """Yield every lubricated joint, after the beginning of its film's keys."""
-    for name, joint in scene.joints.grouped.items():
+    for name, joint in scene.joints.by_group.items():
         if isinstance(joint, LubricatedJoint):
             shared = scene.film or {}
             keys = key_values(joint.film)

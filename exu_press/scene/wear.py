@@ -97,13 +97,13 @@ class Wear(WearAt):
                     raise UnusedKeyError(path, path, known[name])
             for name, why in known.items():
                 if not why:
-                    here = whole.at(kind, name)
+                    here = whole.law_of(kind, name)
                     demand_keys(
                         f"{kind}.{name}", here, KEYS, "wear", f"[wear] or [wear.{kind}.{name}]"
                     )
         return whole
 
-    def at(self, kind: str, name: str) -> WearAt:
+    def law_of(self, kind: str, name: str) -> WearAt:
         """Return the law at one of the "joints" or "guides"."""
         usual = {name: getattr(self, name) for name in KEYS}
         return WearAt(**{**usual, **(getattr(self, kind) or {}).get(name, {})})

@@ -25,4 +25,4 @@ def wearing_guides(scene: Scene) -> tuple[str, ...]:
 def wear_of(scene: Scene, kind: str, name: str) -> WearAt:
     """Return coefficient, hardness and length of one of the "joints" or "guides" that wear."""
     assert scene.wear is not None
-    return scene.wear.at(kind, name)
+    return scene.wear.law_of(kind, name)

@@ -10,13 +10,13 @@ from exu_press.laws.profile import Profile, profile
 from exu_press.schema.checks import key
 from exu_press.schema.table import Table
 
-__all__ = ["Worn"]
+__all__ = ["WornDepths"]
 
 FEWEST = 3
 
 
 @dataclass(frozen=True)
-class Worn(Table):
+class WornDepths(Table):
     """Depths worn off journal and bearing over the angle on each, from its body's x axis."""
 
     table: ClassVar[str] = "worn"
@@ -43,11 +43,11 @@ class Worn(Table):
         counts = {len(depths) for depths in profiles.values()}
         if angles is not None:
             counts.add(len(angles))
-            for before, after in pairwise(angles):
-                if not before < after < angles[0] + 360.0:
+            for previous, following in pairwise(angles):
+                if not previous < following < angles[0] + 360.0:
                     raise InputError(
-                        f"worn.angle_deg = {after!r} after {before!r}: allowed is increasing, "
-                        "within one turn"
+                        f"worn.angle_deg = {following!r} after {previous!r}: allowed is "
+                        "increasing, within one turn"
                     )
         if len(counts) > 1:
             raise InputError(

@@ -209,9 +209,9 @@ def check_columns(names: tuple[str, str], first: Sized, second: Sized) -> None:
 
 def check_increasing(name: str, values: Iterable[float]) -> None:
     """Raise InputError for the first value that is not larger than the one before."""
-    for before, after in itertools.pairwise(values):
-        if not after > before:
-            raise InputError(f"{name} = {after!r} after {before!r}: allowed is increasing")
+    for previous, following in itertools.pairwise(values):
+        if not following > previous:
+            raise InputError(f"{name} = {following!r} after {previous!r}: allowed is increasing")
 
 
 def nearest(name: Any, known: Iterable[str]) -> str:

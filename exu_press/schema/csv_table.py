@@ -8,7 +8,7 @@ from typing import Any
 
 from exu_press.errors import InputError, error_prefix
 from exu_press.files.output_directory import replacing
-from exu_press.schema.stored import LARGEST, shown
+from exu_press.schema.stored import LARGEST, short_text
 
 __all__ = ["Value", "flat", "read_csv", "write_csv"]
 
@@ -40,7 +40,7 @@ def read_csv(path: Path) -> dict[str, tuple[Value, ...]]:
     columns: dict[str, tuple[Value, ...]] = {}
     cells = zip(*lines, strict=True) if lines else [()] * len(head)
     for name, texts in zip(head, cells, strict=True):
-        with error_prefix(f"column {shown(name)}: "):
+        with error_prefix(f"column {short_text(name)}: "):
             columns[name] = tuple(map(_value, texts))
     return columns
 
@@ -79,5 +79,5 @@ def _value(text: str) -> Value:
     except ValueError:
         return text or None
     if not abs(number) < LARGEST:
-        raise InputError(f"{shown(text)}: allowed are numbers below {LARGEST:g}")
+        raise InputError(f"{short_text(text)}: allowed are numbers below {LARGEST:g}")
     return number

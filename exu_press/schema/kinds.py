@@ -152,8 +152,8 @@ def with_unresolved(
         if not isinstance(data.get(table), Mapping):
             continue
         changed[table] = inner = dict(changed[table])
-        for name, given in tuple(inner.items()):
-            keys = {"kind": given} if isinstance(given, str) else given
+        for name, value in tuple(inner.items()):
+            keys = {"kind": value} if isinstance(value, str) else value
             if not isinstance(keys, Mapping) or not isinstance(kind := keys.get("kind"), str):
                 continue
             if kind not in known and _loaded_kind(kind, CustomKind) is None:

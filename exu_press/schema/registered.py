@@ -82,8 +82,8 @@ def _refuse_other_module(owners: str, entry: EntryPoint) -> None:
         raise InputError(f"{owners}: {entry.module} is one of Python's own modules")
     own = PathFinder.find_spec(top, _folders()) or _editable(top)
     usual = find_spec(top)
-    if own is None or usual is None or _place(own) != _place(usual):
-        where = "nowhere" if usual is None else usual.origin or _place(usual)[1]
+    if own is None or usual is None or _location(own) != _location(usual):
+        where = "nowhere" if usual is None else usual.origin or _location(usual)[1]
         raise InputError(
             f"{owners}: Python finds its module {top!r} in {where}; allowed is the one that is "
             "installed: work in another folder, or take it out of PYTHONPATH"
@@ -100,5 +100,5 @@ def _editable(top: str) -> ModuleSpec | None:
     return None
 
 
-def _place(spec: ModuleSpec) -> tuple[str | None, tuple[str, ...]]:
+def _location(spec: ModuleSpec) -> tuple[str | None, tuple[str, ...]]:
     return spec.origin, tuple(spec.submodule_search_locations or ())

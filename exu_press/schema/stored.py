@@ -7,7 +7,7 @@ from typing import Any, TypeVar, cast, get_args, get_origin, get_type_hints, is_
 
 from exu_press.errors import InputError
 
-__all__ = ["LARGEST", "from_json", "shown"]
+__all__ = ["LARGEST", "from_json", "short_text"]
 
 T = TypeVar("T")
 
@@ -41,11 +41,11 @@ def from_json(kind: type[T], text: str | bytes, where: str) -> T:
         InputError: the text is no JSON, or its content is of another kind.
     """
     try:
-        return cast(T, _checked(kind, json.loads(text, parse_int=_whole_number), where))
+        return cast(T, _check_value(kind, json.loads(text, parse_int=_whole_number), where))
     except InputError:
         raise
     except (ValueError, RecursionError):  # too many nested lists
-        raise InputError(f"{where} = {shown(text)}: allowed is JSON") from None
+        raise InputError(f"{where} = {short_text(text)}: allowed is JSON") from None
 
 
 def _whole_number(digits: str) -> float:
@@ -53,36 +53,36 @@ def _whole_number(digits: str) -> float:
     return int(digits) if len(digits) < MOST_DIGITS else float(digits)
 
 
-def shown(value: object) -> str:
+def short_text(value: object) -> str:
     """Return a value from a file for a message: cut short, in one line."""
     return reprlib.repr(value)
 
 
-def _checked(kind: Any, value: Any, where: str) -> Any:
+def _check_value(kind: Any, value: Any, where: str) -> Any:
     """Return a value of a kind, see `from_json`."""
     if NoneType in get_args(kind):
-        return value if value is None else _checked(get_args(kind)[0], value, where)
+        return value if value is None else _check_value(get_args(kind)[0], value, where)
     plain = type(value) if kind is Any else dict if is_typeddict(kind) else get_origin(kind) or kind
     if plain is float and type(value) is int and abs(value) < LARGEST:
         value = float(value)
     right = type(value) is (list if plain is tuple else plain)
     if not right or (isinstance(value, int | float) and not abs(value) < LARGEST):
-        raise InputError(f"{where} = {shown(value)}: allowed is {NOUNS[plain]}")
+        raise InputError(f"{where} = {short_text(value)}: allowed is {NOUNS[plain]}")
     if isinstance(value, str):
         _check_text(value, where)
     if is_typeddict(kind):
         return _table(kind, value, where)
     if isinstance(value, dict):
         inner = get_args(kind)[1] if get_args(kind) else Any
-        return {name: _checked(inner, value[name], _inside(where, name)) for name in value}
+        return {name: _check_value(inner, value[name], _inside(where, name)) for name in value}
     if isinstance(value, list):
         inner = get_args(kind) or (Any, ...)
         if plain is list or inner[-1] is ...:
             inner = inner[:1] * len(value)
         if len(inner) != len(value):
-            raise InputError(f"{where} = {shown(value)}: allowed are {len(inner)} values")
+            raise InputError(f"{where} = {short_text(value)}: allowed are {len(inner)} values")
         values = [
-            _checked(kind_of_item, item, where)
+            _check_value(kind_of_item, item, where)
             for kind_of_item, item in zip(inner, value, strict=True)
         ]
         return tuple(values) if plain is tuple else values
@@ -97,14 +97,14 @@ def _table(kind: Any, value: dict[str, Any], where: str) -> dict[str, Any]:
     for name in value.keys() - kinds.keys():
         raise InputError(f"{_inside(where, name)}: unknown key; allowed are {', '.join(kinds)}")
     return {
-        name: _checked(kinds[name], kind_of_item, f"{where}.{name}")
+        name: _check_value(kinds[name], kind_of_item, f"{where}.{name}")
         for name, kind_of_item in value.items()
     }
 
 
 def _inside(where: str, name: str) -> str:
     _check_text(name, where)
-    return f"{where}.{name}" if name.isidentifier() else f"{where}[{shown(name)}]"
+    return f"{where}.{name}" if name.isidentifier() else f"{where}[{short_text(name)}]"
 
 
 def _check_text(text: str, where: str) -> None:
@@ -112,4 +112,4 @@ def _check_text(text: str, where: str) -> None:
     try:
         text.encode()
     except UnicodeEncodeError:
-        raise InputError(f"{where} = {shown(text)}: allowed is a text in UTF-8") from None
+        raise InputError(f"{where} = {short_text(text)}: allowed is a text in UTF-8") from None

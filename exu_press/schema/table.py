@@ -102,7 +102,7 @@ class Table:
             if "part" in meta:
                 if not isinstance(value, Table):
                     keys = {} if value is None else {field.name: value}
-                    value = _part(type(self), field, self.table, keys)
+                    value = _resolve_part(type(self), field, self.table, keys)
             elif "nested" in meta and value is not None:
                 value = table_from(load_object(meta["nested"]), name, value)
             elif "meaning" in meta:
@@ -176,7 +176,7 @@ def resolve(kind: type[T], name: str, keys: Mapping[str, Any]) -> T:
     values: dict[str, Any] = {}
     for field in _fields(kind):
         if "part" in field.metadata:
-            values[field.name] = _part(kind, field, name, keys)
+            values[field.name] = _resolve_part(kind, field, name, keys)
         elif field.name in keys:
             values[field.name] = keys[field.name]
     table = kind(**values)
@@ -184,7 +184,9 @@ def resolve(kind: type[T], name: str, keys: Mapping[str, Any]) -> T:
     return table
 
 
-def _part(table: type[Table], field: Field, name: str, keys: Mapping[str, Any]) -> Table | None:
+def _resolve_part(
+    table: type[Table], field: Field, name: str, keys: Mapping[str, Any]
+) -> Table | None:
     kind = _kind_of_part(table, field, name, keys)
     return None if kind is None else resolve(kind, name, keys)
 

@@ -30,7 +30,7 @@ def variants(scene: Scene) -> dict[str, Scene]:
     Raises:
         InputError: the scene has no joint with clearance, nor does its mechanism usually have one.
     """
-    names = list(scene.joints.grouped) or list(mechanism_of(scene).defaults.get("joints", {}))
+    names = list(scene.joints.by_group) or list(mechanism_of(scene).defaults.get("joints", {}))
     if not names:
         raise InputError(
             "joints: none has clearance, and so the scene has no variants; allowed is a scene with "
@@ -56,7 +56,7 @@ def variants(scene: Scene) -> dict[str, Scene]:
         for label, change in joints.items():
             by_joint: dict[str, Any] = {f"joints.{name}": kind for name, kind in change.items()}
             if label == "dry" and not _has_length(base, "contact"):
-                for name, joint in base.joints.grouped.items():
+                for name, joint in base.joints.by_group.items():
                     if isinstance(joint, LubricatedJoint) and joint.film.length is not None:
                         by_joint[f"joints.{name}.contact.length"] = joint.film.length
             if label != "lubricated" or _has_length(base, "film") or set(names) <= set(balls):

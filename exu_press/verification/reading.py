@@ -129,10 +129,14 @@ def read_a_revolution_earlier(run: Result) -> Result:
     settling is returned as it is.
     """
     scene, angle = run.scene, run["crank_angle"]
-    if not scene.warms or scene.settled < 1.0 or scene.revolutions - scene.settled < 1.0:
+    if (
+        not scene.warms
+        or scene.settle_revolutions < 1.0
+        or scene.revolutions - scene.settle_revolutions < 1.0
+    ):
         return run
     last = float(np.interp(angle[-1] - 2.0 * np.pi, angle, run.time))
-    changes = {"revolutions": scene.revolutions - 1.0, "settle": scene.settled - 1.0}
+    changes = {"revolutions": scene.revolutions - 1.0, "settle": scene.settle_revolutions - 1.0}
     shortened = up_to(run, last)
     object.__setattr__(shortened, "scene", scene.replace(changes))  # a copy that nobody else has
     return shortened

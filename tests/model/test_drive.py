@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 from exu_press import InputError, Scene, simulate
 from exu_press.scene import Motor, mechanism_of
-from exu_press.scene.assumptions import assumed
+from exu_press.scene.assumptions import assumed_values
 from exu_press.schema.table import table_from
 
 MOTOR = {"rated_torque": 300.0, "slip": 0.1, "no_load_speed_rpm": 250.0, "inertia": 12.0}
@@ -268,7 +268,9 @@ def test_what_a_scene_says():
     scene = Scene(drive={"rated_torque": 400.0, "inertia": 50.0})
     motor = table_from(Motor, "drive", {"rated_torque": 400.0, "slip": 0.05, "inertia": 50.0})
     assert scene.drive == motor
-    assert "drive.slip = 0.05 (the least of design D, NEMA MG 10, Table 2-1)" in assumed(scene)
+    assert "drive.slip = 0.05 (the least of design D, NEMA MG 10, Table 2-1)" in assumed_values(
+        scene
+    )
     assert Scene().drive is None
     assert scene.replace({"drive": None}) == Scene()
     with pytest.raises(InputError, match=r"drive\.slip = 0\.0: allowed is a number > 0"):

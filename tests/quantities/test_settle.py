@@ -15,10 +15,10 @@ def crank(**keys):
 
 
 def test_one_revolution_where_a_run_has_two_and_none_in_the_paper_s_press():
-    assert crank(revolutions=2.0).settled == 1.0
-    assert crank(revolutions=1.9).settled == 0.0
-    assert crank(revolutions=1.9, settle=0.5).settled == 0.5
-    assert Scene(revolutions=5.0).settled == 0.0
+    assert crank(revolutions=2.0).settle_revolutions == 1.0
+    assert crank(revolutions=1.9).settle_revolutions == 0.0
+    assert crank(revolutions=1.9, settle=0.5).settle_revolutions == 0.5
+    assert Scene(revolutions=5.0).settle_revolutions == 0.0
     with pytest.raises(InputError, match=r"settle = 2: allowed is a number < revolutions = 1"):
         crank(revolutions=1.0, settle=2.0)
 

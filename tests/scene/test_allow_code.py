@@ -118,7 +118,7 @@ def test_a_result_imports_nothing_and_shows_the_kind(mark, capsys):
     mark.unlink()
     result = Result.load("out/run.nc")
     joint = result.scene.joints["crank_pin"]
-    assert isinstance(joint, UnresolvedJoint) and result.scene.unresolved
+    assert isinstance(joint, UnresolvedJoint) and result.scene.has_unresolved_kinds
     assert (joint.kind, joint.clearance) == ("hostile:Spring", 1e-4)
     assert dict(joint.keys) == {"clearance": 1e-4, "stiffness": 1e8}
     assert result.quantity("joints.crank_pin.peak_force").value > 0.0
@@ -169,7 +169,7 @@ def test_a_load_of_a_result_is_shown_likewise(mark, tmp_path, capsys):
     forget("hostile")
     mark.unlink()
     result = Result.load("out/run.nc")
-    assert result.scene.load["ramp"].kind == "hostile:Ramp" and result.scene.unresolved
+    assert result.scene.load["ramp"].kind == "hostile:Ramp" and result.scene.has_unresolved_kinds
     assert result.quantity("loads.ramp.peak_force").value == pytest.approx(1e4, rel=1e-3)
     result.scene.save("again.toml")
     assert "force = 10000.0" in Path("again.toml").read_text()
@@ -262,7 +262,9 @@ def test_a_registered_kind_needs_no_permission(installed, mark, tmp_path, monkey
     simulate(scene).save("run.nc")
     forget("installed_kinds")
     mark.unlink()
-    assert Result.load("run.nc").scene.unresolved and not mark.exists()  # reading imports nothing
+    assert (
+        Result.load("run.nc").scene.has_unresolved_kinds and not mark.exists()
+    )  # reading imports nothing
 
 
 def test_what_pythonpath_brings_registers_nothing(installed, mark, tmp_path, monkeypatch):

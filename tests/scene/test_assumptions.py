@@ -100,7 +100,7 @@ def test_laws_that_all_joints_replace_are_not_assumed():
 
 def test_keys_with_defaults_units_and_meanings():
     keys = keys_of(Scene())
-    assert all(key.assumed for key in keys.values())
+    assert all(key.is_assumed for key in keys.values())
     assert str(keys["film.viscosity"]) == "film.viscosity = 0.4 Pa s"
     assert keys["solver.tolerance"].value == 1e-3
     assert "solver.step" not in keys
@@ -138,9 +138,9 @@ def test_keys_with_defaults_units_and_meanings():
 )
 def test_only_what_differs_counts_as_given(scene, changed):
     keys = keys_of(Scene(**scene))
-    assert {name for name, key in keys.items() if key.changed} == changed
+    assert {name for name, key in keys.items() if key.is_changed} == changed
     sampled = keys_of(Scene(output={"samples": [90.0]}))
-    assert sampled["output.every"].assumed and not sampled["output.samples"].assumed
+    assert sampled["output.every"].is_assumed and not sampled["output.samples"].is_assumed
 
 
 def test_nothing_to_assume_is_no_line():

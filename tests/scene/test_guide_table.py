@@ -7,7 +7,7 @@ import pytest
 from exu_press import InputError, Scene
 from exu_press.laws.contact import delivered_restitution, hertz
 from exu_press.scene import mechanism_of, parse_assignment
-from exu_press.scene.assumptions import assumed
+from exu_press.scene.assumptions import assumed_values
 
 IDEAL = {"mechanism": "slider_crank", "joints": {}}
 LOOSE = {"clearance": 2e-5, "length": 0.3}
@@ -51,7 +51,7 @@ def test_without_stiffness_guides_stay_ideal_and_rub():
     assert not scene.guide.soft
     assert mechanism_of(scene) == mechanism_of(Scene())
     said = "guide.mu_kinetic = 0.1 (hard steel on hard steel with turbine oil"
-    assert any(line.startswith(said) for line in assumed(scene))
+    assert any(line.startswith(said) for line in assumed_values(scene))
     assert Scene.from_dict(scene.to_dict()) == scene
     with pytest.raises(
         InputError, match=r"guide\.length = 0\.3: not used .*nor guide\.lateral_stiffness is"
@@ -60,9 +60,9 @@ def test_without_stiffness_guides_stay_ideal_and_rub():
 
 
 def test_an_assumed_stiffness_is_said():
-    assert "guide.lateral_stiffness = 1e+09 N/m (assumed)" in assumed(Scene(guide=LOOSE))
+    assert "guide.lateral_stiffness = 1e+09 N/m (assumed)" in assumed_values(Scene(guide=LOOSE))
     given = Scene(guide={**LOOSE, "lateral_stiffness": 2e9})
-    assert not any("lateral_stiffness" in line for line in assumed(given))
+    assert not any("lateral_stiffness" in line for line in assumed_values(given))
 
 
 def test_what_friction_and_damping_of_guides_need_is_in_the_scenes_tables():

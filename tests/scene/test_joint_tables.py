@@ -36,14 +36,14 @@ def test_a_group_stands_for_its_joints():
     loose = scene.joints.with_clearance
     assert len(loose) == 4
     assert all(name.startswith("knuckle_") and j.clearance == 5e-5 for name, j in loose.items())
-    assert list(scene.joints.grouped) == ["knuckles"]
+    assert list(scene.joints.by_group) == ["knuckles"]
 
 
 def test_a_joints_own_keys_go_before_its_groups():
     scene = press(balls={"kind": "dry", "clearance": 5e-5}, ball_left={"clearance": 2e-4})
     assert scene.joints["ball_left"].clearance == 2e-4
     assert scene.joints["ball_right"].clearance == 5e-5
-    assert set(scene.joints.grouped) == {"ball_left", "ball_right"}
+    assert set(scene.joints.by_group) == {"ball_left", "ball_right"}
 
 
 def test_a_kind_a_table_and_a_dataclass_are_the_same():

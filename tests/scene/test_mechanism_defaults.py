@@ -10,7 +10,7 @@ from exu_press.laws.contact import hertz_stiffness
 from exu_press.mechanism import mechanism_from_dict, mechanism_lines, shipped_mechanism
 from exu_press.mechanism.press import TABLE_2
 from exu_press.scene import DryJoint
-from exu_press.scene.assumptions import assumed
+from exu_press.scene.assumptions import assumed_values
 from exu_press.scene.usage import table_keys
 from exu_press.studies.compare import variants
 
@@ -137,7 +137,7 @@ def test_defaults_that_no_scene_has_are_refused(defaults, message):
 
 
 def test_everything_assumed_is_named_with_its_source():
-    named = assumed(scene())
+    named = assumed_values(scene())
     keys = {entry.partition(" = ")[0] for entry in named}
     assert keys == {
         "start",
@@ -151,7 +151,7 @@ def test_everything_assumed_is_named_with_its_source():
     given = scene(
         contact={"length": 0.02, "restitution": 0.8}, friction={"law": "none"}, start="centred"
     )
-    assert {entry.partition(" = ")[0] for entry in assumed(given)} == {
+    assert {entry.partition(" = ")[0] for entry in assumed_values(given)} == {
         "contact.modulus",
         "contact.damping",
         "contact.slowest_impact",
@@ -165,13 +165,13 @@ def test_the_slowest_impact_follows_from_crank_speed_and_clearance():
     slow = scene(speed_rpm=60.0)
     speed = 2.0 * math.pi * PIN["clearance"]
     said = f"contact.slowest_impact = {speed:g} m/s (speed of the crank times the clearance)"
-    assert said in assumed(slow)
+    assert said in assumed_values(slow)
     joint = slow.joints["knuckle"]
     law = joint.normal_contact(slow.angular_speed)
     assert law.force(1e-6, 1e-5, 0.5 * speed) == law.force(1e-6, 1e-5, speed)
     assert law.force(1e-6, 1e-5, 1.5 * speed) != law.force(1e-6, 1e-5, speed)
     given = slow.replace({"contact.slowest_impact": 2e-3})
-    assert not any("slowest_impact" in entry for entry in assumed(given))
+    assert not any("slowest_impact" in entry for entry in assumed_values(given))
     law = given.joints["knuckle"].normal_contact(given.angular_speed)
     assert law.force(1e-6, 1e-5, speed) == law.force(1e-6, 1e-5, 2e-3)
     with pytest.raises(InputError, match=r"contact\.slowest_impact"):
@@ -180,7 +180,7 @@ def test_the_slowest_impact_follows_from_crank_speed_and_clearance():
 
 
 def test_what_the_mechanism_says_is_not_assumed():
-    assert assumed(Scene()) == [
+    assert assumed_values(Scene()) == [
         "contact.tension = false (A-10)",
         "film.viscosity = 0.4 Pa s (A-11)",
         "film.length = 0.1 m (A-12)",

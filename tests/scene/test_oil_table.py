@@ -4,7 +4,7 @@ import pytest
 
 from exu_press import InputError, Scene
 from exu_press.quantities.units import unit_of
-from exu_press.scene.assumptions import assumed
+from exu_press.scene.assumptions import assumed_values
 from exu_press.scene.oil import Oil
 from exu_press.scene.template import template
 from exu_press.scene.warnings import scene_warnings
@@ -67,7 +67,7 @@ def test_a_saved_scene_is_read_back_equal(tmp_path, comments):
 
 def test_defaults_that_decide_are_told():
     without = {key: value for key, value in OIL.items() if key != "conductance"}
-    told = assumed(scene_of(film={"oil": without}))
+    told = assumed_values(scene_of(film={"oil": without}))
     assert any("film.oil.conductance = 0 W/K" in text for text in told)
     assert any("film.oil.heat_capacity = 1.8e+06" in text and "DIN" in text for text in told)
     assert not any("film.oil.density" in text or "viscosity" in text for text in told)

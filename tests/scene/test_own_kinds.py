@@ -167,7 +167,7 @@ def test_with_permission_they_run_and_are_stored(mark, capsys):
     forget()
     mark.unlink()
     stored = Result.load("run.nc").scene
-    assert stored.unresolved and stored.to_dict() == complete
+    assert stored.has_unresolved_kinds and stored.to_dict() == complete
     assert stored.joints["ball_left"].contact.damping.constant == 2e4
     assert stored.replace({"revolutions": 0.01}).to_dict()["contact"] == complete["contact"]
     for command in (
@@ -222,4 +222,4 @@ def test_a_distribution_registers_them(mark, tmp_path, monkeypatch):
     result.save("run.nc")
     forget()
     mark.unlink()
-    assert Result.load("run.nc").scene.unresolved and not mark.exists()
+    assert Result.load("run.nc").scene.has_unresolved_kinds and not mark.exists()

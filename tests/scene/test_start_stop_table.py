@@ -18,7 +18,7 @@ def test_a_scene_comes_back_as_it_was(tmp_path):
     assert Scene.from_dict(given.to_dict()) == given
     given.save(tmp_path / "scene.toml")
     assert Scene.load(tmp_path / "scene.toml") == given
-    assert given.settled == 0.0 and given.start_speed == 0.0
+    assert given.settle_revolutions == 0.0 and given.start_speed == 0.0
     without = given.replace({"drive.clutch_torque": None, "drive.begins": "turning"})
     assert without.drive.clutch is None
 

@@ -32,7 +32,7 @@ def test_a_pin_that_sinks_for_nine_revolutions_is_read_when_it_has_settled(warm)
     """Its oil is at 40.07 deg C in the fourth one, and at 63.97 in the seventh."""
     assert np.interp(3.5 * 0.5, warm.time, warm["wrist_pin_temperature"]) < 40.1
     assert warm.info["added_revolutions"] == 8
-    assert (warm.scene.revolutions, warm.scene.settled) == (12.0, 11.0)
+    assert (warm.scene.revolutions, warm.scene.settle_revolutions) == (12.0, 11.0)
     temperature = warm.quantity("joints.wrist_pin.film.temperature")
     assert temperature.determined
     assert abs(temperature.value - AT_REST) < temperature.error < 0.2
@@ -41,7 +41,7 @@ def test_a_pin_that_sinks_for_nine_revolutions_is_read_when_it_has_settled(warm)
 
 def test_the_drift_of_the_last_revolution_is_part_of_every_error(warm):
     before = read_a_revolution_earlier(warm)
-    assert before.scene.settled == warm.scene.settled - 1.0
+    assert before.scene.settle_revolutions == warm.scene.settle_revolutions - 1.0
     for name in ("film.viscosity", "mean_power", "film.side_flow"):
         full = f"joints.wrist_pin.{name}"
         moved = abs(before.quantity(full).value - warm.quantity(full).value)

@@ -57,7 +57,7 @@ class Orbit:
                 "press in each; allowed is film.viscosity, as joints.NAME.film.viscosity of a run "
                 "has it"
             )
-        if scene.drive is not None and scene.drive.scheduled:
+        if scene.drive is not None and scene.drive.has_schedule:
             raise InputError(
                 "[drive] starts or stops: an orbit is one of a press that runs; allowed is a drive "
                 "that begins 'turning', without start_time, stop_time and stop_angle_deg"

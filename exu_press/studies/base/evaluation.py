@@ -105,7 +105,7 @@ class Evaluation:
         failed = sum(map(len, self.failures.values()))
         number = self.number_of_points
         lines = [f"{number} runs: {number - failed} gave numbers, {failed} did not"]
-        for kind, reasons in sorted(self.failures.items(), key=lambda one: -len(one[1])):
+        for kind, reasons in sorted(self.failures.items(), key=lambda item: -len(item[1])):
             first = ("; the first: " if len(reasons) > 1 else ": ") + reasons[0]
             lines.append(f"  {len(reasons)} x {kind}{first if reasons[0] else ''}")
         return lines

@@ -50,14 +50,14 @@ def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> Bifurc
                 for name in names:
                     chain_rows.append([])
                     branches.append(Branch(name, ways[name], chain_rows[-1], second))
-                    chains.append(_way(study, ways[name], second, chain_rows[-1]))
+                    chains.append(_follow_values(study, ways[name], second, chain_rows[-1]))
             runs.follow(chains, len(chains) * len(values))
     report = BifurcationReport(study, branches)
     report.save(Path(directory))
     return report
 
 
-def _way(
+def _follow_values(
     study: Bifurcation, values: Sequence[float], second: float | None, rows: list[Row]
 ) -> Chain:
     """Yield the arguments of one run after another, and add their rows to `rows`."""

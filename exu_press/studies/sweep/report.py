@@ -24,7 +24,7 @@ from exu_press.quantities.uncertain import uncertain
 from exu_press.quantities.units import meaning_of, shown_unit, unit_of, with_unit
 from exu_press.scene import Scene
 from exu_press.schema.csv_table import Value, flat
-from exu_press.schema.stored import shown
+from exu_press.schema.stored import short_text
 from exu_press.schema.toml import toml_text
 from exu_press.studies.base.report import (
     Column,
@@ -321,7 +321,7 @@ def _scalars(row: Mapping[str, Any]) -> dict[str, Any]:
     scalars = {name: value for name, value in flat(row).items() if not isinstance(value, list)}
     for name in scalars:
         if not COLUMN_NAME.fullmatch(name):
-            raise InputError(f"{shown(name)}: allowed is the name of a column")
+            raise InputError(f"{short_text(name)}: allowed is the name of a column")
     return scalars
 
 

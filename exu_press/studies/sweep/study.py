@@ -17,7 +17,7 @@ from exu_press.schema.table import Table
 from exu_press.studies.base import Study
 from exu_press.studies.base.keys import Key, Values
 
-__all__ = ["Sweep", "Way", "grid", "paired_values", "sample"]
+__all__ = ["Sweep", "SweepTable", "grid", "paired_values", "sample"]
 
 Points = tuple[dict[str, Any], ...]
 
@@ -102,7 +102,7 @@ GRID, LIST, SAMPLE = "grid", "list", "sample"
 
 
 @dataclasses.dataclass(frozen=True)
-class Way(Table):
+class SweepTable(Table):
     """The table [sweep].
 
     Raises:
@@ -134,9 +134,9 @@ class Sweep(Study):
         sweep: how the keys' values go together; every combination by default.
     """
 
-    tables = MappingProxyType({"sweep": Way})
+    tables = MappingProxyType({"sweep": SweepTable})
 
-    sweep: Way = Way()
+    sweep: SweepTable = SweepTable()
 
     def check_keys(self) -> None:
         """Check every scene, before anything runs."""

@@ -77,10 +77,10 @@ class WearStudy(Study):
             raise InputError(
                 "scene: no joint wears; allowed is a revolute joint that is dry or has a mixed film"
             )
-        if scene.revolutions - scene.settled < 1.0:
+        if scene.revolutions - scene.settle_revolutions < 1.0:
             raise InputError(
-                f"revolutions = {scene.revolutions:g}, of which {scene.settled:g} settle: allowed "
-                "is one revolution more at least, of which wear is read"
+                f"revolutions = {scene.revolutions:g}, of which {scene.settle_revolutions:g} "
+                "settle: allowed is one revolution more at least, of which wear is read"
             )
         for name in self.names:
             quantity_of(scene, name)

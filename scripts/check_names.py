@@ -1,7 +1,7 @@
 """Refuse names that do not say what they hold: python scripts/check_names.py [FOLDER ...]
 
-CONTRIBUTING.md has the rules. Idle words (`found`, `part`) are refused as names of anything, bare
-participles and prepositions (`filtered`, `_over`) as names of functions and classes.
+Idle words (`found`, `part`) are refused as names of anything, bare participles and prepositions
+(`filtered`, `_over`) as names of functions and classes. CONTRIBUTING.md has the rules.
 """
 
 import argparse
@@ -11,20 +11,15 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-IDLE = (
-    "found told given wanted got each one other others said shown kept left way place part things"
-    " thing before"
-)
-BARE = (
-    "shaken beyond between apart never over at put on off under within without beside after behind"
-    " along across into onto from of by to with as like held met gone begun drawn known seen taken"
-    " thrown worn made sent set cut let heard felt built bent spent lost won"
-)
+IDLE = """found told given wanted got each one other others said shown kept left way place part
+things thing before"""
+BARE = """shaken beyond between apart never over at put on off under within without beside after
+behind along across into onto from of by to with as like held met gone begun drawn known seen
+taken thrown worn made sent set cut let heard felt built bent spent lost won"""
 NOUNS = {"speed", "seed", "feed", "need", "bed", "shed"}
 ALLOWED = {  # by the beginning of a path
     "fe_models/": ("part", "Part"),  # the body that is meshed
-    "exu_press/result/info.py": ("place",),  # of files
-    "exu_press/result/result.py": ("completed",),  # of the public interface
+    "exu_press/result/": ("place", "completed"),  # of files, and of the public interface
     "exu_press/scene/table_load.py": ("over",),  # likewise, of loads
     "exu_press/studies/": ("way",),  # of study files
 }
@@ -32,7 +27,7 @@ ALLOWED = {  # by the beginning of a path
 
 def names(tree: ast.AST) -> Iterator[tuple[int, str, bool]]:
     """Return line and name of all that is bound, and whether it is a function or a class."""
-    compared = set()  # the second argument of a comparison is `other`
+    compared = set()  # arguments of comparisons, of which one is `other`
     for node in ast.walk(tree):
         match node:
             case ast.FunctionDef(name=name) if name.startswith(("__", "compare")):
@@ -62,5 +57,4 @@ def refused_names(folder: str) -> Iterator[str]:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("folder", nargs="*", default=("exu_press", "fe_models"))
-    folders = parser.parse_args().folder
-    sys.exit("\n".join(line for folder in folders for line in refused_names(folder)) or None)
+    sys.exit("\n".join(n for f in parser.parse_args().folder for n in refused_names(f)) or None)

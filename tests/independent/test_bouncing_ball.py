@@ -102,7 +102,7 @@ def section(gamma, e, periods):
         number = math.floor(time / PERIOD - 0.5 + 1e-9) + 1
         return (number + 0.5) * PERIOD
 
-    solve_dynamic(mbs, settings, tolerance=1e-4, next_corner=middle).check()
+    solve_dynamic(mbs, settings, tolerance=1e-4, method="adaptive", next_corner=middle).check()
     time, places = mbs.GetSensorStoredData(sensors[0]).T
     _, speeds = mbs.GetSensorStoredData(sensors[1]).T
     wanted = (np.arange(periods) + 0.5) * PERIOD

@@ -51,7 +51,9 @@ def changed_keys(
             data["mechanism"] = change_mechanism(drawn, drawing)
     for table, keys in inner.items():
         current = data.get(table, {})
-        if table not in TABLES or not isinstance(current, Mapping):
+        if table in TABLES and not isinstance(current, Mapping):
+            raise InputError(f"{table} = {current!r:.200}: allowed is a table of keys")
+        if table not in TABLES:
             why = RENAMED.get(table, "")
             known = [*TABLES, "joints", "bodies", "load", "mechanism"]
             unknown = f"{table} is no table of a scene{nearest(table, known)}"
@@ -64,7 +66,10 @@ def changed_keys(
     if loads:
         from exu_press.scene.loads import changed_loads
 
-        data["load"] = changed_loads(data.get("load", {}), loads)
+        removed = {n for n, keys in loads.items() if keys is None and "." not in n}
+        remaining = {n: keys for n, keys in data.get("load", {}).items() if n not in removed}
+        changed = {n: keys for n, keys in loads.items() if n not in removed}
+        data["load"] = changed_loads(remaining, changed)
     if "joints" not in changes:
         data["joints"] = changed_joints(data["joints"], groups, joints)
     elif joints:

@@ -358,7 +358,12 @@ class Scene(Table):
 
         Args:
             changes: dotted name of a key or table -> its value; None leaves it out.
+
+        Raises:
+            InputError: they are no such mapping, or the changed scene is not allowed.
         """
+        if not isinstance(changes, Mapping) or not all(isinstance(name, str) for name in changes):
+            raise InputError(f"{changes!r:.200}: allowed is a mapping of dotted names to values")
         data, groups = self.to_dict(), self.joints.groups
         still_asked = [
             n for n in self.asked if not any(f"{n}.".startswith(f"{c}.") for c in changes)

@@ -170,3 +170,22 @@ def test_a_key_of_worn_surfaces_is_set_as_others_are():
         {"joints.crank_pin.worn.bearing_depth": [0.0, 1e-6, 0.0]}
     )
     assert worn.joints["crank_pin"].worn.bearing_depth == (0.0, 1e-6, 0.0)
+
+
+def test_a_load_that_is_none_is_left_out():
+    load = {"kind": "table", "time": [0.0, 1.0], "force": [0.0, 1.0]}
+    scene = Scene(load={"cushion": load, "ejector": load})
+    assert set(scene.replace({"load.cushion": None}).load) == {"ejector"}
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        (5, "5: allowed is a mapping of dotted names"),
+        ({5: 5}, "allowed is a mapping of dotted names"),
+        ({"contact": 5, "contact.length": 0.1}, "^contact = 5: allowed is a table of keys"),
+    ],
+)
+def test_changes_that_are_none_are_refused(changes, message):
+    with pytest.raises(InputError, match=message):
+        Scene().replace(changes)

@@ -14,6 +14,7 @@ from typing import Any, TextIO
 
 import exu_press
 from exu_press.errors import InputError
+from exu_press.schema.kinds import describe_own_error
 from exu_press.studies.registry import STUDIES, study_command, study_source
 from fe_models.errors import disk_full
 from fe_models.temporary import remove_abandoned
@@ -63,6 +64,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if full is not None:
             _discard(sys.stdout)
         return 2 if full is None else STOPPED
+    except Exception as error:
+        if (text := describe_own_error(error)) is None:
+            raise
+        print(f"exu-press: {text}", file=sys.stderr)
+        return 2
     return status
 
 

@@ -18,6 +18,7 @@ __all__ = [
     "UnresolvedName",
     "custom_class",
     "custom_modules",
+    "describe_own_error",
     "import_kinds",
     "kind_name",
     "loaded_kinds",
@@ -250,6 +251,17 @@ def refusal(name: str) -> str:
         "rights; if you know what it does, allow it by --allow-code, in Python by "
         "Scene.load(..., allow_code=True), or import the module yourself"
     )
+
+
+def describe_own_error(error: Exception) -> str | None:
+    """Return an error in the code of a user's kind in words; None for an error elsewhere."""
+    modules = [sys.modules.get(kind.__module__) for kind in loaded_kinds(CustomKind)]
+    files = {getattr(module, "__file__", None) for module in modules}
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if frame.filename in files]
+    if not own:
+        return None
+    return f"{own[-1].filename}, line {own[-1].lineno}: {type(error).__name__}: {error}"
 
 
 def _error_text(error: BaseException) -> str:

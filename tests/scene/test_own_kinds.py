@@ -223,3 +223,22 @@ def test_a_distribution_registers_them(mark, tmp_path, monkeypatch):
     forget()
     mark.unlink()
     assert Result.load("run.nc").scene.has_unresolved_kinds and not mark.exists()
+
+
+@pytest.mark.parametrize(
+    ("module", "line"),
+    [("fails_late", "return lambda speed: 1 / 0"), ("fails_early", "raise ValueError('no law')")],
+)
+def test_an_error_of_a_users_law_names_its_line(module, line, tmp_path, monkeypatch, capsys):
+    file = tmp_path / f"{module}.py"
+    file.write_text(
+        "from dataclasses import dataclass\nfrom exu_press.scene import FrictionLaw\n"
+        "@dataclass(frozen=True)\nclass Bad(FrictionLaw):\n"
+        f"    def friction(self):\n        {line}\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    words = "run slider_crank --set revolutions=0.02 --no-error --no-pictures --allow-code"
+    out = ["--set", f"friction.law={module}:Bad", "--out", str(tmp_path / "out")]
+    assert main([*words.split(), *out]) == 2
+    (message,) = capsys.readouterr().err.splitlines()
+    assert message.startswith(f"exu-press: {file}, line 6: ")

@@ -66,10 +66,7 @@ def changed_keys(
     if loads:
         from exu_press.scene.loads import changed_loads
 
-        removed = {n for n, keys in loads.items() if keys is None and "." not in n}
-        remaining = {n: keys for n, keys in data.get("load", {}).items() if n not in removed}
-        changed = {n: keys for n, keys in loads.items() if n not in removed}
-        data["load"] = changed_loads(remaining, changed)
+        data["load"] = changed_loads(data.get("load", {}), loads)
     if "joints" not in changes:
         data["joints"] = changed_joints(data["joints"], groups, joints)
     elif joints:

@@ -66,7 +66,7 @@ def changed_loads(loads: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[
 
     Args:
         loads: as `Scene.to_dict` has them.
-        changes: "NAME.key" -> a value, or "NAME" -> all keys.
+        changes: "NAME.key" -> a value, or "NAME" -> all keys; None leaves the load out.
     """
     changed = {
         name: dict(keys) if isinstance(keys, Mapping) else load_dict(keys)
@@ -75,7 +75,10 @@ def changed_loads(loads: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[
     for path in sorted(changes, key=lambda path: not path.endswith(".kind")):
         (name, _, inner), value = path.partition("."), changes[path]
         if not inner:
-            changed[name] = value
+            if value is None:
+                changed.pop(name, None)
+            else:
+                changed[name] = value
             continue
         keys = changed.setdefault(name, {})
         if inner == "kind" and keys.get("kind") != value:

@@ -39,9 +39,8 @@ def eccentricity_error(scene: Scene, joint: str, value: float) -> float:
 
 def dissipation_error(scene: Scene, _: str, value: float) -> float:
     """Return the error of what all films dissipate together."""
-    return max((_relative_film_error(scene, joint) for joint in scene.joints), default=0.0) * abs(
-        value
-    )
+    largest = max((_relative_film_error(scene, joint) for joint in scene.joints), default=0.0)
+    return largest * abs(value)
 
 
 def guide_film_error(scene: Scene, _: str, value: float) -> float:
@@ -55,6 +54,11 @@ def _relative_flow_error(scene: Scene, joint: str) -> float:
     return 0.0 if film is None else film.flow_error
 
 
+def _relative_heat_error(scene: Scene, joint: str) -> float:
+    """Return the relative error of a film's rise of temperature: of its heat, and of its flow."""
+    return _relative_film_error(scene, joint) + _relative_flow_error(scene, joint)
+
+
 def side_flow_error(scene: Scene, joint: str, value: float) -> float:
     """Return the error of a side flow, and of the heat that it carries off."""
     return _relative_flow_error(scene, joint) * abs(value)
@@ -64,9 +68,7 @@ def temperature_error(scene: Scene, joint: str, value: float) -> float:
     """Return the error of a film's temperature: of its heat, and of what carries that off."""
     oil = oil_of(scene.joints[joint])
     assert oil is not None
-    return (_relative_film_error(scene, joint) + _relative_flow_error(scene, joint)) * abs(
-        value - oil.supply_celsius
-    )
+    return _relative_heat_error(scene, joint) * abs(value - oil.supply_celsius)
 
 
 def viscosity_error(scene: Scene, joint: str, value: float) -> float:
@@ -77,6 +79,4 @@ def viscosity_error(scene: Scene, joint: str, value: float) -> float:
     oil = oil_of(scene.joints[joint])
     assert oil is not None
     cold = oil.viscosity(oil.supply_celsius)
-    return (_relative_film_error(scene, joint) + _relative_flow_error(scene, joint)) * abs(
-        cold - value
-    )
+    return _relative_heat_error(scene, joint) * abs(cold - value)

@@ -1,4 +1,4 @@
-"""Packages whose names are loaded on first access."""
+"""Names whose modules are loaded on first access."""
 
 import importlib
 
@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from typing import Any
 
-__all__ = ["lazy_names"]
+__all__ = ["lazy_names", "load_object"]
 
 
 def lazy_names(package: str, names: "Mapping[str, str]") -> "Callable[[str], Any]":
@@ -28,3 +28,9 @@ def lazy_names(package: str, names: "Mapping[str, str]") -> "Callable[[str], Any
         return value
 
     return load
+
+
+def load_object(home: str) -> "Any":
+    """Return the class, function or other object "module:name" of this package."""
+    module, _, name = home.partition(":")
+    return getattr(importlib.import_module(f"exu_press.{module}"), name)

@@ -4,11 +4,11 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from exu_press.errors import InputError
+from exu_press.lazy import load_object
 from exu_press.scene.joint import IdealJoint, Joint
 from exu_press.scene.joints import joint_keys
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import nearest
-from exu_press.schema.registry import load_object
 from exu_press.schema.table import changed_table
 
 __all__ = ["by_group", "changed_joints", "unused_laws"]

@@ -12,6 +12,7 @@ from importlib import import_module
 from typing import Any, ClassVar, TypeVar
 
 from exu_press.errors import InputError
+from exu_press.lazy import load_object
 
 __all__ = [
     "CustomKind",
@@ -174,9 +175,7 @@ def _with_unresolved_laws(data: Any, scene: Mapping[str, Any], path: str = "") -
     law = LAWS.get(".".join(path.split(".")[-2:])) if isinstance(data, str) else None
     if law is None:
         return data
-    module, _, inside = law.partition(":")
-    known = getattr(import_module(f"exu_press.{module}"), inside)
-    if data in known or _loaded_kind(data, CustomKind):
+    if data in load_object(law) or _loaded_kind(data, CustomKind):
         return data
     unresolved, table = UnresolvedName(data), law.partition(":")[0].rpartition(".")[2]
     joints = scene.get("joints")
@@ -261,7 +260,7 @@ def describe_own_error(error: Exception) -> str | None:
     own = [frame for frame in frames if frame.filename in files]
     if not own:
         return None
-    return f"{own[-1].filename}, line {own[-1].lineno}: {type(error).__name__}: {error}"
+    return f"{_position(own)}{type(error).__name__}: {error}"
 
 
 def _error_text(error: BaseException) -> str:
@@ -272,7 +271,12 @@ def _error_text(error: BaseException) -> str:
         for frame in traceback.extract_tb(error.__traceback__)
         if not frame.filename.startswith("<") and frame.filename not in (__file__, IMPORTLIB)
     ]
-    at = f"{own[-1].filename}, line {own[-1].lineno}: " if own else ""
+    at = _position(own) if own else ""
     if isinstance(error, SyntaxError):
         at, error = f"{error.filename}, line {error.lineno}: ", SyntaxError(error.msg)
     return f"{at}{kind}{error}"
+
+
+def _position(frames: list[traceback.FrameSummary]) -> str:
+    """Return file and line of the innermost of some frames."""
+    return f"{frames[-1].filename}, line {frames[-1].lineno}: "

@@ -3,10 +3,10 @@
 import dataclasses
 import functools
 from collections.abc import Callable, Collection, Iterator, Mapping
-from importlib import import_module
 from typing import Any
 
 from exu_press.errors import InputError
+from exu_press.lazy import load_object
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import (
     CustomKind,
@@ -17,16 +17,10 @@ from exu_press.schema.kinds import (
     refusal,
 )
 
-__all__ = ["Alternatives", "Choice", "Registry", "alternatives", "choice", "load_object"]
+__all__ = ["Alternatives", "Choice", "Registry", "alternatives", "choice"]
 
 PlaceOf = Callable[[str], str]
 """Name of a key in its table -> the dotted name that a message has for it."""
-
-
-def load_object(home: str) -> Any:
-    """Return the class or function "module:name" of this package."""
-    module, _, name = home.partition(":")
-    return getattr(import_module(f"exu_press.{module}"), name)
 
 
 class Registry(Mapping[Any, type[Any]]):

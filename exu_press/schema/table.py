@@ -7,9 +7,9 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any, ClassVar, Self, TypeVar
 
 from exu_press.errors import InputError, UnusedKeyError
+from exu_press.lazy import load_object
 from exu_press.schema.checks import allowed_text, checked_value, demand_known
 from exu_press.schema.kinds import UnresolvedName
-from exu_press.schema.registry import load_object
 
 __all__ = [
     "RENAMED",

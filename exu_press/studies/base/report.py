@@ -31,10 +31,10 @@ __all__ = [
 ]
 
 REPORT_FILE = "report.json"
+"""File of a report in the directory of its study; a page is made of it."""
 
 FORMAT = "exu_press study 1"
 """Of what a study writes: study.json, runs.jsonl and report.json."""
-"""File of a report in the directory of its study; a page is made of it."""
 
 
 @dataclass(frozen=True)

@@ -325,7 +325,7 @@ def _perform(setup: Setup, requests: BinaryIO, answers: BinaryIO) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if setup.niceness and hasattr(os, "nice"):
         os.nice(setup.niceness)
-    if setup.memory is not None:
+    if sys.platform != "win32" and setup.memory is not None:
         with contextlib.suppress(ImportError, ValueError, OSError):  # a system without such limits
             import resource
 

@@ -24,6 +24,8 @@ LOCK = ".lock"
 class TemporaryFolder:
     """A folder that is removed with this object, or by the next one if its process is killed."""
 
+    _lock: int
+
     def __init__(self) -> None:
         """Create it, and remove the folders of killed processes.
 

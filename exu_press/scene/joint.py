@@ -92,11 +92,11 @@ class Joint(CustomKind, Table):
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
             if isinstance(value, Table):
-                usual = laws.get(field.name) or {}
+                usual, whole = laws.get(field.name) or {}, plain(value)
                 own = {
-                    name: plain(inner) if isinstance(inner, Table) else inner
+                    name: whole[name]
                     for name, inner, _ in key_values(value)
-                    if inner is not None and inner != usual.get(name)
+                    if name in whole and inner != usual.get(name)
                 }
                 keys |= {field.name: own} if own else {}
             elif value is not None:

@@ -1,37 +1,15 @@
 """Attacks: a scene, a study or a result that names code; none runs before the user allows it."""
 
-import site
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from user_kinds import forget
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
-from exu_press.scene import CustomLoad
-from exu_press.scene.custom import CustomJoint, UnresolvedJoint
-
-KIND = """
-from dataclasses import dataclass
-from pathlib import Path
-from exu_press.joints.interface import FunctionInterface
-from exu_press.scene import CustomJoint, key
-
-Path(r"{mark}").open("a").write("ran ")
-
-@dataclass(frozen=True)
-class Spring(CustomJoint):
-    stiffness: float = key(1e8, "radial", "N/m", above=0)
-
-    def interfaces(self):
-        k = self.stiffness
-
-        def law(e, e_dot, v_t, omega_j, omega_b):
-            return (-k * e, 0.0, -k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-
-        return [FunctionInterface(law, self.clearance, lambda e: (0.5 * k * e * e, k * e))]
-"""
+from exu_press.scene.custom import CustomJoint
 
 SCENE = """
 mechanism = "slider_crank"
@@ -39,6 +17,7 @@ revolutions = 0.02
 [joints.crank_pin]
 kind = "{kind}"
 clearance = 1e-4
+stiffness = 1e8
 """
 
 STUDY = """
@@ -49,24 +28,11 @@ speed_rpm = [100.0, 110.0]
 
 
 @pytest.fixture
-def mark(tmp_path, monkeypatch):
-    """Return the file in which the code `hostile:Spring` says that it ran; Python finds it."""
-    mark = tmp_path / "mark"
-    (tmp_path / "hostile.py").write_text(KIND.format(mark=mark))
-    (tmp_path / "scene.toml").write_text(SCENE.format(kind="hostile:Spring"))
-    (tmp_path / "study.toml").write_text(STUDY)
-    monkeypatch.syspath_prepend(tmp_path)
-    monkeypatch.chdir(tmp_path)
-    yield mark
-    forget("hostile")
-
-
-def forget(module):
-    """Let no class of a module be known any more, as in a new process."""
-    sys.modules.pop(module, None)
-    for kind in (*CustomJoint.__subclasses__(), *CustomLoad.__subclasses__()):
-        if kind.__module__ == module:
-            kind.__module__, kind.registered_name = "forgotten", ""
+def hostile(mark):
+    """Return the file in which the code that scene and study name says that it ran."""
+    Path("scene.toml").write_text(SCENE.format(kind="own_kinds:Bushing"))
+    Path("study.toml").write_text(STUDY)
+    return mark
 
 
 @pytest.mark.parametrize(
@@ -78,106 +44,38 @@ def forget(module):
         ["attractor", "scene.toml"],
         ["precision", "scene.toml"],
         ["stability", "scene.toml"],
-        ["run", "slider_crank", "--set", "joints.crank_pin=hostile:Spring"],
+        ["run", "slider_crank", "--set", "joints.crank_pin=own_kinds:Bushing"],
         *([name, "study.toml"] for name in ("sweep", "bifurcation", "sensitivity", "optimise")),
     ],
     ids=" ".join,
 )
-def test_no_command_imports_what_a_file_names(command, mark, capsys):
+def test_no_command_imports_what_a_file_names(command, hostile, capsys):
     assert main([*command, "--out", "out"]) == 2
     said = capsys.readouterr().err
-    assert not mark.exists()
+    assert not hostile.exists()
     if command[0] in ("run", "compare", "attractor", "precision", "stability", "sweep"):
-        assert "'hostile:Spring': names code, the module 'hostile'" in said
+        assert "'own_kinds:Bushing': names code, the module 'own_kinds'" in said
         assert "--allow-code" in said and said.count("\n") == 1
 
 
 @pytest.mark.parametrize("more", [[], ["--allow-code"]])
-def test_drawing_imports_nothing_and_needs_no_permission(more, mark):
+def test_drawing_imports_nothing_and_needs_no_permission(more, hostile):
     assert main(["draw", "scene.toml", "--save", "drawing.png", *more]) == 0
-    assert not mark.exists()
+    assert not hostile.exists()
 
 
 @pytest.mark.parametrize("command", ["run", "sweep"])
-def test_with_permission_it_runs_here_and_in_workers(command, mark, processes):
+def test_with_permission_it_runs_here_and_in_workers(command, hostile, processes):
     file = {"run": "scene.toml", "sweep": "study.toml"}[command]
     more = ["--allow-code", "--quiet", "--no-pictures", "--out", "out"]
     assert main([command, file, *more]) == 0
-    assert mark.read_text().startswith("ran")
+    assert hostile.read_text().startswith("ran")
     if command == "sweep":  # resumed, it needs the permission again
-        forget("hostile")
+        forget()
         rows = Path("out/runs.jsonl").read_text()
         assert main([command, file, *more[1:]]) == 2
         assert main([command, file, *more]) == 0
         assert Path("out/runs.jsonl").read_text() == rows
-
-
-def test_a_result_imports_nothing_and_shows_the_kind(mark, capsys):
-    main(["run", "scene.toml", "--allow-code", "--quiet", "--no-pictures", "--out", "out"])
-    forget("hostile")
-    mark.unlink()
-    result = Result.load("out/run.nc")
-    joint = result.scene.joints["crank_pin"]
-    assert isinstance(joint, UnresolvedJoint) and result.scene.has_unresolved_kinds
-    assert (joint.kind, joint.clearance) == ("hostile:Spring", 1e-4)
-    assert dict(joint.keys) == {"clearance": 1e-4, "stiffness": 1e8}
-    assert result.quantity("joints.crank_pin.peak_force").value > 0.0
-    assert result.scene.to_dict()["joints"]["crank_pin"]["kind"] == "hostile:Spring"
-    shorter = result.scene.replace({"revolutions": 0.01, "joints.crank_pin.stiffness": 2e8})
-    assert shorter.joints["crank_pin"].keys["stiffness"] == 2e8
-    shorter.save("again.toml")
-    for command in (
-        ["report", "out"],
-        ["spectrum", "out/run.nc"],
-        ["view", "out", "--save", "a.png"],
-    ):
-        main(command)
-    plain = 'mechanism = "slider_crank"\nrevolutions = 0.02\njoints = {}\n'
-    Path("plain.toml").write_text(plain)
-    more = ["--no-pictures", "--no-error", "--out", "both"]
-    assert main(["compare", "out/run.nc", "plain.toml", *more]) == 0
-    assert "hostile:Spring" in capsys.readouterr().out
-    assert "hostile:Spring" in Path("out/report.html").read_text()
-    assert not mark.exists()
-    with pytest.raises(InputError, match="names code, the module 'hostile'"):
-        simulate(shorter)
-    with pytest.raises(InputError, match="names code"):
-        Scene.load("again.toml")
-    assert not mark.exists()
-    assert simulate(Scene.load("again.toml", allow_code=True)).completed
-
-
-def test_a_load_of_a_result_is_shown_likewise(mark, tmp_path, capsys):
-    (tmp_path / "hostile.py").write_text(
-        f"open({str(mark)!r}, 'a').write('ran ')\n"
-        "from dataclasses import dataclass\n"
-        "from exu_press.laws.load_curve import LoadCurve\n"
-        "from exu_press.scene import CustomLoad, key\n"
-        "@dataclass(frozen=True)\n"
-        "class Ramp(CustomLoad):\n"
-        "    force: float = key(None, 'at the bottom', 'N', above=0)\n"
-        "    def curve(self, angular_speed):\n"
-        "        return LoadCurve([0.0, 0.1], [self.force, 0.0])\n"
-    )
-    Path("scene.toml").write_text(
-        'mechanism = "slider_crank"\nrevolutions = 0.6\njoints = {}\n'
-        '[load.ramp]\nkind = "hostile:Ramp"\nforce = 1e4\n'
-    )
-    assert main(["run", "scene.toml", "--quiet", "--out", "out"]) == 2 and not mark.exists()
-    more = ["--allow-code", "--quiet", "--no-pictures", "--out", "out"]
-    assert main(["run", "scene.toml", *more]) == 0
-    forget("hostile")
-    mark.unlink()
-    result = Result.load("out/run.nc")
-    assert result.scene.load["ramp"].kind == "hostile:Ramp" and result.scene.has_unresolved_kinds
-    assert result.quantity("loads.ramp.peak_force").value == pytest.approx(1e4, rel=1e-3)
-    result.scene.save("again.toml")
-    assert "force = 10000.0" in Path("again.toml").read_text()
-    assert main(["report", "out"]) == 0 and main(["view", "out", "--save", "a.png"]) in (0, 2)
-    assert "hostile:Ramp" in Path("out/report.html").read_text() and not mark.exists()
-    with pytest.raises(InputError, match=r"load\.ramp\.kind = 'hostile:Ramp': names code"):
-        simulate(result.scene)
-    assert simulate(Scene.load("again.toml", allow_code=True)).completed
 
 
 def test_a_result_whose_scene_is_forged_runs_nothing(mark, monkeypatch):
@@ -185,7 +83,7 @@ def test_a_result_whose_scene_is_forged_runs_nothing(mark, monkeypatch):
     result = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=0.01))
     honest = result.scene.to_dict()
     ours = ("exu_press.scene.custom:UnresolvedJoint", "exu_press.scene:CustomJoint")
-    for kind in ("hostile:Spring", "this:x", "os:system", "exu_press:cell", "hostile", *ours):
+    for kind in ("own_kinds:Bushing", "this:x", "os:system", "exu_press:cell", "own_kinds", *ours):
         for joints in ({"crank_pin": kind}, {"crank_pin": {"kind": kind, "clearance": "x"}}):
             with pytest.raises(InputError):
                 result.scene.replace({"joints": joints})
@@ -230,57 +128,21 @@ def test_a_class_of_ones_own_script_needs_no_permission():
         Scene(mechanism="slider_crank", joints={"crank_pin": Local(1e-4)})
 
 
-@pytest.fixture
-def installed(tmp_path, monkeypatch, mark):
-    """Return what puts a distribution with a kind "spring" into a folder."""
-
-    def install(folder, module="installed_kinds"):
-        info = folder / f"{folder.name}-1.0.dist-info"
-        info.mkdir(parents=True)
-        (info / "METADATA").write_text(
-            f"Metadata-Version: 2.1\nName: {folder.name}\nVersion: 1.0\n"
-        )
-        (info / "entry_points.txt").write_text(f"[exu_press.kinds]\nspring = {module}:Spring\n")
-        (folder / f"{module}.py").write_text(KIND.format(mark=mark))
-        return folder
-
-    packages = tmp_path / "site-packages"
-    packages.mkdir()
-    monkeypatch.setattr(site, "getsitepackages", lambda: [str(packages)])
-    monkeypatch.setattr(site, "ENABLE_USER_SITE", False)
-    Path("scene.toml").write_text(SCENE.format(kind="spring"))
-    yield install
-    forget("installed_kinds")
-
-
-def test_a_registered_kind_needs_no_permission(installed, mark, tmp_path, monkeypatch):
-    monkeypatch.syspath_prepend(installed(tmp_path / "site-packages" / "mine"))
-    (tmp_path / "site-packages" / "mine.pth").write_text("mine\n")
-    scene = Scene.load("scene.toml")
-    assert scene.joints["crank_pin"].kind == "spring" and mark.exists()
-    assert scene.to_dict()["joints"]["crank_pin"]["kind"] == "spring"
-    simulate(scene).save("run.nc")
-    forget("installed_kinds")
-    mark.unlink()
-    assert (
-        Result.load("run.nc").scene.has_unresolved_kinds and not mark.exists()
-    )  # reading imports nothing
-
-
-def test_what_pythonpath_brings_registers_nothing(installed, mark, tmp_path, monkeypatch):
-    monkeypatch.syspath_prepend(installed(tmp_path / "elsewhere"))
-    with pytest.raises(InputError, match="kind = 'spring': allowed is one of"):
+def test_what_pythonpath_brings_registers_nothing(install, mark, tmp_path):
+    install(tmp_path / "elsewhere")
+    Path("scene.toml").write_text(SCENE.format(kind="bushing"))
+    with pytest.raises(InputError, match="kind = 'bushing': allowed is one of"):
         Scene.load("scene.toml")
     assert not mark.exists()
 
 
 def test_the_working_folder_does_not_stand_for_an_installed_module(
-    installed, mark, tmp_path, monkeypatch
+    install, mark, tmp_path, monkeypatch
 ):
     """Its module of the same name comes first in Python's search, and is not imported."""
-    monkeypatch.syspath_prepend(installed(tmp_path / "site-packages" / "mine"))
-    (tmp_path / "site-packages" / "mine.pth").write_text("mine\n")
-    (tmp_path / "installed_kinds.py").write_text(KIND.format(mark=mark))
+    install(tmp_path / "site-packages" / "mine")
+    Path("scene.toml").write_text(SCENE.format(kind="bushing"))
+    Path("own_kinds.py").rename("installed_kinds.py")
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(InputError, match="allowed is the one that is installed"):
         Scene.load("scene.toml")

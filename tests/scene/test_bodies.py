@@ -1,10 +1,7 @@
 """[bodies.NAME]: which bodies are flexible, what is refused, and how a scene is changed."""
 
-import pytest
-
-from exu_press import InputError, Scene
+from exu_press import Scene
 from exu_press.scene import Face, Flexible, flexible_press
-from exu_press.scene.template import template
 
 
 def test_a_part_alone_or_with_its_keys():
@@ -12,70 +9,6 @@ def test_a_part_alone_or_with_its_keys():
     assert short.bodies == {"linkage": Flexible("linkage")}
     assert {name: body.modes for name, body in long.bodies.items()} == {"crank": 4, "linkage": 4}
     assert Scene().bodies == {}
-
-
-@pytest.mark.parametrize(
-    ("bodies", "message"),
-    [
-        ("flexible", r"bodies = 'flexible': allowed is a table for each flexible body"),
-        ({"linkige": "linkage"}, r"bodies\.linkige = 'linkage': press has no such body \(did you"),
-        (
-            {"linkage": {"flexible": "linkage", "faces": {"guide": "pin"}}},
-            r"bodies\.linkage\.faces\.guide: linkage has no such joint.*allowed are crank_pin",
-        ),
-        ({"linkage": {"modes": 4}}, r"bodies\.linkage\.flexible: missing"),
-        ({"linkage": 3}, r"bodies\.linkage = 3: allowed is a shipped part, a STEP file's path, or"),
-        (flexible_press(modes=-1), r"bodies\.crank\.modes = -1: allowed is a whole number >= 0"),
-        (flexible_press(modes=2.5), r"bodies\.crank\.modes = 2\.5"),
-        (
-            flexible_press(mode=2),
-            r"bodies\.crank\.mode = 2: unknown key \(did you mean 'modes'\?\)",
-        ),
-        (flexible_press(poissons_ratio=-0.1), r"bodies\.crank\.poissons_ratio = -0\.1: allowed is"),
-        (flexible_press(poissons_ratio=0.5), r"bodies\.crank\.poissons_ratio = 0\.5: allowed is a"),
-        (flexible_press(youngs_modulus=0), r"bodies\.crank\.youngs_modulus = 0.*allowed is .* > 0"),
-        (
-            flexible_press(modes=4, flexibility_error=0.01),
-            r"bodies\.crank\.modes and flexibility_error: allowed is one of the two",
-        ),
-        (flexible_press(flexibility_error=0.0), r"crank\.flexibility_error = 0\.0: allowed is a"),
-        (
-            flexible_press(origin=[1]),
-            r"crank\.origin = \[1\]: allowed is a list of 2 numbers",
-        ),
-        (flexible_press(faces="pin"), r"bodies\.crank\.faces = 'pin': allowed is a table"),
-        (flexible_press(faces={"pins": "pin"}), r"crank\.faces\.pins: crank has no such joint"),
-        (
-            flexible_press(faces={"crank_pin": 3}),
-            r"crank\.faces\.crank_pin = 3: allowed is a face's",
-        ),
-        (
-            flexible_press(faces={"drive": {"z": [0, 1]}}),
-            r"drive = \{'z'.*allowed is a face's name",
-        ),
-        (flexible_press(faces={"drive": ["pin", "web"]}), r"faces\.drive = \['pin', 'web'\]: allo"),
-        (flexible_press(faces={"crank_pin": {"r": 3}}), r"faces\.crank_pin\.r = 3: unknown key"),
-        (
-            flexible_press(faces={"crank_pin": {"radius": -1}}),
-            r"pin\.radius = -1\.0: allowed",
-        ),
-        (
-            flexible_press(faces={"crank_pin": {"z": [1, 0]}}),
-            r"pin\.z = \[1\.0, 0\.0\]: allowed",
-        ),
-    ],
-)
-def test_what_is_refused_in_one_line(bodies, message):
-    with pytest.raises(InputError, match=message) as refused:
-        Scene(bodies=bodies)
-    assert "\n" not in str(refused.value)
-
-
-def test_the_table_of_before_is_named():
-    with pytest.raises(InputError, match=r"flexible = .*: is bodies\.NAME now"):
-        Scene.from_dict({"flexible": {"modes": 4}})
-    with pytest.raises(InputError, match=r"flexible\.modes = 4: is bodies\.NAME now"):
-        Scene().replace({"flexible.modes": 4})
 
 
 def test_one_key_a_part_or_all_bodies_are_replaced():
@@ -110,14 +43,3 @@ def test_a_file_lies_beside_its_scene(tmp_path):
     assert scene.bodies["coupler"].path == tmp_path / "scenes" / "my.step"
     scene.save(tmp_path / "other.toml")
     assert 'flexible = "scenes/my.step"' in (tmp_path / "other.toml").read_text()
-
-
-@pytest.mark.parametrize(("mechanism", "body"), [("press", "linkage"), ("six_bar", "rod")])
-def test_the_template_has_an_example_that_is_right(mechanism, body, tmp_path):
-    lines, inside = [], False
-    for line in template(mechanism).splitlines():
-        inside = line.startswith(f"# [bodies.{body}]") or (inside and line.startswith("# "))
-        given = line.partition("  #")[0].partition("=")[2].strip() or line.startswith("# [")
-        lines.append(line.removeprefix("# ") if inside and given else line)
-    (tmp_path / "scene.toml").write_text("\n".join(lines))
-    assert list(Scene.load(tmp_path / "scene.toml").bodies) == [body]

@@ -1,7 +1,6 @@
 """[joints.NAME]: every joint of the mechanism, by its name or its group's."""
 
 import pytest
-from refused import refused
 
 from exu_press import InputError, Scene
 from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint, mechanism_of
@@ -87,80 +86,6 @@ def test_contact_and_friction_of_a_film_only_where_it_is_mixed():
     assert mixed.joints["crank_pin"].onset == pytest.approx(6e-7)
 
 
-@pytest.mark.parametrize(
-    ("joints", "message"),
-    [
-        ({"crank_pn": "dry"}, "joints.crank_pn = 'dry': press has no such joint or group (did you"),
-        ({"crank_pin": {"kind": ["dry"]}}, "joints.crank_pin.kind = ['dry']: allowed is one of"),
-        ({"crank_pin": "wet"}, "joints.crank_pin.kind = 'wet': allowed is one of 'ideal', 'dry', "),
-        ({"crank_pin": None}, "joints.crank_pin = None: allowed is a table of keys, or one of"),
-        ({"crank_pin": ["dry"]}, "joints.crank_pin = ['dry']: allowed is a table of keys, or one"),
-        ({"crank_pin": {}}, "joints.crank_pin has no kind: allowed is one of"),
-        ({"crank_pin": {"kind": "dry", "gap": 1}}, "joints.crank_pin.gap = 1: unknown key"),
-        (
-            {"balls": {"kind": "lubricated", "film": {"length": 0.1}}},
-            "joints.balls.film.length = 0.1: not used by this scene (the joint is spherical)",
-        ),
-        (
-            {"crank_pin": {"kind": "lubricated", "film": {"socket_angle_deg": 60.0}}},
-            "joints.crank_pin.film.socket_angle_deg = 60.0: not used by this scene (the joint",
-        ),
-        (
-            {"balls": {"kind": "lubricated", "film": {"socket_angle_deg": 30.0}}},
-            "joints.balls.film.socket_angle_deg = 30.0: allowed is a number >= 45 and <= 90",
-        ),
-        (
-            {"balls": {"kind": "dry", "clearance": -1}},
-            "joints.balls.clearance = -1.0: allowed is a",
-        ),
-        (
-            {"pivots": {"kind": "dry", "clearance": "0.1"}},
-            "joints.pivots.clearance = '0.1': allowed is a number > 0",
-        ),
-        (
-            {"pivots": {"kind": "dry", "clearance": 2e-3, "radius": 1e-3}},
-            "joints.pivots.clearance = 0.002: allowed is a number < radius = 0.001",
-        ),
-        (
-            {"pivots": {"kind": "ideal", "clearance": 2e-3}},
-            "joints.pivots.clearance: not used by this scene (joints.pivots is 'ideal'); remove it",
-        ),
-        (
-            {"pivots": {"kind": "dry", "film": {}}},
-            "joints.pivots.film: not used by this scene (joints.pivots is 'dry'); remove it",
-        ),
-        (
-            {"crank_pin": {"kind": "lubricated", "friction": {"law": "none"}}},
-            "joints.crank_pin.friction: not used by this scene (film.at_contact is 'stop')",
-        ),
-        (
-            {"crank_pin": {"kind": "lubricated", "film": {"viscocity": 1}}},
-            "joints.crank_pin.film.viscocity = 1: unknown key (did you mean 'viscosity'?)",
-        ),
-        (
-            {"crank_pin": {"kind": "lubricated", "film": {"viscosity": -1}}},
-            "joints.crank_pin.film.viscosity = -1.0: allowed is a number > 0",
-        ),
-        (
-            {"crank_pin": {"kind": "dry", "friction": {"mu_static": 0.001}}},
-            "joints.crank_pin.friction.mu_static = 0.001: allowed is a number >=",
-        ),
-        (
-            {
-                "crank_pin": {
-                    "kind": "lubricated",
-                    "film": {"at_contact": "mixed", "roughness": 1e-4},
-                }
-            },
-            "film.roughness * film.asperity_onset = 0.0003: allowed is a number < clearance",
-        ),
-    ],
-    ids=str,
-)
-def test_what_is_refused_is_named(joints, message):
-    assert refused(press, **joints).startswith(message)
-
-
 def test_a_joint_in_two_groups_is_refused():
     """The press has no such groups; a mechanism may."""
     from exu_press.scene.joints import joints_of
@@ -172,28 +97,6 @@ def test_a_joint_in_two_groups_is_refused():
         joints_of({"all": "dry", "some": "ideal"}, "mine", pins, groups, laws, {})
 
 
-def test_joints_must_be_a_table():
-    with pytest.raises(InputError, match="joints = 3: allowed is a table"):
-        Scene(joints=3)
-
-
 def test_an_unknown_joint_is_named():
     with pytest.raises(InputError, match=r"press has no such joint \(did you mean 'crank_pin'"):
         Scene().joints["crankpin"]
-
-
-def test_saved_and_read_back(tmp_path):
-    scene = press(
-        crank_pin={"kind": "lubricated", "film": {"law": "finite", "viscosity": 0.1}},
-        knuckles={"kind": "dry", "clearance": 5e-5},
-        ball_left="dry",
-    )
-    for comments in (False, True):
-        path = tmp_path / f"{comments}.toml"
-        scene.save(path, comments=comments)
-        assert Scene.load(path) == scene
-    text = path.read_text()
-    assert "[joints.knuckles]" in text and "[joints.ball_left]" in text
-    ideal = tmp_path / "ideal.toml"
-    press().save(ideal)
-    assert Scene.load(ideal) == press(), "not the shipped press's own joints"

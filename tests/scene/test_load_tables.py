@@ -1,12 +1,11 @@
 """[load.NAME]: what a scene allows and fills in, tables as CSV, and what is refused."""
 
-import json
 import math
 
 import pytest
 from refused import refused
 
-from exu_press import InputError, Scene
+from exu_press import Scene
 from exu_press.scene import BlankingLoad, TableLoad, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.scene.warnings import scene_warnings
@@ -26,17 +25,6 @@ def test_any_number_of_loads_by_name():
     assert scene.load["blanking"] == BlankingLoad(force=1e4)
     assert scene.load["spring"] == TableLoad(time=(0.0, 0.1), force=(0.0, 1e3))
     assert not Scene().load
-
-
-def test_a_scene_with_loads_comes_back_equal(tmp_path):
-    more = {"body": "link_7_left", "offset": [0.0, 0.1], "direction": [3, 4], "factor": 2.0}
-    scene = Scene(load={"blanking": {**PULSE, "offset": [-0.1, 0]}, "spring": {**TABLE, **more}})
-    complete = scene.to_dict()
-    assert json.loads(json.dumps(complete)) == complete
-    assert Scene.from_dict(complete) == scene
-    assert hash(Scene.from_dict(complete)) == hash(scene)
-    scene.save(tmp_path / "scene.toml", comments=True)
-    assert Scene.load(tmp_path / "scene.toml") == scene
 
 
 def test_by_default_it_acts_on_the_output_in_its_direction():
@@ -98,97 +86,6 @@ def test_a_csv_file_that_is_none_is_refused_by_line(text, message, tmp_path):
     assert message in told
 
 
-@pytest.mark.parametrize(
-    ("load", "message"),
-    [
-        (5, "load = 5: allowed is a table of loads"),
-        ({"a b": PULSE}, "load: 'a b' is no name"),
-        ({"a": 3}, "load.a = 3: allowed is a table of keys"),
-        ({"a": {"force": 1.0}}, "load.a has no kind: allowed is one of 'blanking', 'table'"),
-        ({"ä": PULSE}, "load: 'ä' is no name"),
-        ({"a": {"kind": []}}, "load.a.kind = []: allowed is one of"),
-        ({"a": {"kind": "blank"}}, "load.a.kind = 'blank': allowed is one of"),
-        ({"a": {"kind": "blanking"}}, "load.a.force: missing"),
-        ({"a": {**PULSE, "force": -1}}, "load.a.force = -1.0: allowed is a number >= 0"),
-        ({"a": {**PULSE, "rise": 0}}, "load.a.rise = 0.0: allowed is a number > 0"),
-        ({"a": {**PULSE, "end_angle_deg": 361}}, "load.a.end_angle_deg = 361.0: allowed"),
-        (
-            {"a": {**PULSE, "start_angle_deg": 90, "end_angle_deg": 100}},
-            "load.a.start_angle_deg and end_angle_deg: allowed is one of the two",
-        ),
-        ({"a": {**PULSE, "time": [0, 1]}}, "load.a.time = [0, 1]: not used by this scene"),
-        ({"a": {**PULSE, "rize": 1.0}}, "unknown key of kind 'blanking' (did you mean 'rise'?)"),
-        ({"a": {**PULSE, "body": "slidr"}}, "press has no such body (did you mean 'slider'?)"),
-        ({"a": {**PULSE, "body": "frame"}}, "load.a.body = 'frame': press has no such body"),
-        ({"a": {**PULSE, "body": 3}}, "load.a.body = 3: allowed is a text"),
-        ({"a": {**PULSE, "offset": 0.1}}, "load.a.offset = 0.1: allowed is a list of 2 numbers"),
-        ({"a": {**PULSE, "offset": [0, "x"]}}, "allowed is a list of 2 numbers"),
-        ({"a": {**PULSE, "direction": [0, 0]}}, "load.a.direction = [0, 0]: allowed is a direc"),
-        ({"a": {**PULSE, "rise": 0.2, "fall": 0.06}}, "load.a.rise + fall = 0.26: allowed is at"),
-        ({"a": {**HEIGHT, "height": [0.02, 0.0]}}, "load.a.height = 0.0 after 0.02: allowed is i"),
-        ({"a": {**HEIGHT, "acts": "up"}}, "load.a.acts = 'up': allowed is one of 'closing'"),
-        ({"a": {**PULSE, "acts": "both"}}, "load.a.acts = 'both': not used by this scene"),
-        ({"a": {"kind": "table"}}, "load.a.nothing given: allowed is file, a CSV, or one of time"),
-        ({"a": {**TABLE, "crank_angle_deg": [0, 1]}}, "time, crank_angle_deg, force given"),
-        ({"a": {**TABLE, "file": "a.csv"}}, "load.a.file and force: allowed is one of the two"),
-        ({"a": {**TABLE, "force": [1.0]}}, "load.a.time, force: 2 and 1 values"),
-        ({"a": {**TABLE, "time": [0.1, 0.1]}}, "load.a.time = 0.1 after 0.1: allowed is inc"),
-        ({"a": {**TABLE, "time": [0, True]}}, "allowed is a list of numbers"),
-        ({"a": {"kind": "table", "file": 3}}, "load.a.file = 3: allowed is the path of a CSV"),
-        ({"a": {"kind": "table", "file": "no.csv"}}, "load.a.file: no.csv: cannot be read"),
-        (
-            {"a": {"kind": "table", "crank_angle_deg": [0, 400], "force": [0, 1]}},
-            "load.a.crank_angle_deg from 0.0 to 400.0: allowed is less than a revolution",
-        ),
-        (
-            {"a": {"kind": "table", "crank_angle_deg": [0, 360], "force": [0, 1]}},
-            "a whole one that ends with the force with which it begins",
-        ),
-    ],
-)  # fmt: skip
-def test_what_is_refused(load, message):
-    assert message in refusal(load)
-
-
-@pytest.mark.parametrize(
-    ("load", "message"),
-    [
-        (
-            {"body": "linkage"},
-            "load.a: acts on the flexible linkage, which a force at a point would dent without "
-            "end; allowed are joint, one of crank_pin, slide_pin, or face, of those that carry it",
-        ),
-        (
-            {"body": "linkage", "joint": "slide_pins"},
-            "load.a.joint = 'slide_pins': linkage has no such joint (did you mean 'slide_pin'?)",
-        ),
-        ({"joint": "ball_left", "offset": [0, 1]}, "load.a.joint and offset: allowed is one of"),
-        ({"joint": "ball_left", "face": "a"}, "load.a.joint and face: allowed is one of the two"),
-        ({"face": "a"}, "load.a.face: slider is rigid; allowed are joint and offset, or [bodies.s"),
-        ({"body": "linkage", "face": {}}, "load.a.face = {}: allowed is a face's name, or ranges"),
-        ({"body": "linkage", "face": 3}, "load.a.face = 3: allowed is a face's name, or a table"),
-        ({"body": "linkage", "face": {"radius": 1}}, "load.a.face.radius = 1: unknown key"),
-        ({"body": "linkage", "face": {"x": [1, 0]}}, "load.a.face.x = [1.0, 0.0]: allowed"),
-    ],
-)  # fmt: skip
-def test_what_is_refused_on_flexible_bodies(load, message):
-    assert refusal({"a": {**PULSE, **load}}, bodies={"linkage": "linkage"}).startswith(message)
-
-
-def test_a_load_on_a_joint_or_a_face_is_saved_and_read_back(tmp_path):
-    load = {
-        "pin": {**PULSE, "body": "linkage", "joint": "slide_pin"},
-        "bore": {**PULSE, "body": "linkage", "face": "big bore"},
-        "two": {**PULSE, "body": "linkage", "face": [{"x": [0, 1]}, {"y": [0, 1], "z": [2, 3]}]},
-    }
-    scene = Scene(bodies={"linkage": "linkage"}, load=load)
-    assert Scene.from_dict(scene.to_dict()) == scene
-    scene.save(tmp_path / "scene.toml")
-    assert Scene.load(tmp_path / "scene.toml") == scene
-    moved = scene.replace({"load.pin.joint": "crank_pin"})
-    assert moved.load["pin"].joint == "crank_pin"
-
-
 def test_a_joint_is_a_place_of_a_rigid_body_too():
     scene = Scene(load={"a": {**PULSE, "joint": "ball_left"}})
     mechanism = mechanism_of(scene)
@@ -223,12 +120,3 @@ def test_what_is_hardly_meant(load, message):
     assert any(message in told for told in scene_warnings(scene))
     usual = Scene(mechanism="eccentric_press", load={"a": HEIGHT})
     assert not any("load.a" in told for told in scene_warnings(usual))
-
-
-def test_the_old_spelling_is_refused_and_the_new_one_named():
-    with pytest.raises(
-        InputError, match=r"blanking = .*: is load\.NAME with kind = 'blanking' now"
-    ):
-        Scene.from_dict({"blanking": {"force": 1e4}})
-    with pytest.raises(InputError, match=r"blanking\.force = 1.0: is load\.NAME with kind"):
-        Scene().replace({"blanking.force": 1.0})

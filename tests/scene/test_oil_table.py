@@ -6,7 +6,6 @@ from exu_press import InputError, Scene
 from exu_press.quantities.units import unit_of
 from exu_press.scene.assumptions import assumed_values
 from exu_press.scene.oil import Oil
-from exu_press.scene.template import template
 from exu_press.scene.warnings import scene_warnings
 
 OIL = {"viscosity_cst": [68.0, 8.7], "density": 870.0, "supply_celsius": 40.0, "conductance": 5.0}
@@ -56,15 +55,6 @@ def test_joints_have_oils_of_their_own():
     assert Scene.from_dict(only_there.to_dict()) == only_there
 
 
-@pytest.mark.parametrize("comments", [False, True])
-def test_a_saved_scene_is_read_back_equal(tmp_path, comments):
-    own = {"kind": "lubricated", "film": {"oil": {"conductance": 1.0}}}
-    scene = scene_of(joints={"crank_pin": own, "shaft": "lubricated"})
-    scene.save(tmp_path / "scene.toml", comments=comments)
-    assert Scene.load(tmp_path / "scene.toml") == scene
-    assert "[film.oil]" in (tmp_path / "scene.toml").read_text()
-
-
 def test_defaults_that_decide_are_told():
     without = {key: value for key, value in OIL.items() if key != "conductance"}
     told = assumed_values(scene_of(film={"oil": without}))
@@ -73,47 +63,15 @@ def test_defaults_that_decide_are_told():
     assert not any("film.oil.density" in text or "viscosity" in text for text in told)
 
 
-def test_the_template_shows_it():
-    assert "# [film.oil]" in template("slider_crank")
-
-
 def test_an_oil_that_is_hardly_meant_is_warned_of():
     thick = scene_of(film={"oil": OIL | {"viscosity_cst": [68000.0, 8700.0]}})
     (told,) = [text for text in scene_warnings(thick) if "oil" in text and "above 2 Pa s" in text]
     assert "59.16" in told
 
 
-@pytest.mark.parametrize(
-    ("film", "words"),
-    [
-        ({"viscosity": 0.1, "oil": OIL}, "film.viscosity and film.oil: allowed is one"),
-        ({"oil": OIL | {"viscosity_cst": [8.7, 68.0]}}, r"the larger one first, as oil thins"),
-        ({"oil": OIL | {"at_celsius": [100.0, 40.0]}}, r"the lower one first"),
-        ({"oil": OIL | {"viscosity_cst": [5.0, 1.5]}}, "ASTM D341"),
-        ({"oil": OIL | {"viscosity_cst": [68.0]}}, "a list of 2 numbers"),
-        ({"oil": OIL | {"densty": 1.0}}, r"film\.oil\.densty = 1\.0: .*did you mean 'density'"),
-        ({"oil": OIL | {"conductance": -1.0}}, r"film\.oil\.conductance = -1\.0"),
-        ({"oil": {"density": 870.0, "supply_celsius": 40.0}}, r"needs film\.oil\.viscosity_cst"),
-        ({"oil": {"viscosity_cst": [68.0, 8.7]}}, r"needs film\.oil\.density .*density = 870"),
-        ({"oil": OIL | {"conductance": 0.0, "frame_celsius": 20.0}}, "frame_celsius.*not used"),
-        ({"oil": OIL | {"conductance": 0.0}, "law": "pi_film"}, "a long bearing has no side flow"),
-        ({"oil": 3.0}, r"film\.oil = 3\.0: allowed is a table"),
-    ],
-)
-def test_what_is_refused(film, words):
-    with pytest.raises(InputError, match=words) as told:
-        scene_of(film=film)
-    assert "\n" not in str(told.value)
-
-
 def test_its_keys_have_units_in_studies():
     assert unit_of("film.oil.supply_celsius") == "deg C"
     assert unit_of("joints.crank_pin.film.oil.density") == "kg/m^3"
-
-
-def test_without_a_film_it_is_not_used():
-    with pytest.raises(InputError, match="no joint is 'lubricated'"):
-        scene_of(joints={})
 
 
 def test_the_film_of_a_ball_does_not_warm():

@@ -1,75 +1,20 @@
 """Laws, a joint and a load that come from outside the package: named, refused, run and stored."""
 
-import gc
-import site
-import sys
 from pathlib import Path
 
 import pytest
+from user_kinds import NAMES, forget
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
 from exu_press.scene.assumptions import keys_of
-from exu_press.schema.kinds import CustomKind, custom_modules, subclasses_of
+from exu_press.scene.custom import UnresolvedJoint
+from exu_press.schema.kinds import custom_modules, import_kinds
 from exu_press.schema.toml import toml_text
 
-KINDS = """
-from dataclasses import dataclass
-from exu_press.joints.interface import FunctionInterface
-from exu_press.laws.contact import NormalContact
-from exu_press.laws.film import short
-from exu_press.laws.friction import coulomb
-from exu_press.laws.load_curve import LoadCurve
-from exu_press.scene import ContactDamping, CustomJoint, CustomLoad, FilmLaw, FrictionLaw, key
-
-open({mark!r}, "a").write("ran ")
-
-@dataclass(frozen=True)
-class Viscous(ContactDamping):
-    constant: float = key(1e4, "of the damper", "N s/m", at_least=0, source="drawn by lot")
-
-    def normal_contact(self, stiffness, *, tension, usual_slowest):
-        c = self.constant
-        return NormalContact(stiffness, lambda d, rate, *_: (c * rate, 0.0, c), False, tension)
-
-@dataclass(frozen=True)
-class Graded(FrictionLaw):
-    coefficient: float = key(0.05, "of friction", above=0, at_most=1)
-    grade: float = key(2.0, "of the surface", above=0)
-
-    def friction(self):
-        return coulomb(self.coefficient * self.grade, 1e-3)
-
-@dataclass(frozen=True)
-class Thin(FilmLaw):
-    factor: float = key(1.0, "of the force", above=0)
-
-    def film(self, length_to_diameter):
-        law, factor = short(length_to_diameter), self.factor
-        return lambda *speeds: tuple(factor * value for value in law(*speeds))
-
-@dataclass(frozen=True)
-class Bushing(CustomJoint):
-    stiffness: float = key(1e8, "radial", "N/m", above=0)
-
-    def interfaces(self):
-        k = self.stiffness
-
-        def law(e, e_dot, v_t, omega_j, omega_b):
-            return (-k * e, 0.0, -k, *[0.0] * 9)
-
-        return [FunctionInterface(law, self.clearance, lambda e: (0.5 * k * e * e, k * e))]
-
-@dataclass(frozen=True)
-class Ramp(CustomLoad):
-    top: float = key(None, "largest force", "N", above=0)
-
-    def curve(self, angular_speed):
-        return LoadCurve([0.0, 0.1], [self.top, 0.0])
-"""
-NAMES = {"viscous": "Viscous", "graded": "Graded", "thin": "Thin", "bushing": "Bushing",
-         "ramp": "Ramp"}  # fmt: skip
 DRY = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
+BUSHING = {"kind": "own_kinds:Bushing", "clearance": 1e-4, "stiffness": 2e8, "damping": 5e3}
+CUSHION = {"kind": "own_kinds:Cushion", "stiffness": 1e6}
 
 
 def data(name):
@@ -88,29 +33,8 @@ def data(name):
         "friction": {"law": name("graded"), "grade": 3.0},
         "film": {"viscosity": 0.1, "length": 0.02},
         "guide": {"friction": name("graded")},
-        "load": {"ramp": {"kind": name("ramp"), "top": 1e3}},
+        "load": {"cushion": {"kind": name("cushion"), "stiffness": 1e6}},
     }  # fmt: skip
-
-
-def forget():
-    """Let no class of the modules be known any more, as in a new process."""
-    for module in ("own_kinds", "installed_kinds"):
-        sys.modules.pop(module, None)
-        for kind in subclasses_of(CustomKind):
-            if kind.__module__ == module:
-                kind.__module__, kind.registered_name = "forgotten", ""
-    gc.collect()
-
-
-@pytest.fixture
-def mark(tmp_path, monkeypatch):
-    """Return the file in which the module says that it ran; Python finds the module."""
-    mark = tmp_path / "mark"
-    (tmp_path / "own_kinds.py").write_text(KINDS.format(mark=str(mark)))
-    monkeypatch.syspath_prepend(tmp_path)
-    monkeypatch.chdir(tmp_path)
-    yield mark
-    forget()
 
 
 def saved(name, path="scene.toml"):
@@ -132,7 +56,7 @@ def own(kind):
         ("film.law", "thin"),
         ("joints.crank_pin.film.law", "thin"),
         ("joints.balls.contact.damping", "viscous"),
-        ("load.ramp.kind", "ramp"),
+        ("load.cushion.kind", "cushion"),
         ("joints.shaft", "bushing"),
     ],
 )
@@ -144,7 +68,7 @@ def test_a_file_never_imports_what_it_names(key, value, mark, capsys):
     assert not mark.exists()
 
 
-def test_with_permission_they_run_and_are_stored(mark, capsys):
+def test_with_permission_they_run_are_stored_and_shown_without_being_imported(mark, capsys):
     saved(own)
     with pytest.raises(InputError, match="names code, the module 'own_kinds'"):
         Scene.load("scene.toml")
@@ -166,33 +90,44 @@ def test_with_permission_they_run_and_are_stored(mark, capsys):
     complete = scene.to_dict()
     forget()
     mark.unlink()
-    stored = Result.load("run.nc").scene
+    result = Result.load("run.nc")
+    stored = result.scene
     assert stored.has_unresolved_kinds and stored.to_dict() == complete
+    assert isinstance(stored.joints["shaft"], UnresolvedJoint)
+    assert stored.joints["shaft"].keys["stiffness"] == 2e8
     assert stored.joints["ball_left"].contact.damping.constant == 2e4
-    assert stored.replace({"revolutions": 0.01}).to_dict()["contact"] == complete["contact"]
-    for command in (
-        ["report", "run.nc"],
-        ["spectrum", "run.nc"],
-        ["view", "run.nc", "--save", "a"],
-    ):
+    assert result.quantity("joints.shaft.peak_force").value > 0.0
+    shorter = stored.replace({"revolutions": 0.01, "joints.shaft.stiffness": 3e8})
+    assert shorter.joints["shaft"].keys["stiffness"] == 3e8
+    assert shorter.to_dict()["contact"] == complete["contact"]
+    shorter.save("shorter.toml")
+    more = ["--no-pictures", "--no-error", "--out", "both"]
+    Scene(mechanism="eccentric_press", revolutions=0.02, joints={}).save("plain.toml")
+    assert main(["compare", "run.nc", "plain.toml", *more]) == 0
+    assert own("bushing") in capsys.readouterr().out
+    assert main(["report", "run.nc"]) == 0
+    page = Path("report.html").read_text()
+    assert own("bushing") in page and own("cushion") in page
+    for command in (["spectrum", "run.nc"], ["view", "run.nc", "--save", "a.png"]):
         main(command)
-    capsys.readouterr()
-    with pytest.raises(InputError, match="names code"):
-        simulate(stored)
+    for refused in (lambda: simulate(shorter), lambda: Scene.load("shorter.toml")):
+        with pytest.raises(InputError, match="names code, the module 'own_kinds'"):
+            refused()
     assert not mark.exists()
+    assert simulate(Scene.load("shorter.toml", allow_code=True)).completed
 
 
 def test_their_keys_are_checked_and_explained(mark):
     saved(own)
     scene = Scene.load("scene.toml", allow_code=True)
-    with pytest.raises(InputError, match=r"contact\.constant = -1\.0: allowed is a number >= 0"):
-        scene.replace({"contact.constant": -1.0})
-    with pytest.raises(InputError, match=r"contact\.constnt = 1\.0: .*mean 'constant'"):
-        scene.replace({"contact.constnt": 1.0})
-    with pytest.raises(InputError, match=r"restitution = 0\.5: not used .*belongs to 'hunt_cross"):
-        scene.replace({"contact.restitution": 0.5})
-    with pytest.raises(InputError, match=r"contact\.damping = 'own_kinds:Graded': allowed is a "):
-        scene.replace({"contact.damping": own("graded")})
+    for change, message in (
+        ({"contact.constant": -1.0}, r"contact\.constant = -1\.0: allowed is a number >= 0"),
+        ({"contact.constnt": 1.0}, r"contact\.constnt = 1\.0: .*mean 'constant'"),
+        ({"contact.restitution": 0.5}, r"restitution = 0\.5: not used .*belongs to 'hunt_cross"),
+        ({"contact.damping": own("graded")}, r"contact\.damping = 'own_kinds:Graded': allowed is"),
+    ):
+        with pytest.raises(InputError, match=message):
+            scene.replace(change)
     assert scene.replace({"contact.damping": "flores"}).contact.keys() >= {"restitution"}
 
 
@@ -202,21 +137,13 @@ def test_classes_of_the_package_are_called_by_their_names_alone(name):
         Scene(mechanism="slider_crank", contact={"damping": f"exu_press.scene.contact:{name}"})
 
 
-def test_a_distribution_registers_them(mark, tmp_path, monkeypatch):
+def test_a_distribution_registers_them(install, mark, tmp_path):
     """One of each, by the entry point `exu_press.kinds`: they need no permission."""
-    packages = tmp_path / "site-packages"
-    info = packages / "mine-1.0.dist-info"
-    info.mkdir(parents=True)
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n")
-    lines = [f"{name} = installed_kinds:{kind}" for name, kind in NAMES.items()]
-    (info / "entry_points.txt").write_text("\n".join(["[exu_press.kinds]", *lines, ""]))
-    (packages / "installed_kinds.py").write_text(KINDS.format(mark=str(mark)))
-    monkeypatch.setattr(site, "getsitepackages", lambda: [str(packages)])
-    monkeypatch.setattr(site, "ENABLE_USER_SITE", False)
-    monkeypatch.syspath_prepend(packages)
+    install(tmp_path / "site-packages" / "mine")
     saved(str)
     scene = Scene.load("scene.toml")
     assert scene.contact["damping"] == "viscous" and scene.contact["constant"] == 2e4
+    assert scene.to_dict()["joints"]["shaft"]["kind"] == "bushing"
     result = simulate(scene)
     assert result.completed
     result.save("run.nc")
@@ -242,3 +169,77 @@ def test_an_error_of_a_users_law_names_its_line(module, line, tmp_path, monkeypa
     assert main([*words.split(), *out]) == 2
     (message,) = capsys.readouterr().err.splitlines()
     assert message.startswith(f"exu-press: {file}, line 6: ")
+
+
+def crank(keys):
+    import_kinds({"joints": {"crank_pin": keys}})
+    return Scene(mechanism="slider_crank", joints={"crank_pin": keys})
+
+
+def cushioned(keys):
+    import_kinds({"load": {"cushion": keys}})
+    return Scene(mechanism="slider_crank", joints={}, load={"cushion": keys}, revolutions=1.0)
+
+
+@pytest.mark.parametrize(
+    ("lines", "told"),
+    [
+        ("a = 1\nb = (\n", r"broken.py, line 2: SyntaxError: '\(' was never closed; allowed"),
+        ("import no_such_package\n", "broken.py, line 1: No module named 'no_such_package'"),
+        ("def f():\n    return 1 / 0\nf()\n", "broken.py, line 2: ZeroDivisionError: division"),
+    ],
+)
+def test_a_module_that_does_not_load_is_named_with_its_line(lines, told, tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(tmp_path)
+    (tmp_path / "broken.py").write_text(lines)
+    with pytest.raises(InputError, match=told):
+        crank({**BUSHING, "kind": "broken:Bushing"})
+
+
+@pytest.mark.parametrize(
+    ("scene_of", "keys", "changes", "told"),
+    [
+        (crank, BUSHING, {"kind": "no_such_module:Bushing"}, "No module named 'no_such_module'"),
+        (crank, BUSHING, {"kind": "own_kinds:Ring"}, "has no attribute 'Ring'"),
+        (crank, BUSHING, {"kind": "own_kinds:NoKind"}, "derived from CustomJoint"),
+        (crank, BUSHING, {"kind": "own_kinds:Unfinished"}, "no interfaces, which CustomJoint asks"),
+        (crank, BUSHING, {"kind": "own_kinds:Empty"}, r"Empty.interfaces\(\) returns \[\]: allowe"),
+        (crank, BUSHING, {"stifness": 1.0}, "did you mean 'stiffness'"),
+        (crank, BUSHING, {"stiffness": -1.0}, "stiffness = -1.0"),
+        (crank, BUSHING, {"stiffness": None}, "needs stiffness"),
+        (crank, BUSHING, {"film": {}}, "film"),
+        (cushioned, CUSHION, {"stiffness": None}, "needs stiffness"),
+        (cushioned, CUSHION, {"stifness": 1.0}, "did you mean 'stiffness'"),
+        (cushioned, CUSHION, {"kind": "own_kinds:NoCurve"}, "returns 7.0: allowed is a LoadCurve"),
+        (cushioned, CUSHION, {"kind": "own_kinds:Sideways"}, "over = 'width': allowed is one of"),
+        (cushioned, CUSHION, {"kind": "own_kinds:Bushing"}, "derived from CustomLoad"),
+        (cushioned, CUSHION, {"kind": "no_module:Load"}, "No module named 'no_module'"),
+    ],
+)
+def test_what_is_no_such_kind_is_refused(scene_of, keys, changes, told, mark):
+    keys = {key: value for key, value in {**keys, **changes}.items() if value is not None}
+    with pytest.raises(InputError, match=told):
+        scene_of(keys)
+
+
+def test_a_joint_balances_energy_and_comes_near_the_ideal_one_as_it_gets_stiff(mark):
+    ideal = simulate(Scene(mechanism="slider_crank", joints={}))
+    force = "joints.crank_pin.peak_force"
+    peaks = []
+    for stiffness in (2e8, 2e9):
+        result = simulate(crank({**BUSHING, "stiffness": stiffness}))
+        assert result.completed
+        assert abs(result.quantity("energy.residual").value) < 1e-4
+        peaks.append(result.quantity(force).value / ideal.quantity(force).value - 1.0)
+    assert abs(peaks[1]) < 1e-3
+    assert abs(peaks[1]) < abs(peaks[0])
+
+
+def test_a_load_gives_back_what_it_takes(mark):
+    """As the table of the same curve does: a spring has no work in a revolution."""
+    own = simulate(cushioned(CUSHION))
+    table = {"kind": "table", "height": [0.0, 2e-2], "force": [2e4, 0.0], "acts": "both"}
+    same = simulate(cushioned(table))
+    assert own.quantity("loads.cushion.peak_force").value == pytest.approx(2e4, rel=1e-9)
+    assert own["load_cushion_force"] == pytest.approx(same["load_cushion_force"], abs=1e-6)
+    assert abs(own.quantity("loads.cushion.work").value) < 1e-3 * 0.5 * 1e6 * 2e-2**2

@@ -48,19 +48,8 @@ def test_empty_file_is_the_default_scene(tmp_path):
     ("text", "shown"),
     [
         ("speed = 3", "speed = 3: unknown key"),
-        ("speed_rpm = nan", "speed_rpm = nan: allowed is a number"),
         ("speed_rpm = 2020-01-01", "speed_rpm = "),
-        ('joints.crank_pin = "wet"', "joints.crank_pin.kind = 'wet': allowed is one of"),
-        ('crank_pin = "dry"', "crank_pin = 'dry': is joints.crank_pin now"),
-        ('balls = "dry"', "balls = 'dry': is joints.balls now"),
-        ("[clearance]\ncrank_pin = 1e-4", "clearance = {'crank_pin': 0.0001}: is joints.NAME.cl"),
-        ("[contact]\nradius = 0.1", "contact.radius = 0.1: is joints.NAME.radius now"),
         ("[[film]]\nviscosity = 1", "film = "),
-        ("[press]\nlinkage_length = 0.01", "press: linkage and slide lock"),
-        (
-            "[joints.crank_pin]\nkind = 'dry'\nclearance = 1.0",
-            "joints.crank_pin.clearance = 1.0: allowed is a number < ",
-        ),
     ],
 )
 def test_refusal_names_file_key_value_and_what_is_allowed(tmp_path, text, shown):
@@ -116,6 +105,7 @@ def test_assignment_drops_what_is_no_longer_used(tmp_path):
         ("a.b=[1, 2]", [1, 2]),
         ("a=nan", pytest.approx(float("nan"), nan_ok=True)),
         ("a=b=c", "b=c"),
+        ("a={b=2e9}", {"b": 2e9}),
     ],
 )
 def test_assignment_values(text, value):
@@ -134,18 +124,10 @@ def test_assignment_without_key_or_value(text):
     ("assignment", "shown"),
     [
         ("speed=3", "speed = 3: unknown key"),
-        ("film.viscocity=3", "film.viscocity = 3: unknown key"),
         ("film.viscosity=thick", "film.viscosity = 'thick': allowed is a number"),
-        (
-            "joints.crank_pin.clearance=-1e-4",
-            "joints.crank_pin.clearance = -0.0001: allowed is a number > 0",
-        ),
         ("speed_rpm.now=3", "speed_rpm"),
         ("film.law.name=pinkus", "film.law"),
         ("nothing.at.all=3", "nothing.at"),
-        ("film=3", "film = 3: allowed is a table"),
-        ("mechanism=3", "mechanism = 3: allowed is one of"),
-        ("joints.crank_pin=3", "joints.crank_pin = 3: allowed is a table of keys, or one of"),
         ("slider_crank.rod_mass=3", "[slider_crank]: not used by this scene"),
     ],
 )

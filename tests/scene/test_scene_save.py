@@ -5,9 +5,11 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from schedules import SCHEDULE
 
 from exu_press import InputError, Scene
 
+PULSE = {"kind": "blanking", "force": 1e4}
 SCENES = {
     "press": {},
     "ideal": {"joints": {}},
@@ -36,7 +38,54 @@ SCENES = {
         "joints": {"crank_pin": "dry"},
         "start_angle_deg": -70.0,
     },
-}
+    "groups": {
+        "joints": {
+            "crank_pin": {"kind": "lubricated", "film": {"law": "finite", "viscosity": 0.1}},
+            "knuckles": {"kind": "dry", "clearance": 5e-5},
+            "ball_left": "dry",
+        }
+    },
+    "oil": {
+        "mechanism": "slider_crank",
+        "joints": {
+            "crank_pin": {"kind": "lubricated", "film": {"oil": {"conductance": 1.0}}},
+            "shaft": "lubricated",
+        },
+        "film": {
+            "oil": {"viscosity_cst": [68.0, 8.7], "density": 870.0, "supply_celsius": 40.0}
+        },
+    },
+    "loads": {
+        "bodies": {"linkage": "linkage"},
+        "load": {
+            "blanking": {**PULSE, "offset": [-0.1, 0]},
+            "spring": {
+                "kind": "table", "time": [0.0, 0.1], "force": [0.0, 1e3], "body": "link_7_left",
+                "offset": [0.0, 0.1], "direction": [3, 4], "factor": 2.0,
+            },
+            "pin": {**PULSE, "body": "linkage", "joint": "slide_pin"},
+            "two": {
+                **PULSE, "body": "linkage", "face": [{"x": [0, 1]}, {"y": [0, 1], "z": [2, 3]}]
+            },
+        },
+    },
+    "worn": {
+        "mechanism": "slider_crank",
+        "joints": {
+            "crank_pin": {
+                "kind": "dry",
+                "worn": {"angle_deg": [0.0, 90.0, 180.0], "bearing_depth": [0.0, 1e-6, 0.0]},
+            },
+            "shaft": {"kind": "dry", "worn": {"journal_depth": [0.0, 1e-6, 0.0]}},
+        },
+    },
+    "schedule": {
+        "mechanism": "eccentric_press",
+        "drive": {
+            **SCHEDULE, "brake_off": [0.0, 0.03], "start_time": [0.05], "stop_time": [0.6]
+        },
+    },
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("comments", [False, True])
@@ -48,6 +97,7 @@ def test_round_trip(keys, comments, tmp_path, monkeypatch):
     assert json.loads(json.dumps(complete)) == complete == Scene.from_dict(complete).to_dict()
     scene.save("scene.toml", comments=comments)
     assert Scene.load("scene.toml") == scene
+    assert hash(scene) == hash(Scene.load("scene.toml"))
 
 
 def test_every_key_is_there_and_nothing_else(tmp_path):

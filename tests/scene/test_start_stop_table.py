@@ -13,11 +13,8 @@ def scene(**changes):
     return scheduled(2.0, **{**DRIVE, **changes})
 
 
-def test_a_scene_comes_back_as_it_was(tmp_path):
+def test_a_press_that_stands_has_no_speed_and_does_not_settle():
     given = scene()
-    assert Scene.from_dict(given.to_dict()) == given
-    given.save(tmp_path / "scene.toml")
-    assert Scene.load(tmp_path / "scene.toml") == given
     assert given.settle_revolutions == 0.0 and given.start_speed == 0.0
     without = given.replace({"drive.clutch_torque": None, "drive.begins": "turning"})
     assert without.drive.clutch is None

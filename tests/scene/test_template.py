@@ -31,6 +31,17 @@ def test_every_key_is_there_with_its_meaning_and_every_joint_is_named():
     assert "# group balls: ball_left, ball_right" in text
 
 
+def put_to_use(mechanism, table, directory):
+    """Return the scene of a mechanism's template in which a table is no comment any more."""
+    lines, inside = [], False
+    for line in template(mechanism).splitlines():
+        inside = line.startswith(f"# [{table}]") or (inside and line.startswith("# "))
+        given = line.partition("  #")[0].partition("=")[2].strip() or line.startswith("# [")
+        lines.append(line.removeprefix("# ") if inside and given else line)
+    (directory / "scene.toml").write_text("\n".join(lines))
+    return Scene.load(directory / "scene.toml")
+
+
 @pytest.mark.parametrize(
     ("table", "value"),
     [
@@ -45,14 +56,12 @@ def test_every_key_is_there_with_its_meaning_and_every_joint_is_named():
 )
 def test_a_table_that_is_not_in_use_is_right_when_it_is_put_to_use(table, value, tmp_path):
     """Its defaults; a key without one is left out."""
-    lines, inside = [], False
-    for line in template("press").splitlines():
-        inside = line.startswith(f"# [{table}]") or (inside and line.startswith("# "))
-        given = line.partition("  #")[0].partition("=")[2].strip() or line.startswith("# [")
-        lines.append(line.removeprefix("# ") if inside and given else line)
-    path = tmp_path / "scene.toml"
-    path.write_text("\n".join(lines))
-    assert Scene.load(path) == Scene().replace({table: value})
+    assert put_to_use("press", table, tmp_path) == Scene().replace({table: value})
+
+
+@pytest.mark.parametrize(("mechanism", "body"), [("press", "linkage"), ("six_bar", "rod")])
+def test_the_example_of_a_flexible_body_is_right(mechanism, body, tmp_path):
+    assert list(put_to_use(mechanism, f"bodies.{body}", tmp_path).bodies) == [body]
 
 
 def test_an_unknown_mechanism_is_refused():

@@ -10,71 +10,8 @@ from exu_press.scene.usage import LAWS
 from exu_press.schema.table import plain
 
 PIN = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
-TABLE = {"table_speed_rpm": [0, 300], "table_torque": [9, 0], "inertia": 9.0}
-RUBBING = {"friction": "coulomb"}
 BASE = {"mechanism": "slider_crank", "joints": {"crank_pin": PIN}, "contact": {"length": 0.05}}
-STEP = {"length": 0.05, "damping": "step", "damping_max": 1e5, "damping_depth": 1e-6}
 MIXED = {**PIN, "kind": "lubricated", "film": {"at_contact": "mixed"}}
-
-
-@pytest.mark.parametrize(
-    ("change", "name", "reason"),
-    [
-        ({"contact": {**STEP, "restitution": 0.7}}, "contact.restitution", "damping is 'step'"),
-        ({"contact": {**STEP, "restitution": 0.9}}, "contact.restitution", "damping is 'step'"),
-        ({"contact": {"damping": "hu_guo", "damping_max": 1e5}}, "contact.damping_max",
-         "(contact.damping is 'hu_guo'; it belongs to 'step')"),
-        ({"contact": {"shape": "point", "length": 0.1}}, "contact.length", "shape is 'point'"),
-        ({"contact": {"length": 0.1, "stiffness": 1e9}}, "contact.stiffness", "to 'point'"),
-        (
-            {"contact": {"shape": "point", "stiffness": 1e9, "modulus": 1e11}},
-            "contact.modulus",
-            "contact.stiffness is given",
-        ),
-        ({"friction": {"law": "none", "mu_static": 0.1}}, "friction.mu_static", "law is 'none'"),
-        ({"friction": {"law": "coulomb", "mu_static": 0.1}}, "friction.mu_static", "'coulomb'"),
-        ({"friction": {"sigma_0": 1e5}}, "friction.sigma_0", "friction.law is 'coulomb'"),
-        (
-            {"friction": {"law": "lugre", "regularisation_velocity": 1e-3}},
-            "friction.regularisation_velocity",
-            "friction.law is 'lugre'",
-        ),
-        (
-            {"joints": {"crank_pin": {**PIN, "friction": {"law": "none", "mu_kinetic": 0.2}}}},
-            "joints.crank_pin.friction.mu_kinetic",
-            "(joints.crank_pin.friction.law is 'none'",
-        ),
-        (
-            {"joints": {"crank_pin": {**PIN, "friction": {"mu_static": 0.2}}}},
-            "joints.crank_pin.friction.mu_static",
-            "(friction.law is 'coulomb'",
-        ),
-        (
-            {"friction": {"law": "lugre_steady", "regularisation_velocity": 1e-4},
-             "joints": {"crank_pin": {**PIN, "friction": {"law": "lugre"}}}},
-            "friction.regularisation_velocity",
-            "(joints.crank_pin.friction.law is 'lugre'",
-        ),
-        ({"solver": {"step": 1e-5, "max_step_deg": 1.5}}, "solver.max_step_deg", "solver.step"),
-        (
-            {"drive": {**TABLE, "slip": 0.05}},
-            "drive.slip",
-            "drive.table_torque is given",
-        ),
-        ({"guide": {**RUBBING, "width": 0.0}}, "guide.width", "guide.clearance is not given"),
-        (
-            {"joints": {"crank_pin": {**PIN, "kind": "lubricated"}}, "contact": None,
-             "film": {"viscosity": 0.1, "length": 0.05, "roughness": 1e-7}},
-            "film.roughness",
-            "film.at_contact is 'stop'",
-        ),
-    ],
-)  # fmt: skip
-def test_an_unused_key_is_refused(change, name, reason):
-    with pytest.raises(InputError, match="not used by this scene") as refused:
-        Scene.from_dict({**BASE, **change})
-    assert str(refused.value).startswith(f"{name} = ")
-    assert reason in str(refused.value)
 
 
 def test_a_key_that_one_joint_uses_is_not_refused():

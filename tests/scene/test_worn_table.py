@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press import InputError, Scene, simulate
+from exu_press import Scene, simulate
 
 ANGLES = np.arange(24) * 15.0
 DENT = (1e-5 * np.cos(np.radians(ANGLES - 40.0) / 2.0) ** 4).tolist()
@@ -12,21 +12,6 @@ DENT = (1e-5 * np.cos(np.radians(ANGLES - 40.0) / 2.0) ** 4).tolist()
 def scene(worn, **keys):
     joint = {"kind": "dry", "worn": worn, **keys}
     return Scene(mechanism="slider_crank", joints={"crank_pin": joint}, revolutions=0.05)
-
-
-@pytest.mark.parametrize(
-    "worn",
-    [
-        {"bearing_depth": DENT},
-        {"journal_depth": DENT},
-        {"angle_deg": ANGLES.tolist(), "bearing_depth": DENT},
-    ],
-)
-def test_a_worn_joint_is_saved_and_read(worn, tmp_path):
-    one = scene(worn)
-    one.save(tmp_path / "worn.toml")
-    assert Scene.load(tmp_path / "worn.toml") == one
-    assert one.replace({"joints.crank_pin": "ideal"}).joints["crank_pin"].kind == "ideal"
 
 
 def test_angles_that_are_left_out_are_even():
@@ -66,32 +51,3 @@ def test_a_film_between_worn_surfaces_closes_its_energy_and_is_thinner(at_contac
     assert forces[1] == pytest.approx(forces[0], rel=1e-2)
     assert abs(runs[1].quantity("energy.residual").value) < 1e-4
     assert 0.0 < runs[1].joints["crank_pin"].gap.min() < runs[0].joints["crank_pin"].gap.min()
-
-
-@pytest.mark.parametrize(
-    ("worn", "words"),
-    [
-        ({}, "bearing_depth, journal_depth or both"),
-        ({"bearing_depth": [1e-5, 0.0]}, "at least 3"),
-        ({"bearing_depth": [1e-5, -1e-6, 0.0]}, ">= 0"),
-        ({"bearing_depth": DENT, "journal_depth": DENT[:12]}, "as many"),
-        ({"bearing_depth": [0.0, 1e-5, 0.0], "angle_deg": [0.0, 90.0, 80.0]}, "increasing"),
-        ({"bearing_depth": [0.0, 1e-5, 0.0], "angle_deg": [0.0, 90.0, 400.0]}, "one turn"),
-        ({"bearing_depth": [0.0] * 20 + [5e-4] + [0.0] * 20}, "too fast|so fast"),
-        ({"bearing_depht": DENT}, "did you mean 'bearing_depth'"),
-        (3.0, "worn"),
-    ],
-)
-def test_what_is_refused(worn, words):
-    with pytest.raises(InputError, match=words):
-        scene(worn)
-
-
-def test_balls_and_flexible_bodies_are_refused():
-    with pytest.raises(InputError, match="is a ball"):
-        Scene(joints={"balls": {"kind": "dry", "worn": {"bearing_depth": DENT}}})
-    with pytest.raises(InputError, match="flexible"):
-        Scene(
-            joints={"crank_pin": {"kind": "dry", "worn": {"bearing_depth": DENT}}},
-            bodies={"linkage": "linkage"},
-        )

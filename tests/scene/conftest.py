@@ -1,0 +1,3 @@
+from user_kinds import install, mark
+
+__all__ = ["install", "mark"]

@@ -1,0 +1,276 @@
+"""What a scene must not say, and the one line that names it, what is allowed, and the cure."""
+
+import tomllib
+from functools import partial
+
+import pytest
+from refused import refused
+
+from exu_press import Scene
+from exu_press.scene.joint import DryJoint, LubricatedJoint
+from exu_press.scene.load import LOAD_KINDS
+from exu_press.scene.usage import TABLES, table_keys
+from exu_press.schema.checks import checked_value
+from exu_press.schema.table import declared_keys
+
+refusal = partial(refused, Scene.from_dict)
+
+KEYS = {
+    **{name: table_keys(name) for name in TABLES},
+    **{f"load.{name}": declared_keys(kind) for name, kind in LOAD_KINDS.items()},
+    **{kind.__name__: declared_keys(kind) for kind in (Scene, DryJoint, LubricatedJoint)},
+}
+"""Table -> key -> its declaration."""
+
+NEEDED = {
+    "drive": {"rated_torque": 400.0, "inertia": 50.0},
+    "guide": {"lateral_stiffness": 1e9},
+}
+"""Keys without which a table is refused."""
+
+CASES = """
+=
+speed_rpm = 0 -> speed_rpm = 0.0: allowed is a number > 0
+revolutions = 2e-4; speed_rpm = 2.4e5 -> revolutions = 0.0002 at speed_rpm = 240000 is a run of
+mechanism = 'crank_slider' -> mechanism = 'crank_slider': allowed is one of 'press', 'slider_crank'
+mechanism = 3 -> mechanism = 3: allowed is one of
+solver = {step = 1e-5, tolerance = 1e-3} -> solver.tolerance = 0.001: not used .. (solver.step is
+solver = {step = 1e-5, max_step_deg = 1.5} -> solver.max_step_deg = 1.5: not used .. solver.step
+friction.mu_static = 0.005 -> friction.mu_static = 0.005: allowed is a number >= friction.mu_kin
+slider_crank = {} -> [slider_crank]: not used .. mechanism is 'press'
+press.linkage_length = 0.02 -> press: linkage and slide lock .. deg
+press.counter_linkage_length = 0.01 -> counter_linkage and counterweight lock .. deg
+press.link_5_length = 0.1655 -> press.link_5_length .. deg
+press.link_7_length = 0.005 -> press.link_7_length .. deg
+press = {counterweight = false, counterweight_mass = 9} -> press.counterweight_mass = 9: not used
+crank_pin = 'dry' -> crank_pin = 'dry': is joints.crank_pin now
+clearance.crank_pin = 1e-4 -> clearance = {'crank_pin': 0.0001}: is joints.NAME.clearance now
+flexible.modes = 4 -> flexible = {'modes': 4}: is bodies.NAME now
+blanking.force = 1 -> blanking = {'force': 1}: is load.NAME with kind = 'blanking' now
+contact.radius = 0.1 -> contact.radius = 0.1: is joints.NAME.radius now
+= mechanism = 'slider_crank'
+press = {} -> [press]: not used .. mechanism is 'slider_crank'
+contact = {} -> [contact]: not used .. no joint is 'dry'
+slider_crank.crank_radius = 0.5 -> slider_crank: rod and slider lock .. deg
+= joints = {}
+film = {} -> [film]: not used .. no joint is 'lubricated'
+friction = {} -> [friction]: not used .. no joint is 'dry'
+= joints.balls = 'dry'
+film.viscosity = 0.1 -> [film]: not used .. no joint is 'lubricated'
+
+# joints
+=
+joints = 3 -> joints = 3: allowed is a table
+joints.crank_pn = 'dry' -> joints.crank_pn = 'dry': press has no such joint or group (did you
+joints.crank_pin = 'wet' -> joints.crank_pin.kind = 'wet': allowed is one of 'ideal', 'dry',
+joints.crank_pin.kind = ['dry'] -> joints.crank_pin.kind = ['dry']: allowed is one of
+joints.crank_pin = ['dry'] -> joints.crank_pin = ['dry']: allowed is a table of keys, or one of
+joints.crank_pin = {} -> joints.crank_pin has no kind: allowed is one of
+joints.pivots = {kind = 'dry', clearance = '1'} -> joints.pivots.clearance = '1': allowed is a num
+joints.pivots = {kind = 'dry', gap = 1} -> joints.pivots.gap = 1: unknown key
+joints.pivots = {kind = 'dry', clearance = 2, radius = 1} -> clearance = 2.0: allowed is .. < radius
+joints.pivots = {kind = 'ideal', clearance = 1} -> joints.pivots.clearance: not used .. is 'ideal'
+joints.pivots = {kind = 'dry', film = {}} -> joints.pivots.film: not used .. is 'dry'
+joints.balls = {kind = 'dry', contact = {length = 0.1}} -> joints.balls.contact.length = 0.1: not us
+joints.balls = {kind = 'dry', worn = {bearing_depth = [0, 1e-6, 0]}} -> is a ball
+= joints.balls.kind = 'lubricated'
+joints.balls.film.length = 0.1 -> film.length = 0.1: not used .. (the joint is spherical)
+joints.balls.film.socket_angle_deg = 30.0 -> socket_angle_deg = 30.0: allowed is .. >= 45 and <= 90
+= joints.crank_pin.kind = 'lubricated'
+joints.crank_pin.film.socket_angle_deg = 60.0 -> film.socket_angle_deg = 60.0: not used
+joints.crank_pin.friction.law = 'none' -> crank_pin.friction: not used .. film.at_contact is 'stop'
+joints.crank_pin.film.viscocity = 1 -> film.viscocity = 1: unknown key (did you mean 'viscosity'?)
+joints.crank_pin.film = {at_contact = 'mixed', roughness = 1e-4} -> = 0.0003: allowed is .. < clear
+= joints.crank_pin.kind = 'dry'; bodies.linkage = 'linkage'
+joints.crank_pin.worn.bearing_depth = [0, 1e-6, 0] -> flexible
+= mechanism = 'slider_crank'; joints.crank_pin.kind = 'dry'
+joints.crank_pin.worn = {} -> bearing_depth, journal_depth or both
+joints.crank_pin.worn.bearing_depth = [1e-5, 0] -> at least 3
+joints.crank_pin.worn.bearing_depth = [1e-5, -1e-6, 0] -> >= 0
+joints.crank_pin.worn = {bearing_depth = [0, 1e-6, 0], journal_depth = [0, 0, 0, 0]} -> as many
+joints.crank_pin.worn = {bearing_depth = [0, 1e-6, 0], angle_deg = [0, 90, 80]} -> increasing
+joints.crank_pin.worn = {bearing_depth = [0, 1e-6, 0], angle_deg = [0, 90, 400]} -> one turn
+joints.crank_pin.worn.bearing_depth = [0, 0, 0, 0, 0, 0, 5e-4, 0, 0, 0, 0, 0] -> fast
+joints.crank_pin.worn.bearing_depht = [0, 1e-6, 0] -> did you mean 'bearing_depth'
+joints.crank_pin.worn = 3 -> worn
+
+# keys of laws that another choice has
+= mechanism = 'slider_crank'; joints.crank_pin = {kind = 'dry', clearance = 5e-5, radius = 0.03}
+contact = {damping = 'hu_guo', damping_max = 1} -> contact.damping_max = 1 .. belongs to 'step')
+contact = {shape = 'point', length = 0.1} -> contact.length = 0.1: not used .. shape is 'point'
+contact = {length = 0.1, stiffness = 1e9} -> contact.stiffness = 1 .. to 'point'
+contact = {shape = 'point', stiffness = 1, modulus = 1} -> contact.modulus = 1 .. stiffness is given
+friction = {law = 'none', mu_static = 0.1} -> friction.mu_static = 0.1: not used .. law is 'none'
+friction = {law = 'coulomb', mu_static = 0.1} -> friction.mu_static = 0.1: not used .. 'coulomb'
+friction.sigma_0 = 1e5 -> friction.sigma_0 = 100000.0: not used .. friction.law is 'coulomb'
+joints.crank_pin.friction.mu_static = 0.2 -> crank_pin.friction.mu_static = .. (friction.law is 'cou
+joints.crank_pin.friction = {law = 'none', mu_kinetic = 0.2} -> (joints.crank_pin.friction.law is
+joints.crank_pin.friction.law = 'lugre'; friction = {law = 'lugre_steady', \
+regularisation_velocity = 1e-4} -> friction.regularisation_velocity = .. pin.friction.law is 'lugre'
+drive = {table_speed_rpm = [0, 300], table_torque = [9, 0], inertia = 9, slip = 1} -> is given
+guide = {friction = 'coulomb', width = 0} -> guide.width = 0 .. guide.clearance is not given
+
+# guides
+= mechanism = 'slider_crank'; joints = {}
+guide = {} -> [guide] has neither lateral_stiffness nor clearance
+guide = {friction = 'none', length = 0.3} -> [guide] has neither lateral_stiffness nor clearance
+guide = {friction = 'coulomb', length = 0.3} -> guide.length = 0.3: not used .. lateral_stiffness is
+guide.slide_inertia = 1.0 -> guide.slide_inertia = 1.0: is press.slide_inertia now
+guide.friction = 'lugre'; friction.mu_kinetic = 0.2 -> friction.mu_kinetic = 0.2: not used .. guides
+guide.friction = 'coulomb'; friction.sigma_0 = 2e4 -> [friction]: not used .. no joint is 'dry'
+guide.clearance = 2e-5; contact.modulus = 1e11 -> contact.modulus = 1
+guide.clearance = 2e-5; contact.damping = 'step' -> guide.clearance needs contact.damping_max
+
+# films and their oil
+= mechanism = 'slider_crank'; joints.crank_pin = 'lubricated'; film.oil = {viscosity_cst = [68, 8],\
+ density = 870, supply_celsius = 40, conductance = 5}
+film.viscosity = 0.1 -> film.viscosity and film.oil: allowed is one
+film.oil.viscosity_cst = [8, 68] -> the larger one first, as oil thins
+film.oil.at_celsius = [100, 40] -> the lower one first
+film.oil.viscosity_cst = [5.0, 1.5] -> ASTM D341
+film.oil.densty = 1.0 -> film.oil.densty = 1.0: .. did you mean 'density'
+film.oil.conductance = 0; film.oil.frame_celsius = 20.0 -> frame_celsius .. not used
+film.oil.conductance = 0; film.law = 'pi_film' -> a long bearing has no side flow
+film.oil = 3.0 -> film.oil = 3.0: allowed is a table
+mechanism = 'press'; joints.balls = 'lubricated' -> the film of a ball does not warm .. joints.balls
+
+= mechanism = 'slider_crank'; joints.crank_pin = 'lubricated'
+film.oil = {density = 870.0, supply_celsius = 40.0} -> needs film.oil.viscosity_cst
+film.oil = {viscosity_cst = [68.0, 8.7]} -> needs film.oil.density .. density = 870
+
+# flexible bodies
+=
+bodies = 'flexible' -> bodies = 'flexible': allowed is a table for each flexible body
+bodies.linkige = 'linkage' -> bodies.linkige = 'linkage': press has no such body (did you
+bodies.linkage.modes = 4 -> bodies.linkage.flexible: missing
+bodies.linkage = 3 -> bodies.linkage = 3: allowed is a shipped part, a STEP file's path, or
+= bodies.crank.flexible = 'crank'
+bodies.crank.modes = 2.5 -> bodies.crank.modes = 2.5: allowed is a whole number >= 0
+bodies.crank.mode = 2 -> bodies.crank.mode = 2: unknown key (did you mean 'modes'?)
+bodies.crank.poissons_ratio = 0.5 -> bodies.crank.poissons_ratio = 0.5: allowed is a
+bodies.crank = {flexible = 'crank', modes = 4, flexibility_error = 0.1} -> modes and flexibility_err
+bodies.crank.origin = [1] -> crank.origin = [1]: allowed is a list of 2 numbers
+bodies.crank.faces = 'pin' -> bodies.crank.faces = 'pin': allowed is a table
+bodies.crank.faces.pins = 'pin' -> crank.faces.pins: crank has no such joint
+bodies.crank.faces.guide = 'pin' -> crank.faces.guide: crank has no such joint .. allowed are
+bodies.crank.faces.crank_pin = 3 -> crank.faces.crank_pin = 3: allowed is a face's
+bodies.crank.faces.drive.z = [0, 1] -> drive = {'z' .. allowed is a face's name
+bodies.crank.faces.drive = ['pin', 'web'] -> faces.drive = ['pin', 'web']: allowed
+bodies.crank.faces.crank_pin.r = 3 -> faces.crank_pin.r = 3: unknown key
+bodies.crank.faces.crank_pin.radius = -1 -> pin.radius = -1.0: allowed
+bodies.crank.faces.crank_pin.z = [1, 0] -> pin.z = [1.0, 0.0]: allowed
+
+# loads
+=
+load = 5 -> load = 5: allowed is a table of loads
+load.'a b'.kind = 'blanking' -> load: 'a b' is no name
+load.a = 3 -> load.a = 3: allowed is a table of keys
+load.a.force = 1.0 -> load.a has no kind: allowed is one of 'blanking', 'table'
+load.a.kind = [] -> load.a.kind = []: allowed is one of
+load.a.kind = 'blank' -> load.a.kind = 'blank': allowed is one of
+load.a.kind = 'blanking' -> load.a.force: missing
+= load.a = {kind = 'blanking', force = 1e4}
+load.a = {start_angle_deg = 9, end_angle_deg = 10} -> start_angle_deg and end_angle_deg: allowed is
+load.a.time = [0, 1] -> load.a.time = [0, 1]: not used by this scene
+load.a.rize = 1.0 -> unknown key of kind 'blanking' (did you mean 'rise'?)
+load.a.body = 'slidr' -> press has no such body (did you mean 'slider'?)
+load.a.body = 'frame' -> load.a.body = 'frame': press has no such body
+load.a.offset = [0, 'x'] -> allowed is a list of 2 numbers
+load.a.direction = [0, 0] -> load.a.direction = [0, 0]: allowed is a direc
+load.a = {rise = 0.2, fall = 0.06} -> load.a.rise + fall = 0.26: allowed is at
+load.a.acts = 'both' -> load.a.acts = 'both': not used by this scene
+load.a = {joint = 'ball_left', offset = [0, 1]} -> load.a.joint and offset: allowed is one
+load.a.face = 'a' -> load.a.face: slider is rigid; allowed are joint and offset, or [bodies.s
+= load.a = {kind = 'blanking', force = 1, body = 'linkage'}; bodies.linkage = 'linkage'
+speed_rpm = 10 -> load.a: acts on the flexible linkage, which .. one of crank_pin, slide_pin, or
+load.a.joint = 'slide_pins' -> linkage has no such joint (did you mean 'slide_pin'?)
+load.a.face = {} -> load.a.face = {}: allowed is a face's name, or ranges
+load.a.face = 3 -> load.a.face = 3: allowed is a face's name, or a table
+load.a.face.radius = 1 -> load.a.face.radius = 1: unknown key
+load.a.face.x = [1, 0] -> load.a.face.x = [1.0, 0.0]: allowed
+= load.a.kind = 'table'
+speed_rpm = 10 -> load.a.nothing given: allowed is file, a CSV, or one of time
+load.a = {time = [0, 1], crank_angle_deg = [0, 1], force = [0, 1]} -> time, crank_angle_deg, force g
+load.a = {file = 'a.csv', force = [0, 1]} -> load.a.file and force: allowed is one of the two
+load.a = {time = [0, 1], force = [1]} -> load.a.time, force: 2 and 1 values
+load.a = {time = [0.1, 0.1], force = [0, 1]} -> load.a.time = 0.1 after 0.1: allowed is inc
+load.a = {time = [0, true], force = [0, 1]} -> allowed is a list of numbers
+load.a = {height = [0, 1], force = [0, 1], acts = 'up'} -> load.a.acts = 'up': allowed is one of 'cl
+load.a.file = 3 -> load.a.file = 3: allowed is the path of a CSV
+load.a.file = 'no.csv' -> load.a.file: no.csv: cannot be read
+load.a = {crank_angle_deg = [0, 400], force = [0, 1]} -> from 0.0 to 400.0: allowed is less than a r
+load.a = {crank_angle_deg = [0, 360], force = [0, 1]} -> whole one that ends with the force with whi
+"""
+"""Behind "=" what the next lines have in common; then a case: keys, and what the message says."""
+
+
+def merged(first, second):
+    """Return two nested mappings as one; the second one's values count."""
+    both = {**first, **second}
+    for key in first.keys() & second.keys():
+        if isinstance(first[key], dict) and isinstance(second[key], dict):
+            both[key] = merged(first[key], second[key])
+    return both
+
+
+def cases():
+    base = {}
+    for line in CASES.splitlines():
+        keys, arrow, message = line.partition(" -> ")
+        if line.startswith("="):
+            base = tomllib.loads(line[1:].replace("; ", "\n"))
+        elif arrow:
+            scene = merged(base, tomllib.loads(keys.replace("; ", "\n")))
+            yield pytest.param(scene, message, id=line)
+
+
+@pytest.mark.parametrize(("scene", "message"), [*cases()])
+def test_what_is_refused_is_named(scene, message):
+    told = refusal(scene)
+    for fragment in message.split(" .. "):
+        assert fragment in told
+        told = told.partition(fragment)[2]
+
+
+def wrong_values(field):
+    """Return values that no key of its kind may have."""
+    meta, of_type = field.metadata, str(field.type)
+    if "above" not in meta or meta["also"] or {"part", "by_place"} & meta.keys():
+        return []
+    wrong = [float("nan"), -float("inf"), {}, ["x"], [True]]
+    if meta["numbers"] is None and "float" in of_type:
+        wrong += [True, "1.0", 1e-31]
+        for bound, step in (("above", 0.0), ("at_least", -1e-9), ("at_most", 1e-9)):
+            if meta[bound] is not None:
+                wrong.append(meta[bound] + step * max(abs(meta[bound]), 1.0))
+    return wrong + (["no such thing"] if meta["choices"] else [])
+
+
+@pytest.mark.parametrize("table", KEYS)
+def test_every_key_has_its_kind_and_its_range(table):
+    for name, field in KEYS[table].items():
+        for value in wrong_values(field):
+            told = refused(checked_value, field, f"{table}.{name}", value)
+            assert told.startswith(f"{table}.{name} = {value!r:.80}") and ": allowed is " in told
+            assert all(repr(choice) in told for choice in field.metadata["choices"])
+
+
+@pytest.mark.parametrize("table", ["", *TABLES])
+def test_every_key_of_a_scene_is_checked_and_known_by_its_name(table):
+
+    def scene(keys):
+        if isinstance(keys, dict):
+            keys = NEEDED.get(table, {}) | keys
+        mechanism = {"mechanism": table} if table == "slider_crank" else {}
+        return {**mechanism, table: keys} if table else keys
+
+    for name, field in KEYS[table or "Scene"].items():
+        if "meaning" in field.metadata:
+            path = f"{table}.{name}" if table else name
+            told = refusal(scene({name: float("nan")}))
+            assert told.startswith(f"{path} = nan: ") and ("allowed" in told or "not used" in told)
+            told = refusal(scene({f"{name}x": 1.0}))
+            assert told.startswith(f"{path}x = 1.0: unknown key (did you mean '")
+    for value in (5, "pinkus", True, [], [{}]) if table else (None, 3, [], "press"):
+        told = refusal(scene(value))
+        assert f"{value!r}: allowed is a table" in told

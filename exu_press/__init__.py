@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from exu_press.report.cells import page_of as page_of
     from exu_press.result import Result
     from exu_press.scene import Scene
+    from exu_press.studies.bearing.coefficients import bearing_coefficients
     from exu_press.verification.simulate import simulate
 
     __version__: str
@@ -59,6 +60,7 @@ __all__ = [
     "add_lubricated_revolute",
     "add_lubricated_spherical",
     "add_revolute",
+    "bearing_coefficients",
     "follow_modes",
     "simulate",
     "solve_dynamic",
@@ -78,6 +80,7 @@ _NAMES = {
     "report.cells": "Comparison cell page_of",
     "result": "Result",
     "scene": "Scene",
+    "studies.bearing.coefficients": "bearing_coefficients",
     "verification.simulate": "simulate",
 }
 """Module -> its names in the public API, and functions behind methods of `Scene`, `Result` and

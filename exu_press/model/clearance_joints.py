@@ -25,7 +25,7 @@ def add_clearance_joint(system: System, joint: Joint, kind: SceneJoint) -> Clear
     journal, bearing = (_end(system, joint, *end) for end in system.mechanism.ends(joint))
     if not joint.spherical or not isinstance(kind, TouchingJoint):
         worn = _worn_surfaces(system, joint, kind)
-        interfaces = interfaces_of(joint, kind, system.scene)
+        interfaces = interfaces_of(kind, system.scene)
         return add_revolute(system.mbs, journal, bearing, interfaces, worn=worn)
     speed = system.scene.angular_speed
     surfaces: dict[str, Any] = {
@@ -48,7 +48,7 @@ def add_clearance_joint(system: System, joint: Joint, kind: SceneJoint) -> Clear
     )
 
 
-def interfaces_of(joint: Joint, kind: SceneJoint, scene: Scene) -> list[InterfaceLaw]:
+def interfaces_of(kind: SceneJoint, scene: Scene) -> list[InterfaceLaw]:
     """Return the interface laws of a joint with clearance, in its plane."""
     if isinstance(kind, CustomJoint):
         return list(kind.interfaces())

@@ -226,7 +226,7 @@ class _Instant:
             kind = scene[joints[k].name]
             assert not isinstance(kind, IdealJoint)
             turning = self._omega[joints[k].journal], self._omega[joints[k].bearing]
-            interfaces = interfaces_of(joints[k], kind, self._problem.system.scene)
+            interfaces = interfaces_of(kind, self._problem.system.scene)
             e = _equilibrium(interfaces, complex(self.forces[k]), *turning)
             eccentricities[k] = (math.nan, math.nan) if e is None else (e.real, e.imag)
         return eccentricities

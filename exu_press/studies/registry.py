@@ -20,6 +20,7 @@ STUDIES = {
     "sensitivity": "exu_press.studies.sensitivity.run:SensitivityCommand",
     "optimise": "exu_press.studies.optimise.run:OptimiseCommand",
     "wear": "exu_press.studies.wear.run:WearCommand",
+    "bearing": "exu_press.studies.bearing.run:BearingCommand",
     "precision": "exu_press.studies.precision.run:PrecisionCommand",
     "stability": "exu_press.studies.stability.run:StabilityCommand",
 }

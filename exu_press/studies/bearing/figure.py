@@ -1,0 +1,105 @@
+"""A bearing's picture: pressure around it, the journal's locus, stiffness and damping."""
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from exu_press.laws.film.contract import film_scale
+from exu_press.laws.film.reynolds import solve_reynolds
+from exu_press.numerics.arrays import Array
+from exu_press.plots.style import COLOURS, GREY, RUN, colour_of, with_style
+from exu_press.plots.title import figure_with_title
+from exu_press.studies.bearing.coefficients import (
+    BearingCoefficients,
+    bearing_coefficients,
+    journal_joint,
+)
+from exu_press.studies.bearing.report import AXES, BearingReport
+
+__all__ = ["bearing_figure"]
+
+MOST_CURVES = 6
+"""Of the pressure."""
+
+LOCUS = np.geomspace(0.02, 50.0, 25)
+"""Loads of the locus over the first row's."""
+
+
+@with_style
+def bearing_figure(report: BearingReport) -> Figure:
+    """Return four panels; the locus is that of the first speed."""
+    title = f"Bearing {report.study.joint.replace('_', ' ')}"
+    figure = figure_with_title(title, report.subtitle, (16.0, 4.6))
+    pressure, locus, stiffness, damping = figure.subplots(1, 4)
+    _pressure(pressure, report)
+    _locus(locus, report)
+    _matrix(stiffness, report, "stiffness", 1e-6, "MN/m")
+    _matrix(damping, report, "damping", 1e-3, "kN s/m")
+    return figure
+
+
+def _pressure(panel: Axes, report: BearingReport) -> None:
+    """Draw Reynolds' pressure in the middle of the bearing at the equilibria."""
+    for k, row in enumerate(report.rows[:MOST_CURVES]):
+        angle, pressure = _middle_pressure(report, row)
+        label = f"{math.hypot(*row.load):g} N, {row.speed_rpm:g} rpm"
+        panel.plot(angle, 1e-6 * pressure, color=colour_of(k), label=label)
+    panel.set_title("pressure in the middle")
+    panel.set(xlabel="angle from the x axis, deg", ylabel="MPa", xlim=(-180.0, 180.0))
+    panel.set_xticks([-180, -90, 0, 90, 180])
+    panel.legend(loc="best")
+
+
+def _middle_pressure(report: BearingReport, row: BearingCoefficients) -> tuple[Array, Array]:
+    """Return angles in the drawing, deg, and the pressure half-way between the ends, Pa."""
+    kind, sizes = journal_joint(report.scene, row.joint)
+    length, radius = sizes.length, kind.radius
+    eps, turning = min(row.eccentricity_ratio, 0.999), row.speed_rpm * math.tau / 60.0
+    film = solve_reynolds(eps, 0.0, eps * turning, length / (2.0 * radius), math.pi)
+    scale = film_scale(row.viscosity, length, radius, kind.clearance) / (length * radius)
+    angle = film.theta + math.atan2(row.eccentricity[1], row.eccentricity[0])
+    degrees = np.degrees(np.remainder(angle + math.pi, math.tau) - math.pi)
+    order = np.argsort(degrees)
+    return degrees[order], 12.0 * scale * film.p[order, 0]
+
+
+def _locus(panel: Axes, report: BearingReport) -> None:
+    """Draw the journal's centre over loads in the circle that the clearance leaves it."""
+    first = report.rows[0]
+    clearance = journal_joint(report.scene, first.joint)[0].clearance
+    path = [
+        bearing_coefficients(
+            report.scene,
+            first.joint,
+            load=(share * first.load[0], share * first.load[1]),
+            speed_rpm=first.speed_rpm,
+        ).eccentricity
+        for share in LOCUS
+    ]
+    panel.plot(*np.transpose(path) / clearance, color=RUN, label=f"{first.speed_rpm:g} rpm")
+    for row in report.rows:
+        panel.plot(*(e / clearance for e in row.eccentricity), "o", color=COLOURS["vermilion"])
+    turn = np.linspace(0.0, math.tau, 181)
+    panel.plot(np.cos(turn), np.sin(turn), color=GREY)
+    panel.set_title("journal's centre / clearance")
+    panel.set(xlabel="x", ylabel="y", aspect="equal")
+    panel.margins(0.05)
+    panel.legend(loc="upper right")
+
+
+def _matrix(panel: Axes, report: BearingReport, name: str, scale: float, unit: str) -> None:
+    """Draw the entries of a matrix over what varies, in a unit that is its scale times SI's."""
+    loads = [math.hypot(*row.load) for row in report.rows]
+    over_load = len(set(loads)) > 1 or len(report.rows) == 1
+    across = loads if over_load else [row.speed_rpm for row in report.rows]
+    entries = np.array([getattr(row, name).ravel() for row in report.rows])
+    order = np.argsort(across)
+    for k, axes in enumerate(AXES):
+        values = scale * entries[order, k]
+        panel.plot(np.array(across)[order], values, "o-", color=colour_of(k), ms=3, label=axes)
+    panel.set_title(name)
+    panel.set(xlabel="load, N" if over_load else "speed, rpm", ylabel=unit)
+    panel.margins(0.05)
+    panel.legend(loc="best")

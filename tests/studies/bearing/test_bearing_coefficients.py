@@ -1,0 +1,137 @@
+"""Equilibrium and coefficients of a bearing: closed forms, tables, and the law's own force."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from exu_press import InputError, Scene, bearing_coefficients
+from exu_press.cli import main
+from exu_press.studies.bearing.coefficients import critical_mass
+from exu_press.studies.bearing.journal import Journal
+
+RADIUS, CLEARANCE, LENGTH, VISCOSITY, SPEED = 0.05, 1e-4, 0.05, 0.05, 300.0
+TURNING = SPEED * math.tau / 60.0
+OIL = {"viscosity_cst": [68.0, 8.7], "density": 870.0, "supply_celsius": 40.0}
+
+
+def scene_with(law, **film):
+    sizes = {"kind": "lubricated", "clearance": CLEARANCE, "radius": RADIUS}
+    film = {"law": law, "length": LENGTH, "viscosity": VISCOSITY} | film
+    if "oil" in film:
+        del film["viscosity"]
+    return Scene(mechanism="slider_crank", joints={"crank_pin": sizes}, film=film)
+
+
+def coefficients(law, load, **film):
+    return bearing_coefficients(scene_with(law, **film), "crank_pin", load=load, speed_rpm=SPEED)
+
+
+@pytest.mark.parametrize("eps", [0.1, 0.5, 0.8])
+def test_ocvirks_bearing(eps):
+    """Ocvirk 1952: load, attitude, flow; Petroff's torque, and the load's couple, as the loss."""
+    s2 = 1.0 - eps * eps
+    size = VISCOSITY * LENGTH**3 * RADIUS * TURNING / (4.0 * CLEARANCE**2)
+    load = size * eps / s2**2 * math.sqrt(16.0 * eps**2 + math.pi**2 * s2)
+    bearing = coefficients("short", (load, 0.0))
+    attitude = math.atan(math.pi * math.sqrt(s2) / (4.0 * eps))
+    assert bearing.eccentricity_ratio == pytest.approx(eps, rel=1e-8)
+    assert bearing.attitude_angle == pytest.approx(attitude, rel=1e-8)
+    assert bearing.side_flow == pytest.approx(eps * TURNING * RADIUS * CLEARANCE * LENGTH)
+    petroff = VISCOSITY * LENGTH * RADIUS**3 / CLEARANCE * math.tau / math.sqrt(s2) * TURNING**2
+    couple = 0.5 * load * eps * CLEARANCE * math.sin(attitude) * TURNING
+    assert bearing.power == pytest.approx(petroff + couple, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "sommerfeld", "eps", "attitude", "flow"),
+    [(1.0, 0.121, 0.6, 50.58, 4.33 * 0.680), (0.5, 0.319, 0.6, 48.14, 4.85 * 0.730)],
+)
+def test_raimondi_and_boyd_1958(ratio, sommerfeld, eps, attitude, flow):
+    """S and side flow Q_s / (R c N L) of bearings without grooves."""
+    length = 2.0 * RADIUS * ratio
+    per_second = SPEED / 60.0
+    pressure = VISCOSITY * per_second * (RADIUS / CLEARANCE) ** 2 / sommerfeld
+    bearing = coefficients("finite", (0.0, -2.0 * RADIUS * length * pressure), length=length)
+    assert bearing.eccentricity_ratio == pytest.approx(eps, abs=0.004)
+    assert math.degrees(bearing.attitude_angle) == pytest.approx(attitude, abs=0.6)
+    size = RADIUS * CLEARANCE * per_second * length
+    assert bearing.side_flow == pytest.approx(flow * size, rel=0.015)
+
+
+@pytest.mark.parametrize(
+    ("law", "film"),
+    [
+        ("pinkus", {}),
+        ("pi_film", {}),
+        ("short", {}),
+        ("finite", {}),
+        ("finite", {"at_contact": "mixed", "roughness": 4e-6}),
+    ],
+)
+def test_matrices_are_the_derivatives_of_the_force_that_bears_the_load(law, film):
+    """Against differences of the joint's own force, in a direction of no symmetry."""
+    load = (3000.0, -20000.0)
+    scene = scene_with(law, **film)
+    bearing = bearing_coefficients(scene, "crank_pin", load=load, speed_rpm=SPEED)
+    journal = Journal(scene, "crank_pin", TURNING)
+    e = np.array(bearing.eccentricity)
+    assert journal.force(tuple(e)) == pytest.approx((-load[0], -load[1]), rel=1e-8)
+    step = 1e-6 * CLEARANCE
+    for column, direction in enumerate(np.eye(2)):
+        ahead, behind = (journal.force(tuple(e + sign * step * direction)) for sign in (1, -1))
+        slope = -np.subtract(ahead, behind) / (2.0 * step)
+        largest = np.abs(bearing.stiffness).max()
+        assert slope == pytest.approx(bearing.stiffness[:, column], abs=1e-5 * largest)
+    if law in ("short", "finite") and not film:  # Reynolds' damping is symmetric
+        c_xy, c_yx = bearing.damping[0, 1], bearing.damping[1, 0]
+        assert c_xy == pytest.approx(c_yx, abs=2e-3 * np.abs(bearing.damping).max())
+
+
+def test_the_other_sense_of_rotation_is_the_mirror_image():
+    load, flipped = (3000.0, -4000.0), np.diag([-1.0, 1.0])
+    scene = scene_with("finite")
+    left = bearing_coefficients(scene, "crank_pin", load=load, speed_rpm=SPEED)
+    right = bearing_coefficients(scene, "crank_pin", load=(-3000.0, -4000.0), speed_rpm=-SPEED)
+    assert right.attitude_angle == pytest.approx(left.attitude_angle)
+    assert right.stiffness == pytest.approx(flipped @ left.stiffness @ flipped)
+
+
+def test_critical_mass_is_where_an_eigenvalue_crosses():
+    bearing = coefficients("pi_film", (0.0, -5000.0))
+    k, c = bearing.stiffness, bearing.damping
+    assert critical_mass(k, c) == bearing.critical_mass
+    for share, grows in ((0.99, False), (1.01, True)):
+        m = share * bearing.critical_mass
+        system = np.block([[np.zeros((2, 2)), np.eye(2)], [-k / m, -c / m]])
+        assert (np.linalg.eigvals(system).real.max() > 0.0) == grows
+
+
+def test_warm_oil_has_the_temperature_of_its_heat_balance():
+    bearing = coefficients("finite", (0.0, -5000.0), oil={**OIL, "conductance": 2.0})
+    rise = bearing.temperature - 40.0
+    assert bearing.power == pytest.approx((1.8e6 * bearing.side_flow + 2.0) * rise, rel=1e-5)
+    oil = scene_with("finite", oil=OIL).joints["crank_pin"].film.oil
+    assert bearing.viscosity == pytest.approx(oil.viscosity(bearing.temperature), rel=1e-9)
+
+
+def test_what_is_no_bearing_is_refused():
+    scene = scene_with("finite")
+    for joint, load, speed, words in (
+        ("wrist_pin", (0.0, 1.0), 1.0, "no lubricated journal; allowed: crank_pin"),
+        ("crank_pn", (0.0, 1.0), 1.0, "crank_pn"),
+        ("crank_pin", (0.0, 0.0), 1.0, "load = "),
+        ("crank_pin", (0.0, 1.0), math.nan, "speed_rpm = nan"),
+    ):
+        with pytest.raises(InputError, match=words):
+            bearing_coefficients(scene, joint, load=load, speed_rpm=speed)
+
+
+def test_command(tmp_path, capsys):
+    words = ["--set", "film.law=short", "--load", "1e4", "1e5", "--speed", "240"]
+    assert main(["bearing", "press", "crank_pin", *words, "--out", str(tmp_path)]) == 0
+    assert "c_yy, N s/m" in capsys.readouterr().out
+    rows = json.loads((tmp_path / "bearing.json").read_text())["equilibria"]
+    assert [row["load"][1] for row in rows] == [-1e4, -1e5]
+    assert {"bearing.csv", "bearing.png"} <= {file.name for file in tmp_path.iterdir()}

@@ -53,6 +53,9 @@ SEPARATOR = "  \N{MIDDLE DOT}  "
 DRAWN = ("mechanism", "speed_rpm")
 """Keys of a scene that a drawing shows, beside the dimensions of its mechanism."""
 
+ALWAYS_LISTED = ("bodies", "joints", "guides")
+"""Kinds of elements that are listed where there are none, too."""
+
 STEP = 30
 """deg, between the rows of the table."""
 
@@ -191,7 +194,10 @@ def _parts(mechanism: Mechanism) -> list[str]:
         ("bodies", [body.name for body in mechanism.bodies]),
         ("joints", [joint.name for joint in mechanism.joints]),
         ("guides", [guide.body for guide in mechanism.guides]),
+        ("gears", [gear.name for gear in mechanism.gears]),
     ):
+        if not names and kind not in ALWAYS_LISTED:
+            continue
         text = f"{kind} ({len(names)}): {', '.join(names) or 'none'}"
         lines += textwrap.wrap(text, 98, initial_indent="  ", subsequent_indent="    ")
     return lines
@@ -199,10 +205,9 @@ def _parts(mechanism: Mechanism) -> list[str]:
 
 def _summary(examined: Examination) -> list[tuple[str, str]]:
     mobility = examined.mobility
-    counted = (
-        f"{mobility.degrees_of_freedom} (3 x {mobility.bodies} bodies - 2 x {mobility.joints} "
-        f"joints - 2 x {mobility.guides} guides = {mobility.gruebler_count}"
-    )
+    held = [f"{rows} x {number} {kind}" for kind, (number, rows) in mobility.constraints.items()]
+    terms = " - ".join([f"3 x {mobility.bodies} bodies", *held])
+    counted = f"{mobility.degrees_of_freedom} ({terms} = {mobility.gruebler_count}"
     spare = f"; redundant constraints: {mobility.redundant}" if mobility.redundant else ""
     rows = [("mobility", f"{counted}{spare})")]
     stroke = examined.stroke

@@ -5,6 +5,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
 
 from exu_press.errors import InputError
+from exu_press.mechanism.gears import Gear, check_gears
 from exu_press.mechanism.parts import (
     DRIVE,
     FLYWHEEL,
@@ -41,7 +42,7 @@ RESERVED = {
 
 CHANNEL_NAMES = ("drive", "frame", "guide", "shaking")
 BODY_CHANNELS = ("guide", "modes")
-LOAD_CHANNELS = "load_"
+OTHER_CHANNELS = ("gear_", "load_")
 """Prefixes of channels that belong to no joint; those of a body follow its name."""
 
 PERPENDICULAR = 1e-9
@@ -98,6 +99,7 @@ def check_drawing(
     output: Output,
     groups: Mapping[str, Sequence[str]],
     counterweight: Sequence[str],
+    gears: Sequence[Gear],
 ) -> None:
     """Raise InputError for the first fault of a mechanism's data."""
     if not isinstance(name, str) or not name:
@@ -108,6 +110,7 @@ def check_drawing(
     _check_unique("bodies", names)
     _check_unique("joints", [joint.name for joint in joints])
     _check_unique("guides", [guide.body for guide in guides])
+    _check_unique("gears", [gear.name for gear in gears])
     for name, what in RESERVED.items():
         if name in names:
             raise InputError(f"bodies.{name}: this name means {what}; allowed is another one")
@@ -143,6 +146,7 @@ def check_drawing(
         _check_known(
             "counterweight", body_name, [n for n in names if n not in (crank, output.body)]
         )
+    check_gears(gears, names, crank)
     _check_connections(bodies, joints, guides, crank)
 
 
@@ -161,7 +165,7 @@ def _check_channels(joint: str, bodies: Sequence[str]) -> None:
     if joint in bodies:
         raise InputError(f"joints.{joint}: is a body's name too; allowed is another one")
     reserved = {*CHANNEL_NAMES, *(f"{b}_{what}" for b in bodies for what in BODY_CHANNELS)}
-    if joint in reserved or joint.startswith(LOAD_CHANNELS):
+    if joint in reserved or joint.startswith(OTHER_CHANNELS):
         raise InputError(
             f"joints.{joint}: {joint}_force is recorded of something else; allowed is another name"
         )

@@ -85,9 +85,11 @@ class Examination:
         return tuple(name for of_kind, name in names if of_kind == kind)
 
     def _holding(self, body: str) -> list[str]:
-        """Return the names of the joints and guides of a body."""
+        """Return the names of the joints, guides and gears of a body."""
         joints = [f"joints.{joint.name}" for joint in self.mechanism.joints_of(body)]
-        return joints + [f"guides.{g.body}" for g in self.mechanism.guides if g.body == body]
+        joints += [f"guides.{g.body}" for g in self.mechanism.guides if g.body == body]
+        gears = self.mechanism.gears
+        return joints + [f"gears.{g.name}" for g in gears if body in (g.body, g.to)]
 
 
 def examine(mechanism: Mechanism) -> Examination:

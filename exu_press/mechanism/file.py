@@ -13,6 +13,9 @@ journal = "crank"
 bearing = "frame"
 [guides.slider]
 direction = [0, 1]
+[gears.pair]
+body = "second_crank"
+ratio = -1
 [groups]
 pins = ["crank_pin", "wrist_pin"]
 [defaults]
@@ -29,6 +32,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError, error_prefix
+from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import Body, Guide, Joint, Output
 from exu_press.schema.checks import as_float, nearest, refuse_unknown
@@ -54,6 +58,7 @@ SECTIONS: dict[str, tuple[type, tuple[str, ...], tuple[str, ...]]] = {
     "bodies": (Body, ("centre_of_mass", "mass"), ("inertia", "angle")),
     "joints": (Joint, ("at", "journal", "bearing"), ("shape",)),
     "guides": (Guide, ("direction",), ()),
+    "gears": (Gear, ("body", "ratio"), ("to",)),
 }
 """Section of the file -> class of its tables, their required keys, their optional keys."""
 
@@ -63,7 +68,7 @@ COORDINATES = "x", "y"
 OUTPUT = ("body",), ("direction", "origin")
 TOP = (
     ("name", "crank", "output", "bodies", "joints"),
-    ("guides", "groups", "counterweight", "defaults"),
+    ("guides", "gears", "groups", "counterweight", "defaults"),
 )
 """Required and optional keys of the output's table, and of the whole file."""
 

@@ -3,9 +3,13 @@
 Guides and joints of a planar mechanism are often redundant: two balls of a guided slider in guided
 plungers constrain its angle and its lateral displacement once more. A multibody system with
 redundant constraints is singular, and their forces are undetermined; so redundant ones are omitted.
-They are selected in this order: pivots of the frame, guides along their normal, joints, angles of
-guides, and last joints of two bodies in parallel guides along the normal of these. So two balls
-hold a slider upright and share its load, and guides alone bear side forces.
+They are selected in this order: pivots of the frame, guides along their normal, joints, gears,
+angles of guides, and last joints of two bodies in parallel guides along the normal of these. So two
+balls hold a slider upright and share its load, and guides alone bear side forces.
+
+Where geared cranks carry a slide in an ideal guide, play and stiffness of gear and guide decide
+what each crank bears, and no selection has a meaning. Such forces are named as undetermined: a left
+null vector of the Jacobian is a set of constraint forces that balance each other.
 
 Some mechanisms need at one crank angle a constraint that is redundant at all others: of two
 coupling rods a quarter turn apart, one turns the follower while the other is in its dead centre.
@@ -22,7 +26,7 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Guide, Joint, Point
-from exu_press.mechanism.planar_constraints import INDEPENDENT
+from exu_press.mechanism.planar_constraints import INDEPENDENT, null_space
 from exu_press.numerics.arrays import Array
 
 __all__ = [
@@ -65,6 +69,8 @@ class IndependentConstraints:
         guides: name of a body that is not sliding -> whether its guide holds it along the normal,
             and its angle.
         redundant: names of joints and guides of which a constraint is omitted.
+        gears: names of the gears that hold.
+        undetermined: names, as "joints.NAME", of constraints that gears stress against each other.
         keeps_redundant: whether all constraints are kept, though some are redundant at most crank
             angles.
     """
@@ -75,6 +81,8 @@ class IndependentConstraints:
     single_axis: Mapping[str, SingleAxis]
     guides: Mapping[str, tuple[bool, bool]]
     redundant: tuple[str, ...]
+    gears: tuple[str, ...] = ()
+    undetermined: frozenset[str] = frozenset()
     keeps_redundant: bool = False
 
 
@@ -112,6 +120,8 @@ def independent_constraints(mechanism: Mechanism, ideal: frozenset[str]) -> Inde
         },
         guides={body: held for body, held in guides.items() if body not in sliding_bodies},
         redundant=first.redundant,
+        gears=first.gears,
+        undetermined=first.stressed_by_gears() & second.stressed_by_gears(),
     )
     needed = first.redundant_unguided
     if not needed or _are_regular(mechanism, ideal, selected, guides):
@@ -147,7 +157,8 @@ class _Selection:
         angles: of the bodies there, rad.
         directions: name of an ideal joint -> unit vectors that it constrains, none to two.
         guided: (body, "normal" or "angle") -> whether its guide constrains it.
-        redundant: names of joints and guides with a redundant constraint.
+        gears: names of gears that are not redundant.
+        redundant: names of joints, guides and gears with a redundant constraint.
         redundant_unguided: names of such joints whose bodies no parallel guides hold.
     """
 
@@ -184,6 +195,12 @@ class _Selection:
             for joint in joints
             if parallel[joint.name] is None and len(self.directions[joint.name]) < 2
         )
+        self.gears = tuple(
+            gear.name
+            for gear in mechanism.gears
+            if self._add_independent(self._rows[f"gears.{gear.name}"])
+        )
+        redundant |= dict.fromkeys(g.name for g in mechanism.gears if g.name not in self.gears)
         for guide in mechanism.guides:
             angle = self._rows[f"guides.{guide.body}"][1:]
             is_held = guide.holds_angle and bool(self._add_independent(angle))
@@ -198,6 +215,25 @@ class _Selection:
             if len(self.directions[joint.name]) < 2:
                 redundant[joint.name] = None
         self.redundant = tuple(redundant)
+        self._rigid = {f"joints.{joint.name}": [0, 1] for joint in joints}
+        for guide in mechanism.guides:
+            is_rigid = guide.holds_across, guide.holds_angle
+            self._rigid[f"guides.{guide.body}"] = [*np.flatnonzero(is_rigid)]
+        self._rigid |= {f"gears.{gear.name}": [0] for gear in mechanism.gears}
+
+    def stressed_by_gears(self) -> frozenset[str]:
+        """Return the names of rigid constraints that gears can stress without any load."""
+        if not self._mechanism.gears:
+            return frozenset()
+        names = [name for name, rows in self._rigid.items() for _ in rows]
+        rigid = np.vstack(
+            [self._rows["drive"], *(self._rows[n][r] for n, r in self._rigid.items())]
+        )
+        stresses = null_space(rigid.T)[:, 1:]  # the drive's torque is that of the loads
+        of_gears = [name.startswith("gears.") for name in names]
+        _, sizes, mixes = np.linalg.svd(stresses[:, of_gears].T, full_matrices=False)
+        stressed = np.abs(mixes[sizes > INDEPENDENT] @ stresses).max(axis=0, initial=0.0)
+        return frozenset(n for n, size in zip(names, stressed, strict=True) if size > INDEPENDENT)
 
     def _add_independent(self, rows: Array) -> list[Array]:
         """Add the independent part of rows (m, n) to the basis; return its combinations (m,)."""
@@ -230,6 +266,7 @@ class _Selection:
         for guide in self._mechanism.guides:
             is_held = np.array(guides[guide.body])
             rows += [*self._rows[f"guides.{guide.body}"][is_held]]
+        rows += [row for gear in constraints.gears for row in self._rows[f"gears.{gear}"]]
         matrix = np.array(rows)
         return float(np.linalg.slogdet(matrix)[0]) if len(rows) == matrix.shape[1] else 0.0
 

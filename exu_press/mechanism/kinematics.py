@@ -247,7 +247,7 @@ class Kinematics:
             open_rows = error.residuals > OPEN * error.residuals.max()
             bodies = constraints.moving_bodies(jacobian[open_rows])
             text = (
-                f"joints and guides hold {_list_names(bodies)} more than once and do not agree "
+                f"constraints hold {_list_names(bodies)} more than once and do not agree "
                 f"{where}. Remove the redundant one, or draw links that move alike exactly alike"
             )
         else:

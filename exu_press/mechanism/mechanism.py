@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.mechanism.checks import check_defaults, check_drawing, require_kind
+from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.kinematics import Kinematics, kinematics_of
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import (
@@ -39,6 +40,7 @@ class Mechanism:
         bodies: in the order of the result's body channels.
         joints: ideal or with clearance, as a scene says.
         guides: in the frame.
+        gears: between two bodies' rotations.
         crank: name of the driven body.
         output: whose motion the result's slider channels record.
         groups: name -> joints that a scene can address together.
@@ -60,6 +62,7 @@ class Mechanism:
     groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict, hash=False)
     counterweight: tuple[str, ...] = ()
     defaults: Mapping[str, Any] = field(default_factory=dict, hash=False)
+    gears: tuple[Gear, ...] = ()
 
     def __post_init__(self) -> None:
         """Check the drawing, fill in the inertia of uniform rods, make directions unit vectors."""
@@ -68,6 +71,10 @@ class Mechanism:
             joints=require_kind(Joint, "joints", self.joints),
             guides=require_kind(Guide, "guides", self.guides),
             output=require_kind(Output, "output", [self.output])[0],
+            gears=tuple(
+                replace(gear, to=gear.to or self.crank)
+                for gear in require_kind(Gear, "gears", self.gears)
+            ),
         )
         check_drawing(
             self.name,
@@ -78,6 +85,7 @@ class Mechanism:
             self.output,
             self.groups,
             self.counterweight,
+            self.gears,
         )
         check_defaults(self.defaults)
         self._assign(
@@ -225,13 +233,13 @@ class Mechanism:
 
     @cached_property
     def constraints(self) -> PlanarConstraints:
-        """Constraints of all joints and guides as ideal ones."""
-        return planar_constraints(self.bodies, self.joints, self.guides, self.size)
+        """Constraints of all joints and guides as ideal ones, and of gears."""
+        return planar_constraints(self.bodies, self.joints, self.guides, self.size, self.gears)
 
     def _kinematics(self) -> Kinematics:
         bodies = sorted(self.bodies, key=lambda body: body.name == self.crank)
         joints = [joint for joint in self.joints if joint != self.shaft]
-        constraints = planar_constraints(bodies, joints, self.guides, self.size)
+        constraints = planar_constraints(bodies, joints, self.guides, self.size, self.gears)
         return kinematics_of(self.name, constraints, self.shaft.at)
 
 

@@ -9,7 +9,7 @@ References
    chapter 3.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,8 +27,8 @@ class Mobility:
 
     Attributes:
         bodies: number of moving bodies, three degrees of freedom each.
-        joints: number of joints, which hold two each.
-        guides: number of guides, which hold two each.
+        constraints: "joints", "guides" and the like -> their number, and how many degrees of
+            freedom each of them holds.
         degrees_of_freedom: at first order.
         crank_turns: whether the crank can turn, at first order.
         loose_bodies: names of bodies that move although the crank is fixed.
@@ -37,8 +37,7 @@ class Mobility:
     """
 
     bodies: int
-    joints: int
-    guides: int
+    constraints: Mapping[str, tuple[int, int]]
     degrees_of_freedom: int
     crank_turns: bool
     loose_bodies: tuple[str, ...]
@@ -46,8 +45,8 @@ class Mobility:
 
     @property
     def gruebler_count(self) -> int:
-        """Degrees of freedom if all joints and guides were independent."""
-        return 3 * self.bodies - 2 * self.joints - 2 * self.guides
+        """Degrees of freedom if all constraints were independent."""
+        return 3 * self.bodies - sum(n * held for n, held in self.constraints.values())
 
     @property
     def redundant(self) -> int:
@@ -61,7 +60,7 @@ class Mobility:
 
 
 def mobility_of(mechanism: Mechanism) -> Mobility:
-    """Return a mechanism's mobility with ideal joints and guides, as it is drawn."""
+    """Return a mechanism's mobility with ideal joints, guides and gears, as it is drawn."""
     constraints = mechanism.constraints
     jacobian = constraints.jacobian(np.array(constraints.drawn))
     fixed_crank = constraints.angle_row(mechanism.crank)[None]
@@ -79,10 +78,17 @@ def mobility_of(mechanism: Mechanism) -> Mobility:
     )
     return Mobility(
         bodies=len(mechanism.bodies),
-        joints=len(mechanism.joints),
-        guides=len(mechanism.guides),
+        constraints=_counts({name: len(rows) for name, rows in constraints.rows.items()}),
         degrees_of_freedom=len(free_motions("")),
         crank_turns=crank_turns,
         loose_bodies=constraints.moving_bodies(free_motions("", fixed_crank)),
         overconstraining=tuple(n for n in constraints.rows if n in suspects and turns_without(n)),
     )
+
+
+def _counts(held: Mapping[str, int]) -> dict[str, tuple[int, int]]:
+    """Return numbers by kind from name -> degrees of freedom held, as of "joints.NAME"."""
+    by_kind: dict[str, list[int]] = {}
+    for name, count in held.items():
+        by_kind.setdefault(name.partition(".")[0], []).append(count)
+    return {kind: (len(counts), counts[0]) for kind, counts in by_kind.items()}

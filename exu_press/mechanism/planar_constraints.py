@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import GROUND, PRECISION, Body, Guide, Joint, Point
 from exu_press.numerics.arrays import Array
@@ -193,7 +194,7 @@ class PlanarConstraints:
         bodies: names, in the order of their coordinates x and y, over the size, and angle, rad.
         drawn: coordinates in the drawing, (3 n,).
         constraints: with their names. "joints.NAME" has two rows, journal minus bearing along x
-            and y; "guides.BODY" has one across it and one of the angle.
+            and y; "guides.BODY" has one across it and one of the angle; "gears.NAME" has one.
     """
 
     size: float
@@ -269,9 +270,13 @@ class PlanarConstraints:
 
 
 def planar_constraints(
-    bodies: Sequence[Body], joints: Sequence[Joint], guides: Sequence[Guide], size: float
+    bodies: Sequence[Body],
+    joints: Sequence[Joint],
+    guides: Sequence[Guide],
+    size: float,
+    gears: Sequence[Gear] = (),
 ) -> PlanarConstraints:
-    """Return the constraints of ideal joints and guides on bodies, in a drawing of some size, m."""
+    """Return the constraints of ideal joints, guides and gears, in a drawing of some size, m."""
     index = {body.name: number for number, body in enumerate(bodies)} | {GROUND: len(bodies)}
     drawn = {body.name: body for body in bodies} | {GROUND: Body(GROUND, 0.0)}
 
@@ -288,6 +293,10 @@ def planar_constraints(
             yield f"guides.{guide.body}", PointOnLine(*ends, complex(*guide.normal))
             turning = RotationRatio(index[guide.body], index[GROUND], 1.0, body.angle)
             yield f"guides.{guide.body}", turning
+        for gear in gears:
+            offset = drawn[gear.body].angle - gear.ratio * drawn[gear.to].angle
+            pair = index[gear.body], index[gear.to]
+            yield f"gears.{gear.name}", RotationRatio(*pair, gear.ratio, offset)
 
     return PlanarConstraints(
         size,

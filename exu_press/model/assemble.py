@@ -12,6 +12,7 @@ from exu_press.joints.states import States
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
 from exu_press.model.drive import add_drive, crank_angle_of, hold_flexible_bodies, turned_body
+from exu_press.model.gears import add_gear
 from exu_press.model.guides import add_guide
 from exu_press.model.ideal_joints import add_ideal_joint
 from exu_press.model.model import Model, count_items
@@ -93,6 +94,11 @@ def _assemble(
         for guide in mechanism.guides
         if guide.body not in constraints.sliding_bodies
     }
+    gears = {
+        gear.name: add_gear(system, gear)
+        for gear in mechanism.gears
+        if gear.name in constraints.gears
+    }
     guideways = _guideways(system)
     friction = _guide_friction(system, guides)
     start_stop: StartStop | None = None
@@ -110,7 +116,7 @@ def _assemble(
         loads = add_loads(system)
     if system.flexible:
         follow_modes(system.mbs)
-    _add_sensors(system, ideal | {"drive": drive}, guides)
+    _add_sensors(system, ideal | {"drive": drive}, guides, gears)
     system.mbs.Assemble()
     if start_stop is not None:
         forces = dict.fromkeys(system.loads, 0.0)
@@ -215,7 +221,10 @@ def _stall(scene: Scene) -> Stall:
 
 
 def _add_sensors(
-    system: System, joints: Mapping[str, int], guides: Mapping[str, Mapping[str, int]]
+    system: System,
+    joints: Mapping[str, int],
+    guides: Mapping[str, Mapping[str, int]],
+    gears: Mapping[str, int],
 ) -> None:
     """Record bodies' coordinates and the constraints' forces."""
     levels = {
@@ -230,6 +239,7 @@ def _add_sensors(
     forces = {(name, "force"): number for name, number in joints.items()}
     for body, numbers in guides.items():
         forces |= {(f"{body}_guide", kind): number for kind, number in numbers.items()}
+    forces |= {(f"gear_{name}", "torque"): number for name, number in gears.items()}
     for key, number in forces.items():
         local = number in system.local_forces
         kind = exu.OutputVariableType.ForceLocal if local else exu.OutputVariableType.Force

@@ -58,6 +58,10 @@ def curves_of(result: Result) -> list[Curve]:
         begin = guide_channel(mechanism, guide.body)
         group = f"Guide of {_label_of(guide.body)}"
         of_owners += _channels_of(result, begin, group, Owner.GUIDE, guide.body)
+    for gear in mechanism.gears:
+        of_owners += _channels_of(
+            result, f"gear_{gear.name}", f"Gear {_label_of(gear.name)}", Owner.GEAR, gear.name
+        )
     for load in applied_loads(result.scene):
         of_owners += _channels_of(
             result, f"load_{load}", f"Load {_label_of(load)}", Owner.LOAD, load
@@ -113,7 +117,7 @@ def _peak(owner: Owner, curve: str, at: str) -> str:
 
 
 def _channels_of(result: Result, begin: str, group: str, owner: Owner, at: str) -> Iterator[Curve]:
-    """Yield the curves of all channels of a guide or a load."""
+    """Yield the curves of all channels of a guide, a gear or a load."""
     for name in result.channels:
         if name.startswith(f"{begin}_"):
             what = name.removeprefix(f"{begin}_")

@@ -4,6 +4,7 @@ from typing import Any
 
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND
+from exu_press.mechanism.pitch_circles import pitch_circles
 from exu_press.mechanism.shapes import FrontView
 from exu_press.numerics.arrays import Array
 from exu_press.plots.busiest import busiest
@@ -39,6 +40,7 @@ def scenery(result: Result) -> dict[str, Any]:
         "joints": [_joint(result, mechanism, name) for name in result.joints],
         "magnified": _joints_to_magnify(result),
         "rails": [_round_points(rail) for rail in front.rails()],
+        "wheels": [_round_points(outline) for outline in pitch_circles(mechanism)],
         "pivots": [[*map(float, joint.at)] for joint in mechanism.joints if joint.on_frame],
         "ends": [
             {

@@ -12,6 +12,7 @@ from matplotlib.ticker import NullFormatter, StrMethodFormatter
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.examine import Examination
 from exu_press.mechanism.parts import GROUND
+from exu_press.mechanism.pitch_circles import pitch_circles
 from exu_press.mechanism.shapes import shapes_of
 from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.numerics.arrays import Array
@@ -100,6 +101,8 @@ def _draw(axes: Axes, examined: Examination) -> None:
         ends = [at + sign * 0.16 * mechanism.size * np.array(guide.direction) for sign in (-1, 1)]
         colour = WRONG if guide.body in examined.wrong_guides else GREY
         axes.plot(*np.array(ends).T, color=colour, linewidth=1.2, linestyle="-.", zorder=0.8)
+    for outline in pitch_circles(mechanism):
+        axes.plot(*outline.T, color=GREY, linewidth=0.9, linestyle=(0, (6, 3)), zorder=0.8)
     axes.autoscale_view()
     axes.margins(0.05)
     axes.set(xlabel="x, m", ylabel="y, m")

@@ -10,6 +10,7 @@ from exu_press.errors import InputError
 from exu_press.quantities.cost import COSTS
 from exu_press.quantities.energy import BALANCE
 from exu_press.quantities.fatigue import BODIES
+from exu_press.quantities.gears import GEARS
 from exu_press.quantities.joints import JOINTS
 from exu_press.quantities.oil import OIL
 from exu_press.quantities.press import DRIVE, GUIDES, LOADS, SHAKING
@@ -45,6 +46,7 @@ CATALOGUE: list[Quantity] = [
     *LOADS,
     *SHEETS,
     *GUIDES,
+    *GEARS,
     *BODIES,
     *BALANCE,
     *COSTS,
@@ -81,7 +83,7 @@ class QuantityAt:
 
     Attributes:
         quantity: as it is declared.
-        owner: name of the joint, guide, load or body; "" of the run.
+        owner: name of the joint, guide, gear, load or body; "" of the run.
     """
 
     quantity: Quantity
@@ -204,6 +206,7 @@ def _owners(scene: Scene) -> dict[Owner, tuple[str, ...]]:
         Owner.RUN: ("",),
         Owner.JOINT: tuple(joint.name for joint in mechanism.joints),
         Owner.GUIDE: tuple(guide.body for guide in mechanism.guides),
+        Owner.GEAR: tuple(gear.name for gear in mechanism.gears),
         Owner.LOAD: tuple(applied_loads(scene)),
         Owner.BODY: tuple(scene.bodies),
     }

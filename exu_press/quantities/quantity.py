@@ -18,6 +18,7 @@ class Owner(Enum):
     RUN = ""
     JOINT = "joints"
     GUIDE = "guides"
+    GEAR = "gears"
     LOAD = "loads"
     BODY = "bodies"
 

@@ -102,6 +102,15 @@ def _reverse_force(run: Reading, load: str, pressed: Array, released: Array) -> 
     return max(0.0, float(_pull(run)[released].max()))
 
 
+def _if_determined(
+    read: Callable[[Reading, str], float | None], run: Reading, load: str
+) -> float | None:
+    """Return a value from the forces of the output's joints, None where one is undetermined."""
+    joints = run.mechanism.joints_of(run.mechanism.slider)
+    known = all(run.channel(f"{joint.name}_force") is not None for joint in joints)
+    return read(run, load) if known else None
+
+
 def _reverse_share(run: Reading, load: str) -> float | None:
     reverse = _largest(_reverse_force, run, load)
     return None if reverse is None else reverse / peak(run[f"load_{load}_force"])
@@ -125,11 +134,12 @@ def _released_energy(run: Reading, load: str, pressed: Array, released: Array) -
 SHEETS = (
     Quantity("reverse_force", "N",
              "largest pull of the output's joints after the fracture beyond its weight and inertia",
-             LOAD, partial(_largest, _reverse_force), Owner.LOAD, _is_sheet,
-             title="reverse load, max", display_unit="kN", is_detail=True, extreme=Extreme.LARGEST),
+             LOAD, partial(_if_determined, partial(_largest, _reverse_force)), Owner.LOAD,
+             _is_sheet, title="reverse load, max", display_unit="kN", is_detail=True,
+             extreme=Extreme.LARGEST),
     Quantity("reverse_share", "",
              "reverse load over the largest load; builders of presses allow about 0.1",
-             LOAD, _reverse_share, Owner.LOAD, _is_sheet,
+             LOAD, partial(_if_determined, _reverse_share), Owner.LOAD, _is_sheet,
              title="over the largest load", is_detail=True, extreme=Extreme.LARGEST),
     Quantity("release_acceleration", "m/s^2",
              "largest downward acceleration of the output after the fracture",
@@ -137,8 +147,8 @@ SHEETS = (
              extreme=Extreme.LARGEST),
     Quantity("snap_through_energy", "J",
              "energy that mechanism and drive give back after the fracture, until they pull",
-             ENERGY, partial(_largest, _released_energy), Owner.LOAD, _is_sheet,
-             extreme=Extreme.LARGEST),
+             ENERGY, partial(_if_determined, partial(_largest, _released_energy)), Owner.LOAD,
+             _is_sheet, extreme=Extreme.LARGEST),
     Quantity("stack_up", "m",
              "way by which the output jumps ahead of the ideal motion as clearances change sides",
              DIFFERENCE, partial(_largest, _stack_up), Owner.LOAD, _is_sheet,

@@ -153,6 +153,13 @@ def _redundancy_warnings(scene: Scene) -> Iterator[str]:
             "but how joints divide the forces among them is not determined; give one of them "
             "clearance"
         )
+    if constraints.undetermined:
+        names = ", ".join(sorted(name.partition(".")[2] for name in constraints.undetermined))
+        yield (
+            f"{names}: gears and ideal joints hold the same as ideal guides, so that their forces "
+            "are not determined and have no figures; the motion and the torque of the drive have; "
+            "give the guide clearance or stiffness ([guide]), or one of the joints clearance"
+        )
 
 
 def _solid_warnings(result: Result) -> Iterator[str]:

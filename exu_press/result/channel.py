@@ -75,6 +75,7 @@ OWNERS = {
     "worn": "joints that are worn from the start",
     "wearing": "joints whose wear is asked for",
     "guide": "guides; that of the slider is `guide`",
+    "gear": "gears whose torque is determined",
     "load": "loads",
     "body": "flexible bodies",
     "pivoted": "joints of flexible bodies that turn on the frame",

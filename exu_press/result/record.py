@@ -11,6 +11,7 @@ from exu_press.mechanism.parts import DRIVE
 from exu_press.model import Model
 from exu_press.model.state import state_of
 from exu_press.numerics.arrays import Array
+from exu_press.result.channel import Channel, guide_channel
 from exu_press.result.info import Info
 from exu_press.result.motion import body_motion, sensor
 from exu_press.result.recorders import recorders
@@ -33,14 +34,29 @@ def record(model: Model, outcome: Outcome) -> Result:
     histories, total = _histories(model, time), Record({})
     for recorder in recorders(model.scene):
         total += recorder.record(Recording(model, time, motions, turned, histories, total))
+    determined = _without_undetermined(model, total.channels)
     info: Info = {**_info(model, outcome), **total.info}  # type: ignore[typeddict-item]
     return Result(
         scene=model.scene,
-        channels=total.channels,
+        channels=determined,
         info=info,
         bodies=tuple(motions),
         surfaces=_surfaces(model),
     )
+
+
+def _without_undetermined(model: Model, channels: Mapping[str, Channel]) -> dict[str, Channel]:
+    """Return channels without forces that ideal constraints stress against each other.
+
+    Their sums, as the force on the frame, are determined.
+    """
+    omitted = set()
+    for constraint in model.constraints.undetermined:
+        kind, _, name = constraint.partition(".")
+        owner = {"gears": f"gear_{name}", "joints": name}.get(kind)
+        owner = owner or guide_channel(model.mechanism, name)
+        omitted |= {f"{owner}_{quantity}" for quantity in ("force", "moment", "torque")}
+    return {name: channel for name, channel in channels.items() if name not in omitted}
 
 
 def _histories(model: Model, time: Array) -> "Mapping[str, JointHistory]":

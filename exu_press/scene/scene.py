@@ -276,6 +276,12 @@ class Scene(Table):
                 f"{mechanism.crank}, which a disc of this inertia turns"
             )
         object.__setattr__(self, "bodies", bodies)
+        for gear in mechanism.gears:
+            for body in {gear.body, gear.to} & (bodies.keys() - {mechanism.crank}):
+                raise InputError(
+                    f"gears.{gear.name}: bodies.{body} is flexible; allowed is a gear between "
+                    "rigid bodies, or from the crank"
+                )
         for drawn in mechanism.joints:
             worn = self.joints[drawn.name].worn
             for body in (drawn.journal, drawn.bearing):

@@ -10,6 +10,7 @@ from matplotlib.patches import Circle, Polygon
 
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.parts import Point
+from exu_press.mechanism.pitch_circles import pitch_circles
 from exu_press.mechanism.shapes import FrontView, Mark, transform_points
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
@@ -118,9 +119,11 @@ def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str,
 
 
 def _draw_frame(axes: Axes, mechanism: Mechanism, front: FrontView) -> None:
-    """Draw the guides beside their bodies, and the pivots in the frame."""
+    """Draw the guides beside their bodies, pitch circles, and the pivots in the frame."""
     for rail in front.rails():
         axes.add_patch(Polygon(rail, **FIXED))
+    for outline in pitch_circles(mechanism):
+        axes.plot(*outline.T, color=GREY, linewidth=0.9, linestyle=(0, (6, 3)))
     for joint in mechanism.joints:
         if joint.on_frame:
             axes.add_patch(Circle(joint.at, 0.026 * front.unit, **FIXED))

@@ -172,7 +172,7 @@ def test_a_second_pivot_or_a_guide_of_the_rocker_is_too_many():
         {"guides": (Guide("rocker", (1.0, 1.0)),)},
     ):
         text = refused(replace(mechanism, **extra).require_turning)
-        assert text.startswith("four_bar: joints and guides hold coupler and rocker more than once")
+        assert text.startswith("four_bar: constraints hold coupler and rocker more than once")
         assert "at crank angle 0" in text
 
 

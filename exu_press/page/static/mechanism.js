@@ -29,6 +29,7 @@ class Mechanism {
     const [x0, y0, x1, y1] = this.box;
     svg.setAttribute("viewBox", `${x0} ${-y1} ${x1 - x0} ${y1 - y0}`);
     for (const rail of scenery.rails) drawn("polygon", {points: corners(rail), class: "fixed"}, svg);
+    for (const wheel of scenery.wheels) drawn("polygon", {points: corners(wheel), class: "wheel"}, svg);
     for (const [x, y] of scenery.pivots) {
       drawn("circle", {cx: x, cy: -y, r: 0.026 * unit, class: "fixed"}, svg);
     }

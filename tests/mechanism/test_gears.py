@@ -1,0 +1,104 @@
+"""Geared shafts in drawings: ratios of angles, closed forms of paths, and what is refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exu_press import InputError
+from exu_press.mechanism import mechanism_from_dict, mechanism_to_dict, shipped_mechanism
+from exu_press.mechanism.gears import Gear
+from exu_press.mechanism.independent_constraints import independent_constraints
+from exu_press.mechanism.mobility import mobility_of
+
+TURN = np.linspace(0.0, 4.0 * np.pi, 333)
+
+
+def geared(name, **changes):
+    mechanism = shipped_mechanism(name)
+    (gear,) = mechanism.gears
+    return replace(mechanism, gears=(replace(gear, **changes),))
+
+
+@pytest.mark.parametrize("ratio", [-3, -1, 2])
+def test_angles_keep_their_ratio(ratio):
+    """Of the planet, over two revolutions, with velocities and accelerations."""
+    motion = geared("cycloidal_press", ratio=ratio).motion(TURN, 7.0)
+    for level in ("position", "velocity", "acceleration"):
+        crank, planet = (getattr(motion[body], level)[:, 2] for body in ("crank", "planet"))
+        scale = max(1.0, np.abs(planet).max())
+        assert planet == pytest.approx(ratio * crank, abs=1e-12 * scale)
+
+
+def test_a_planet_describes_a_hypocycloid():
+    """The rod's end at a exp(i t) + b exp(-2 i t) from the vertical, and the ram below it."""
+    mechanism = shipped_mechanism("cycloidal_press")
+    end = 1j * (0.08 * np.exp(1j * TURN) + 0.0276 * np.exp(-2j * TURN))
+    point = mechanism.body("planet").local((0.0, 0.1076))
+    path = mechanism.motion(TURN, 1.0)["planet"].point_motion(point).position
+    assert path[:, 0] + 1j * path[:, 1] == pytest.approx(end, abs=1e-12)
+    ram = end.imag - np.sqrt(0.6**2 - end.real**2)
+    assert mechanism.ideal_slider(TURN, 1.0)[0] == pytest.approx(ram, abs=1e-12)
+
+
+def test_the_cycloidal_press_rests_in_its_bottom_dead_centre():
+    position = shipped_mechanism("cycloidal_press").ideal_slider(np.radians([170, 180, 190]), 1.0)
+    assert np.ptp(position[0]) < 5e-6, "within 10 deg, of a stroke of 160 mm"
+    assert abs(position[2][1]) < 1e-4
+
+
+def test_two_points_descend_alike():
+    mechanism = shipped_mechanism("two_point_press")
+    slide = mechanism.motion(TURN, 1.0)["slide"].position
+    arm = 0.05 * np.exp(1j * TURN)
+    assert slide[:, 1] == pytest.approx(0.8 + arm.real - np.sqrt(0.25 - arm.imag**2), abs=1e-12)
+    assert np.abs(slide[:, [0, 2]]).max() < 1e-12
+    mobility = mobility_of(mechanism)
+    assert (mobility.degrees_of_freedom, mobility.redundant) == (1, 1)
+
+
+def test_forces_are_undetermined_where_gear_and_guide_hold_the_slide():
+    mechanism = shipped_mechanism("two_point_press")
+    names = frozenset(joint.name for joint in mechanism.joints)
+    ideal = independent_constraints(mechanism, names)
+    assert {"gears.pair", "guides.slide", "joints.wrist_pin_left"} <= ideal.undetermined
+    loose = independent_constraints(mechanism, names - {"wrist_pin_left"})
+    assert loose.undetermined == frozenset() == frozenset(loose.redundant)
+    alone = shipped_mechanism("cycloidal_press")
+    names = frozenset(joint.name for joint in alone.joints)
+    assert independent_constraints(alone, names).undetermined == frozenset()
+
+
+def test_a_file_has_its_gears():
+    mechanism = geared("cycloidal_press", to="rod")
+    assert mechanism_from_dict(mechanism_to_dict(mechanism)) == mechanism
+    data = mechanism_to_dict(mechanism)
+    del data["gears"]["planet"]["to"]
+    assert mechanism_from_dict(data).gears == (Gear("planet", "planet", -2, "crank"),)
+
+
+@pytest.mark.parametrize(
+    ("changes", "text"),
+    [
+        ({"body": "crank"}, r"gears\.planet: gears 'crank' to itself"),
+        ({"body": "crank", "to": "rod"}, r"gears\.planet\.body = 'crank': is the crank"),
+        ({"body": "frame"}, r"gears\.planet\.body = 'frame': unknown"),
+        ({"to": "plane"}, r"gears\.planet\.to = 'plane': unknown.*planet"),
+        ({"ratio": 0}, r"gears\.planet\.ratio = 0: allowed is an integer, not 0"),
+        ({"ratio": 1.5}, r"gears\.planet\.ratio = 1\.5: allowed is an integer"),
+        ({"ratio": "-1"}, r"gears\.planet\.ratio = '-1': allowed is a number"),
+    ],
+)
+def test_refused(changes, text):
+    with pytest.raises(InputError, match=text):
+        geared("cycloidal_press", **changes)
+
+
+def test_two_gears_that_disagree_are_told():
+    mechanism = shipped_mechanism("two_point_press")
+    doubled = replace(mechanism, gears=(*mechanism.gears, Gear("wrong", "second_crank", 2)))
+    mobility = mobility_of(doubled)
+    assert not mobility.is_driven
+    assert {"gears.pair", "gears.wrong"} <= {*mobility.overconstraining}
+    with pytest.raises(InputError, match="hold second_crank more than once and do not agree"):
+        doubled.require_turning()

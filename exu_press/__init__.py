@@ -5,7 +5,7 @@ Importing it costs nothing: a name is loaded on first access.
 
 import importlib
 
-from exu_press.lazy import lazy_names
+from fe_models.lazy import lazy_names
 
 TYPE_CHECKING = False  # that of typing takes longer to load than all of this
 
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
         add_revolute,
     )
     from exu_press.mechanism import Mechanism
+
+    # behind methods of `Scene`, `Result` and `Mechanism`, in modules that know these classes
     from exu_press.model.graphics import build_with_graphics as build_with_graphics
     from exu_press.quantities.summary import summary as summary
     from exu_press.quantities.value import value_of as value_of
@@ -66,27 +68,7 @@ __all__ = [
     "solve_dynamic",
 ]
 
-_NAMES = {
-    "errors": "InputError",
-    "exudyn_systems": "solve_dynamic",
-    "integrate": "ErrorScales Outcome SolverStatus SolverTuning follow_modes",
-    "joints": "FlexiblePoint add_dry_revolute add_dry_spherical add_guideway_contact "
-    "add_guideway_film add_joint_sensor add_lubricated_revolute add_lubricated_spherical "
-    "add_revolute",
-    "mechanism": "Mechanism",
-    "model.graphics": "build_with_graphics",
-    "quantities.summary": "summary",
-    "quantities.value": "value_of",
-    "report.cells": "Comparison cell page_of",
-    "result": "Result",
-    "scene": "Scene",
-    "studies.bearing.coefficients": "bearing_coefficients",
-    "verification.simulate": "simulate",
-}
-"""Module -> its names in the public API, and functions behind methods of `Scene`, `Result` and
-`Mechanism` in modules that know these classes."""
-
-_load = lazy_names(__name__, _NAMES)
+_load = lazy_names(__name__)
 
 _SUBPACKAGES = ("laws", "quantities")
 """Subpackages of the public API, as `exu_press.quantities`."""

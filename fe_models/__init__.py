@@ -5,8 +5,9 @@ interface motions), which becomes an ObjectFFRFreducedOrder. What is imported he
 until it is used: NGSolve is loaded only where a part is meshed, never for one read from the cache.
 """
 
-import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from fe_models.lazy import lazy_names
 
 if TYPE_CHECKING:
     from fe_models.cache import default_folder, reduced_part
@@ -47,24 +48,4 @@ __all__ = [
     "shipped_part",
 ]
 
-_NAMES = {
-    "cache": "default_folder reduced_part",
-    "clamped": "ConvergenceRow clamped_frequencies mesh_convergence",
-    "exudyn_body": "FlexibleBody add_flexible_body",
-    "geometry": "Axis CrankShape LinkageShape OwnShape Patch Sides StepFile",
-    "material": "CRANK_STEEL LINKAGE_IRON Material",
-    "part": "Interface Part shipped_faces shipped_part",
-    "pictures": "draw_mode_shapes",
-    "reduced": "ReducedInterface ReducedPart",
-    "reduction": "Reduction",
-}
-_HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
-
-
-def __getattr__(name: str) -> Any:
-    """Load a public name from its home."""
-    if name not in _HOMES:
-        raise AttributeError(f"module 'fe_models' has no attribute {name!r}")
-    value = getattr(importlib.import_module(f"fe_models.{_HOMES[name]}"), name)
-    globals()[name] = value
-    return value
+__getattr__ = lazy_names(__name__)

@@ -45,7 +45,7 @@ SOURCES = (
 PACKAGES = ("ngsolve", "netgen-mesher", "numpy", "scipy")
 NOT_PLAIN = {"name", "method", "mass", "couplings", "interfaces", "meta"}
 PLAIN = [field.name for field in fields(ReducedPart) if field.name not in NOT_PLAIN]
-"""Arrays of a part, stored under their own names."""
+"""Arrays of a reduced part, stored under their own names."""
 
 DIGEST_SIZE = hashlib.sha256().digest_size
 
@@ -53,7 +53,7 @@ PER_INTERFACE = ("centre", "axis", "translation", "rotation")
 
 
 def reduced_part(
-    part: Part,
+    solid: Part,
     reduction: Reduction | None = None,
     *,
     folder: str | Path | None = None,
@@ -62,46 +62,46 @@ def reduced_part(
     """Return a reduced part, from the cache if it has a sound one; else reduce and store it.
 
     Args:
-        part: to be reduced.
+        solid: to be reduced.
         reduction: how; by default 20 Craig-Bampton modes.
         folder: of the cache; by default `default_folder()`.
         report: called with (text about the progress, share done) during the reduction.
 
     Raises:
-        InputError: the part cannot be meshed or lacks a face, or the reduction does not fit it.
+        InputError: the solid cannot be meshed or lacks a face, or the reduction does not fit it.
     """
     reduction = reduction or Reduction()
-    file = cache_file(part, reduction, default_folder() if folder is None else Path(folder))
+    file = cache_file(solid, reduction, default_folder() if folder is None else Path(folder))
     remove_partial_files(file.parent)
     stored = load(file)
     if stored is not None:
         return stored
-    if isinstance(part.geometry, StepFile):
+    if isinstance(solid.geometry, StepFile):
         with TemporaryFolder() as spare:
-            arguments = part, reduction, file, spare / file.name
+            arguments = solid, reduction, file, spare / file.name
             here = f"{__name__}:{reduce_here.__name__}"
-            written, reason = part.geometry.in_child(here, *arguments, report=report)
+            written, reason = solid.geometry.in_child(here, *arguments, report=report)
             stored = load(written)
         if reason:
-            _warn_of_cache(file, reason, part)
+            _warn_of_cache(file, reason, solid)
         if stored is None:
             raise InputError(f"{file}: was changed by another program while it was written")
         return stored
-    reduced = reduce_part(part, reduction, report)
+    reduced = reduce_part(solid, reduction, report)
     try:
         save(reduced, file)
     except OSError as error:  # the cache is optional
-        _warn_of_cache(file, str(error.strerror), part)
+        _warn_of_cache(file, str(error.strerror), solid)
     return reduced
 
 
 def reduce_here(
-    part: Part, reduction: Reduction, file: Path, spare: Path, report: Report | None = None
+    solid: Part, reduction: Reduction, file: Path, spare: Path, report: Report | None = None
 ) -> tuple[Path, str]:
     """Read, mesh and reduce a STEP file's part in this process, a child.
 
     Args:
-        part: to be reduced.
+        solid: to be reduced.
         reduction: how.
         file: in the cache, where the reduced part goes.
         spare: the same in a temporary folder, for a cache that cannot be written.
@@ -110,8 +110,8 @@ def reduce_here(
     Returns:
         the file it is in; why that is not the cache's, or nothing.
     """
-    assert isinstance(part.geometry, StepFile)
-    reduced = reduce_part(part.replace(geometry=OpenedStepFile(part.geometry)), reduction, report)
+    assert isinstance(solid.geometry, StepFile)
+    reduced = reduce_part(solid.replace(geometry=OpenedStepFile(solid.geometry)), reduction, report)
     try:
         save(reduced, file)
     except OSError as error:  # the cache is optional
@@ -120,10 +120,11 @@ def reduce_here(
     return file, ""
 
 
-def _warn_of_cache(file: Path, reason: str, part: Part) -> None:
+def _warn_of_cache(file: Path, reason: str, solid: Part) -> None:
     """Warn of a cache's file that cannot be written, as on a full disk."""
     warnings.warn(
-        f"{file}: cannot be written ({reason}); {part.name} is reduced again whenever it is needed",
+        f"{file}: cannot be written ({reason}); {solid.name} is reduced again whenever it "
+        "is needed",
         stacklevel=3,
     )
 
@@ -137,32 +138,32 @@ def default_folder() -> Path:
     return (Path(base) if base else Path.home() / ".cache") / "exu_press" / "fe_models"
 
 
-def cache_file(part: Part, reduction: Reduction, folder: Path) -> Path:
+def cache_file(solid: Part, reduction: Reduction, folder: Path) -> Path:
     """Return the file of a reduced part in a cache's folder."""
     determined_by = {
-        "name": part.name,
-        "part": part.key(),
+        "name": solid.name,
+        "part": solid.key(),
         "reduction": reduction.key(),
         "versions": {package: version(package) for package in PACKAGES},
         "sources": _source_digest(),
     }
     digest = hashlib.sha256(json.dumps(determined_by, sort_keys=True).encode()).hexdigest()
-    return folder / f"{_plain_name(part.name)}-{digest[:32]}.npz"
+    return folder / f"{_plain_name(solid.name)}-{digest[:32]}.npz"
 
 
-def save(part: ReducedPart, file: Path) -> None:
+def save(reduced: ReducedPart, file: Path) -> None:
     """Write a reduced part, the whole file at once."""
-    arrays = {key: np.asarray(getattr(part, key)) for key in PLAIN}
-    for i, interface in enumerate(part.interfaces):
+    arrays = {key: np.asarray(getattr(reduced, key)) for key in PLAIN}
+    for i, interface in enumerate(reduced.interfaces):
         arrays |= {f"interface{i}.{key}": getattr(interface, key) for key in PER_INTERFACE}
-    arrays |= {f"coupling.{key}": value for key, value in part.couplings.items()}
+    arrays |= {f"coupling.{key}": value for key, value in reduced.couplings.items()}
     text = {
         "file": file.stem,
-        "name": part.name,
-        "method": part.method,
-        "mass": part.mass,
-        "meta": dict(part.meta),
-        "interfaces": [[i.face, i.area, i.arm] for i in part.interfaces],
+        "name": reduced.name,
+        "method": reduced.method,
+        "mass": reduced.mass,
+        "meta": dict(reduced.meta),
+        "interfaces": [[i.face, i.area, i.arm] for i in reduced.interfaces],
     }
     arrays["text"] = np.frombuffer(json.dumps(text).encode(), dtype=np.uint8)
     content = io.BytesIO()

@@ -45,27 +45,27 @@ class ConvergenceRow:
 
 
 def clamped_modes(
-    part: Part, count: int = 20, faces: Sequence[str] | None = None
+    solid: Part, count: int = 20, faces: Sequence[str] | None = None
 ) -> tuple[Array, Array, Any]:
     """Return frequencies [Hz] (count,), modes (3n, count) and the `FullModel` they belong to.
 
     Args:
-        part: is meshed here, and not reduced.
+        solid: is meshed here, and not reduced.
         count: number of modes, from the lowest up.
         faces: to be clamped; by default all bearings (interfaces with six motions).
 
     Raises:
-        InputError: a face is no interface of the part, or there is none to clamp.
+        InputError: a face is no interface of the solid, or there is none to clamp.
     """
     from fe_models.elasticity import full_model
     from fe_models.saddle import Cholesky, lowest_modes
 
-    model = full_model(part)
-    names = part.bearings if faces is None else tuple(faces)
+    model = full_model(solid)
+    names = solid.bearings if faces is None else tuple(faces)
     unknown = [name for name in names if name not in model.faces]
     if unknown or not names:
         raise InputError(
-            f"{part.name}: cannot clamp {unknown or 'nothing'}; "
+            f"{solid.name}: cannot clamp {unknown or 'nothing'}; "
             f"its interfaces: {', '.join(model.faces)}"
         )
     nodes = np.unique(np.concatenate([model.faces[name].nodes for name in names]))
@@ -77,13 +77,13 @@ def clamped_modes(
     return np.sqrt(squares) / (2.0 * np.pi), modes, model
 
 
-def clamped_frequencies(part: Part, count: int = 20, faces: Sequence[str] | None = None) -> Array:
+def clamped_frequencies(solid: Part, count: int = 20, faces: Sequence[str] | None = None) -> Array:
     """Return the lowest `count` frequencies [Hz], (count,), with the faces clamped (all bearings).
 
     Raises:
-        InputError: a face is no interface of the part, or there is none to clamp.
+        InputError: a face is no interface of the solid, or there is none to clamp.
     """
-    return clamped_modes(part, count, faces)[0]
+    return clamped_modes(solid, count, faces)[0]
 
 
 def relative_errors(frequencies: Array, published: Sequence[float]) -> Array:
@@ -94,18 +94,18 @@ def relative_errors(frequencies: Array, published: Sequence[float]) -> Array:
 
 
 def mesh_convergence(
-    part: Part, mesh_sizes: Sequence[float], count: int = 16
+    solid: Part, mesh_sizes: Sequence[float], count: int = 16
 ) -> list[ConvergenceRow]:
     """Return the clamped frequencies on ever finer meshes.
 
     Args:
-        part: with its bearings clamped.
+        solid: with its bearings clamped.
         mesh_sizes: m, from coarse to fine.
         count: number of modes.
     """
     rows = []
     for size in mesh_sizes:
-        frequencies, _, model = clamped_modes(part.replace(mesh_size=size), count)
+        frequencies, _, model = clamped_modes(solid.replace(mesh_size=size), count)
         mass = float(model.nodal_mass.sum())
         rows.append(ConvergenceRow(size, model.unknowns, mass, frequencies))
     return rows

@@ -63,23 +63,23 @@ class FullModel:
         return int(self.stiffness.shape[0])
 
 
-def full_model(part: Part) -> FullModel:
+def full_model(solid: Part) -> FullModel:
     """Mesh a part and assemble its matrices."""
-    mesh = generate_mesh(part)
+    mesh = generate_mesh(solid)
     nodes = np.array([list(point) for point in mesh.ngmesh.Points()], dtype=float)
     space = ngs.NodalFESpace(mesh, order=2)
     u, v = space.TnT()
-    nodal_mass = _assemble(space, part.material.density * u * v * ngs.dx)
+    nodal_mass = _assemble(space, solid.material.density * u * v * ngs.dx)
     # the curved elements miss the solid's volume by some 1e-5: the mass is to be the solid's
-    nodal_mass *= part.material.density * part.geometry.build().mass / nodal_mass.sum()
+    nodal_mass *= solid.material.density * solid.geometry.build().mass / nodal_mass.sum()
     faces = {
         interface.face: _face_motion(mesh, space, nodes, interface.face)
-        for interface in part.interfaces
+        for interface in solid.interfaces
     }
     return FullModel(
-        part.name,
+        solid.name,
         nodes,
-        _stiffness(mesh, part),
+        _stiffness(mesh, solid),
         nodal_mass,
         faces,
         _surface(mesh),
@@ -97,9 +97,9 @@ def rigid_motions(positions: Array, origin: Array) -> Array:
     return motions.reshape(-1, 6)
 
 
-def _stiffness(mesh: Any, part: Part) -> sp.csr_matrix:
+def _stiffness(mesh: Any, solid: Part) -> sp.csr_matrix:
     """Return the stiffness matrix, from the component-wise order of NGSolve to node by node."""
-    e, nu = part.material.youngs_modulus, part.material.poissons_ratio
+    e, nu = solid.material.youngs_modulus, solid.material.poissons_ratio
     shear, lame = e / (2.0 * (1.0 + nu)), e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
     space = ngs.NodalFESpace(mesh, order=2) ** 3
     u, v = space.TnT()
@@ -157,31 +157,31 @@ def _surface(mesh: Any) -> NDArray[np.int64]:
     ).astype(np.int64)
 
 
-def generate_mesh(part: Part) -> Any:
+def generate_mesh(solid: Part) -> Any:
     """Return an ngsolve mesh with curved second-order elements.
 
     Meshing parallel is slower on a busy machine and not reproducible, so it is off.
     """
     ngs.SetNumThreads(1)
-    shape = part.geometry.build()
+    shape = solid.geometry.build()
     known = {face.name for face in shape.faces if face.name is not None}
-    for interface in part.interfaces:
+    for interface in solid.interfaces:
         if interface.face not in known:
             raise InputError(
-                f"{part.name}: the shape has no face named {interface.face!r}; its faces are named "
-                f"{', '.join(repr(name) for name in sorted(known)) or 'nothing at all'}"
+                f"{solid.name}: the shape has no face named {interface.face!r}; its faces are "
+                f"named {', '.join(repr(name) for name in sorted(known)) or 'nothing at all'}"
             )
     try:
         with _quiet():
             geometry = OCCGeometry(shape)
-            netgen_mesh = geometry.GenerateMesh(maxh=part.mesh_size, parallel_meshing=False)
+            netgen_mesh = geometry.GenerateMesh(maxh=solid.mesh_size, parallel_meshing=False)
         tetrahedra = netgen_mesh.Elements3D()
         if len(tetrahedra) == 0:
             raise RuntimeError("no tetrahedra: is the shape a closed solid?")
         netgen_mesh.SecondOrder()
     except Exception as error:
         raise InputError(
-            f"{part.name}: meshing failed at mesh_size = {part.mesh_size:g} m ({error}); "
+            f"{solid.name}: meshing failed at mesh_size = {solid.mesh_size:g} m ({error}); "
             "try a smaller one, and check that the shape is one closed solid in m"
         ) from error
     return ngs.Mesh(netgen_mesh)

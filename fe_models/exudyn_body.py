@@ -50,7 +50,7 @@ class FlexibleBody:
     node_modes is None for a rigid body (0 modes). `virtual_nodes` are mesh node numbers by face.
     """
 
-    part: ReducedPart
+    reduced: ReducedPart
     object_number: int
     node_rigid: int
     node_modes: int | None
@@ -91,7 +91,7 @@ class FlexibleBody:
         Raises:
             InputError: the part has no such interface.
         """
-        interface = self.part.interface(face)
+        interface = self.reduced.interface(face)
         if self.node_modes is None:
             point = np.asarray(interface.centre) + np.asarray(offset, dtype=float)
             marker: Any = MarkerBodyRigid(bodyNumber=self.object_number, localPosition=list(point))
@@ -107,7 +107,7 @@ class FlexibleBody:
 
 def add_flexible_body(
     mbs: Any,
-    part: ReducedPart,
+    reduced: ReducedPart,
     *,
     position: Sequence[float] = (0.0, 0.0, 0.0),
     rotation: ArrayLike | None = None,
@@ -126,7 +126,7 @@ def add_flexible_body(
 
     Args:
         mbs: exudyn.MainSystem, not yet assembled.
-        part: from `reduced_part`; one with 0 modes becomes a rigid body.
+        reduced: from `reduced_part`; one with 0 modes becomes a rigid body.
         position: origin of the body frame, global, (3,), m.
         rotation: from the body to the global frame, (3, 3); by default the identity.
         velocity: of the body frame's origin, global components, (3,), m/s.
@@ -149,8 +149,8 @@ def add_flexible_body(
         raise InputError(
             f"rotation_parameters = {rotation_parameters!r}: must be one of {', '.join(ROTATIONS)}"
         )
-    damping = part.damping_matrix(damping_ratio)
-    start, start_t = _start(part, initial_modes), _start(part, initial_modes_t)
+    damping = reduced.damping_matrix(damping_ratio)
+    start, start_t = _start(reduced, initial_modes), _start(reduced, initial_modes_t)
     node_item = GetRigidBodyNode(
         nodeType=ROTATIONS[rotation_parameters],
         position=list(position),
@@ -160,23 +160,23 @@ def add_flexible_body(
     )
     node_item.name = f"{name} frame" if name else ""
     node = int(mbs.AddNode(node_item))
-    if part.mode_count == 0:
-        rigid = _add_rigid(mbs, part, node, color, name)
+    if reduced.mode_count == 0:
+        rigid = _add_rigid(mbs, reduced, node, color, name)
         positions = {point: position for point, (_, position) in (points or {}).items()}
-        body = FlexibleBody(part, rigid, node, None, {}, {}, positions)
+        body = FlexibleBody(reduced, rigid, node, None, {}, {}, positions)
     else:
         modes_node = int(
             mbs.AddNode(
                 NodeGenericODE2(
                     name=f"{name} modes" if name else "",
-                    numberOfODE2Coordinates=part.mode_count,
-                    referenceCoordinates=[0.0] * part.mode_count,
+                    numberOfODE2Coordinates=reduced.mode_count,
+                    referenceCoordinates=[0.0] * reduced.mode_count,
                     initialCoordinates=start,
                     initialCoordinates_t=start_t,
                 )
             )
         )
-        body = _add_flexible(mbs, part, (node, modes_node), damping, points or {}, color, name)
+        body = _add_flexible(mbs, reduced, (node, modes_node), damping, points or {}, color, name)
     if any(gravity):
         carrier = mbs.AddMarker(MarkerBodyMass(bodyNumber=body.object_number))
         mbs.AddLoad(LoadMassProportional(markerNumber=carrier, loadVector=list(gravity)))
@@ -192,16 +192,16 @@ def _parameters(rotation: ArrayLike | None, kind: str) -> list[float]:
     return [e, x, y, z]
 
 
-def _add_rigid(mbs: Any, part: ReducedPart, node: int, color: Sequence[float], name: str) -> int:
+def _add_rigid(mbs: Any, reduced: ReducedPart, node: int, color: Sequence[float], name: str) -> int:
     """Add the part as a rigid body, its reference point the frame's origin."""
-    j = part.inertia
-    graphics = FromPointsAndTrigs(part.nodes, part.triangles, color=list(color))
+    j = reduced.inertia
+    graphics = FromPointsAndTrigs(reduced.nodes, reduced.triangles, color=list(color))
     item = ObjectRigidBody(
         name=name,
         nodeNumber=node,
-        mass=part.mass,
+        mass=reduced.mass,
         inertia=[j[0, 0], j[1, 1], j[2, 2], j[1, 2], j[0, 2], j[0, 1]],
-        centerOfMass=list(part.centre_of_mass),
+        centerOfMass=list(reduced.centre_of_mass),
         visualization=VObjectRigidBody(graphicsData=[graphics]),
     )
     return int(mbs.AddObject(item))
@@ -209,7 +209,7 @@ def _add_rigid(mbs: Any, part: ReducedPart, node: int, color: Sequence[float], n
 
 def _add_flexible(
     mbs: Any,
-    part: ReducedPart,
+    reduced: ReducedPart,
     nodes: tuple[int, int],
     damping: NDArray[np.float64],
     points: Mapping[str, tuple[str, Sequence[float]]],
@@ -217,20 +217,20 @@ def _add_flexible(
     name: str,
 ) -> FlexibleBody:
     """Add the part with its modes; mesh nodes: the surface, then three for each interface."""
-    virtual = [interface.virtual_nodes() for interface in part.interfaces]
-    virtual += [part.interface(face).moved_point(position) for face, position in points.values()]
-    positions = np.vstack([part.nodes, *(points for points, _ in virtual)])
-    modes = np.vstack([part.modes, *(modes for _, modes in virtual)])
-    first = len(part.nodes)
+    virtual = [interface.virtual_nodes() for interface in reduced.interfaces]
+    virtual += [reduced.interface(face).moved_point(position) for face, position in points.values()]
+    positions = np.vstack([reduced.nodes, *(points for points, _ in virtual)])
+    modes = np.vstack([reduced.modes, *(modes for _, modes in virtual)])
+    first = len(reduced.nodes)
     numbers = {
         interface.face: list(range(first + VIRTUAL * i, first + VIRTUAL * (i + 1)))
-        for i, interface in enumerate(part.interfaces)
+        for i, interface in enumerate(reduced.interfaces)
     }
-    terms: dict[str, Any] = dict(part.couplings)
-    if len(part.stress):
-        padding = np.zeros((6 * (len(positions) - first), part.mode_count))
+    terms: dict[str, Any] = dict(reduced.couplings)
+    if len(reduced.stress):
+        padding = np.zeros((6 * (len(positions) - first), reduced.mode_count))
         # Exudyn wants one row per node and the six components of each mode side by side
-        by_node = np.vstack([part.stress, padding]).reshape(-1, 6, part.mode_count)
+        by_node = np.vstack([reduced.stress, padding]).reshape(-1, 6, reduced.mode_count)
         terms |= {
             "outputVariableModeBasis": by_node.transpose(0, 2, 1).reshape(len(by_node), -1),
             "outputVariableTypeModeBasis": exu.OutputVariableType.StressLocal,
@@ -238,25 +238,25 @@ def _add_flexible(
     item = ObjectFFRFreducedOrder(
         name=name,
         nodeNumbers=list(nodes),
-        massMatrixReduced=_container(part.mass_matrix),
-        stiffnessMatrixReduced=_container(part.stiffness_matrix),
+        massMatrixReduced=_container(reduced.mass_matrix),
+        stiffnessMatrixReduced=_container(reduced.stiffness_matrix),
         dampingMatrixReduced=_container(damping),
         modeBasis=modes,
         referencePositions=positions.ravel(),
-        mass=part.mass,
-        inertia=part.inertia,
-        centerOfMass=list(part.centre_of_mass),
+        mass=reduced.mass,
+        inertia=reduced.inertia,
+        centerOfMass=list(reduced.centre_of_mass),
         computeFFRFterms=True,
         visualization=VObjectFFRFreducedOrder(
-            triangleMesh=part.triangles, color=list(color), showNodes=False
+            triangleMesh=reduced.triangles, color=list(color), showNodes=False
         ),
         **terms,
     )
-    alone = first + VIRTUAL * len(part.interfaces)
+    alone = first + VIRTUAL * len(reduced.interfaces)
     numbered = {point: alone + i for i, point in enumerate(points)}
     point_positions = {point: position for point, (_, position) in points.items()}
     body = int(mbs.AddObject(item))
-    return FlexibleBody(part, body, nodes[0], nodes[1], numbers, numbered, point_positions)
+    return FlexibleBody(reduced, body, nodes[0], nodes[1], numbers, numbered, point_positions)
 
 
 def _container(matrix: NDArray[np.float64]) -> Any:
@@ -265,9 +265,11 @@ def _container(matrix: NDArray[np.float64]) -> Any:
     return container
 
 
-def _start(part: ReducedPart, values: ArrayLike | None) -> list[float]:
+def _start(reduced: ReducedPart, values: ArrayLike | None) -> list[float]:
     """Return initial modal values, zero by default."""
-    start = np.zeros(part.mode_count) if values is None else np.asarray(values, dtype=float)
-    if start.shape != (part.mode_count,):
-        raise InputError(f"{part.name}: {start.shape} initial modal values for {part.mode_count}")
+    start = np.zeros(reduced.mode_count) if values is None else np.asarray(values, dtype=float)
+    if start.shape != (reduced.mode_count,):
+        raise InputError(
+            f"{reduced.name}: {start.shape} initial modal values for {reduced.mode_count}"
+        )
     return [float(value) for value in start]

@@ -22,20 +22,20 @@ TURN, TILT = np.radians(-35.0), np.radians(22.0)  # of the view, about y and the
 PLAIN = (0.64, 0.70, 0.76)
 
 
-def draw_mode_shapes(part: Part, file: Path, modes: tuple[int, ...] = MODE_NUMBERS) -> None:
+def draw_mode_shapes(solid: Part, file: Path, modes: tuple[int, ...] = MODE_NUMBERS) -> None:
     """Write a picture (.png): the undeformed part and modes clamped at the bearings, by number.
 
     Colour is the size of the displacement relative to the mode's largest.
 
     Args:
-        part: is meshed here.
+        solid: is meshed here.
         file: to write.
         modes: numbers, from 1.
 
     Raises:
-        InputError: the part cannot be meshed, or has no bearing to clamp.
+        InputError: the solid cannot be meshed, or has no bearing to clamp.
     """
-    frequencies, shapes, model = clamped_modes(part, max(modes))
+    frequencies, shapes, model = clamped_modes(solid, max(modes))
     long_part = np.ptp(model.nodes[:, 2]) > 2.0 * np.ptp(model.nodes[:, :2], axis=0).max()
     view = _view(long_part)
     columns = 2 if long_part else 3
@@ -46,7 +46,7 @@ def draw_mode_shapes(part: Part, file: Path, modes: tuple[int, ...] = MODE_NUMBE
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     for axes, mode in zip(grid.flat, (0, *modes), strict=False):
         moved, level = model.nodes, None
-        title = f"{part.name}, undeformed"
+        title = f"{solid.name}, undeformed"
         if mode:
             displacement = shapes[:, mode - 1].reshape(-1, 3)
             size = np.linalg.norm(displacement, axis=1)

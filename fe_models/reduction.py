@@ -85,81 +85,81 @@ class Reduction:
         return asdict(self)
 
 
-def reduce_part(part: Part, reduction: Reduction, report: Report | None = None) -> ReducedPart:
-    """Mesh, assemble and reduce a part, whatever the cache holds.
+def reduce_part(solid: Part, reduction: Reduction, report: Report | None = None) -> ReducedPart:
+    """Mesh, assemble and reduce a solid, whatever the cache holds.
 
     Args:
-        part: to be reduced.
+        solid: to be reduced.
         reduction: how.
         report: called with (text about the progress, share done).
 
     Raises:
-        InputError: the part cannot be meshed or lacks a face, or the reduction does not fit it.
+        InputError: the solid cannot be meshed or lacks a face, or the reduction does not fit it.
     """
     from fe_models.elasticity import full_model
 
     report = report or (lambda what, share: None)
-    report(f"{part.name}: mesh and matrices", 0.0)
-    model = full_model(part)
-    report(f"{part.name}: modes of {model.unknowns} unknowns", 0.5)
-    reduced = reduce_model(part, model, reduction)
-    report(f"{part.name}: reduced", 1.0)
+    report(f"{solid.name}: mesh and matrices", 0.0)
+    model = full_model(solid)
+    report(f"{solid.name}: modes of {model.unknowns} unknowns", 0.5)
+    reduced = reduce_model(solid, model, reduction)
+    report(f"{solid.name}: reduced", 1.0)
     return reduced
 
 
-def reduce_model(part: Part, model: Any, reduction: Reduction) -> ReducedPart:
+def reduce_model(solid: Part, model: Any, reduction: Reduction) -> ReducedPart:
     """Reduce a `FullModel`."""
     from fe_models.flexibility import Statics, moved_in_plane
 
-    count = _most_modes(part, model, reduction)
+    count = _most_modes(solid, model, reduction)
     if count == 0:
         nothing = np.zeros((model.unknowns, 0))
-        return _package(part, model, reduction, np.zeros(0), nothing, np.zeros(0), np.zeros(0))
+        return _package(solid, model, reduction, np.zeros(0), nothing, np.zeros(0), np.zeros(0))
     by_error = reduction.flexibility_error is not None
     if reduction.method == "free":
         (basis, cholesky), fixed = _free_basis(model, count), np.zeros(0)
     else:
         mode_count = None if by_error else count
-        basis, fixed, cholesky = _craig_bampton_basis(part, model, mode_count)
+        basis, fixed, cholesky = _craig_bampton_basis(solid, model, mode_count)
     frequencies, modes = _orthogonalise(model, basis, basis.shape[1] if by_error else count)
-    rows = interface_rows(part, model)
+    rows = interface_rows(solid, model)
     statics = Statics(model, rows, cholesky)
-    motions = [motion for interface in part.interfaces for motion in interface.motions]
+    motions = [motion for interface in solid.interfaces for motion in interface.motions]
     loaded = np.array([motion in reduction.loads for motion in motions], dtype=bool)
     carried = statics.work_shares(rows @ modes, frequencies, loaded)
     selected = list(range(len(frequencies)))
     if reduction.flexibility_error is not None:
-        selected = statics.needed_modes(carried, reduction.flexibility_error, part.name)
+        selected = statics.needed_modes(carried, reduction.flexibility_error, solid.name)
     elif set(reduction.loads) <= PLANE:
         outward = model.mass @ (model.nodes * (1.0, 1.0, 0.0)).ravel()
         selected = moved_in_plane(carried, frequencies, outward @ modes)
     frequencies, modes, carried = frequencies[selected], modes[:, selected], carried[:, selected]
     exact, remaining_error = np.diag(statics.flexibility), statics.error(carried)
-    return _package(part, model, reduction, frequencies, modes, fixed, exact, remaining_error)
+    return _package(solid, model, reduction, frequencies, modes, fixed, exact, remaining_error)
 
 
-def interface_rows(part: Part, model: Any) -> sp.csr_matrix:
+def interface_rows(solid: Part, model: Any) -> sp.csr_matrix:
     """Return C (m, 3n): the loaded mean motions of all interfaces."""
     rows = [
         model.faces[interface.face].rows[[MOTIONS.index(motion)]]
-        for interface in part.interfaces
+        for interface in solid.interfaces
         for motion in interface.motions
     ]
     return sp.csr_matrix(sp.vstack(rows) if rows else (0, model.unknowns))
 
 
-def _most_modes(part: Part, model: Any, reduction: Reduction) -> int:
+def _most_modes(solid: Part, model: Any, reduction: Reduction) -> int:
     """Return the number of modes to compute; refuse more than the mesh has, and a loose body."""
-    rows = sum(len(interface.motions) for interface in part.interfaces)
+    rows = sum(len(interface.motions) for interface in solid.interfaces)
     most = int(model.unknowns - max(rows, 6) - 1)
     if reduction.modes is not None and reduction.modes > most:
         raise InputError(
-            f"{part.name}: modes = {reduction.modes}: this mesh of {model.unknowns} "
+            f"{solid.name}: modes = {reduction.modes}: this mesh of {model.unknowns} "
             f"unknowns has at most {most}"
         )
-    if reduction.modes != 0 and reduction.method == "craig_bampton" and not part.bearings:
+    if reduction.modes != 0 and reduction.method == "craig_bampton" and not solid.bearings:
         raise InputError(
-            f"{part.name}: the Craig-Bampton reduction needs an interface with all six motions; "
+            f"{solid.name}: the Craig-Bampton reduction needs an interface with all six motions; "
             'add one, or use method = "free"'
         )
     return min(MOST_MODES, most) if reduction.modes is None else reduction.modes
@@ -179,7 +179,7 @@ def _free_basis(model: Any, count: int) -> tuple[Array, Any]:
     return modes, solver.cholesky
 
 
-def _craig_bampton_basis(part: Part, model: Any, count: int | None) -> tuple[Array, Array, Any]:
+def _craig_bampton_basis(solid: Part, model: Any, count: int | None) -> tuple[Array, Array, Any]:
     """Return the static and the lowest fixed-interface modes, and the latter's frequencies [Hz].
 
     Without a count, deformations by accelerations of the body between fixed interfaces replace the
@@ -188,7 +188,7 @@ def _craig_bampton_basis(part: Part, model: Any, count: int | None) -> tuple[Arr
     from fe_models.elasticity import rigid_motions
     from fe_models.saddle import SaddleSolver, lowest_modes
 
-    solver = SaddleSolver(model, interface_rows(part, model))
+    solver = SaddleSolver(model, interface_rows(solid, model))
     rigid = solver.rigid_motion
     directions, _ = np.linalg.qr(rigid, mode="complete")
     static = np.column_stack(
@@ -238,7 +238,7 @@ def _signs(modes: Array) -> Array:
 
 
 def _package(
-    part: Part,
+    solid: Part,
     model: Any,
     reduction: Reduction,
     frequencies: Array,
@@ -258,7 +258,7 @@ def _package(
     mass = float(weights.sum())
     squares = model.nodes.T @ (model.nodal_mass @ model.nodes)
     interfaces = []
-    for interface in part.interfaces:
+    for interface in solid.interfaces:
         face = model.faces[interface.face]
         motion = np.asarray(face.rows @ modes)
         arm = float(np.abs(model.nodes[face.nodes] - face.centre).max())
@@ -275,10 +275,10 @@ def _package(
         )
     stress = np.zeros((0, count))
     if reduction.stress:
-        stress = nodal_stress(model, part.material, by_node)[surface]
+        stress = nodal_stress(model, solid.material, by_node)[surface]
         stress = stress.reshape(6 * len(surface), count)
     return ReducedPart(
-        name=part.name,
+        name=solid.name,
         method=reduction.method,
         mass=mass,
         centre_of_mass=weights @ model.nodes / mass,
@@ -297,7 +297,7 @@ def _package(
         meta={
             "unknowns": model.unknowns,
             "tetrahedra": len(model.elements),
-            "motions": [[i.face, motion] for i in part.interfaces for motion in i.motions],
+            "motions": [[i.face, motion] for i in solid.interfaces for motion in i.motions],
             "flexibility_error": flexibility_error,
         },
     )

@@ -18,7 +18,7 @@ behind along across into onto from of by to with as like held met gone begun dra
 taken thrown worn made sent set cut let heard felt built bent spent lost won"""
 NOUNS = {"speed", "seed", "feed", "need", "bed", "shed"}
 ALLOWED = {  # by the beginning of a path
-    "fe_models/": ("part", "Part"),  # the body that is meshed
+    "fe_models/": ("Part",),  # of the public interface
     "exu_press/result/": ("place", "completed"),  # of files, and of the public interface
     "exu_press/scene/table_load.py": ("over",),  # likewise, of loads
     "exu_press/studies/": ("way",),  # of study files

@@ -56,6 +56,8 @@ class SolverTuning:
         first_step: over the largest one, without films.
         first_step_of_film: the same with a film, which takes up its load within a microsecond or
             so: a longer step leaves an overshoot of 3 % in the first loads.
+        shortest_first: a first step, at least, over the shortest one: it can be repeated with
+            smaller ones.
         velocity_constant: of generalized-alpha's local error h^3 times the second derivative of the
             acceleration: 0.083 to 0.077 for spectral radii at infinity of 1 to 0.8, doubled.
         rounding: of positions and speeds, over the largest one, in each step: times 1 / (1 -
@@ -103,6 +105,7 @@ class SolverTuning:
     factor_min: float = 0.05
     first_step: float = 1.0 / 64.0
     first_step_of_film: float = 1e-4
+    shortest_first: float = 10.0
 
     velocity_constant: float = 2.0 / 12.0
     rounding: float = 4e-15
@@ -169,7 +172,7 @@ class Task:
         self.largest = largest = (self.end - self.start) / integration.numberOfSteps
         self.usual = scales.step or largest
         self.smallest = integration.minimumStepSize
-        self.shortest_first = room = 10.0 * self.smallest
+        self.shortest_first = room = tuning.shortest_first * self.smallest
         if self.fixed:
             self.smallest = largest / MOST_HALVED
             self.first = max(2.0 * self.smallest, room) if system.has_film else largest

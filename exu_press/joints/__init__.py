@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from exu_press.lazy import lazy_names
+from fe_models.lazy import lazy_names
 
 if TYPE_CHECKING:
     from exu_press.joints.add import (
@@ -41,16 +41,4 @@ __all__ = [
     "user_force_of",
 ]
 
-__getattr__ = lazy_names(
-    __name__,
-    {
-        "add": "add_dry_revolute add_dry_spherical add_guideway_contact add_guideway_film "
-        "add_joint_sensor add_lubricated_revolute add_lubricated_spherical add_revolute",
-        "compiled": "COMPILED",
-        "ends": "FlexiblePoint",
-        "history": "JointHistory",
-        "joint": "ClearanceJoint JointState",
-        "states": "States",
-        "user_force": "holds_joints user_force_of",
-    },
-)
+__getattr__ = lazy_names(__name__)

@@ -6,9 +6,10 @@ A law is loaded when a scene has it.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from importlib import import_module
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
+
+from exu_press.lazy import load_object
 
 if TYPE_CHECKING:
     from exu_press.laws.film.contract import FilmLaw
@@ -55,7 +56,7 @@ class FilmEntry:
 
 
 def _load(module: str, function: str) -> Callable[..., Any]:
-    loaded: Callable[..., Any] = getattr(import_module(f"exu_press.laws.film.{module}"), function)
+    loaded: Callable[..., Any] = load_object(f"laws.film.{module}:{function}")
     return loaded
 
 

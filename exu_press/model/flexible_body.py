@@ -206,9 +206,9 @@ def joint_end(body: FlexibleBody, placed: PlacedPart, joint: Joint, point: Point
     if further:
         raise InputError(
             f"joints.{joint.name}: holds {1 + len(further)} faces of the flexible "
-            f"{body.part.name}; allowed is 'ideal'"
+            f"{body.reduced.name}; allowed is 'ideal'"
         )
-    interface = body.part.interface(face)
+    interface = body.reduced.interface(face)
     centre = np.array([*placed.to_solid(point), _height(placed, joint, face)])
     if body.node_modes is None:
         return body.object_number, centre
@@ -230,7 +230,7 @@ def hold_pivot(
     faces = placed.faces[joint.name]
     numbers = {}
     for number, face in enumerate(faces):
-        height = float(body.part.interface(face).centre[2])
+        height = float(body.reduced.interface(face).centre[2])
         seat = mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=[*joint.at, height]))
         ends = [body.add_point_marker(mbs, point_name(joint.name, number)), seat]
         name = joint.name if len(faces) == 1 else f"{joint.name}_{number + 1}"

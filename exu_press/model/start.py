@@ -82,8 +82,8 @@ def deformed_start(
 
 def _refuse_too_compliant(scene: Scene, name: str, body: "FlexibleBody", modes: Array) -> None:
     """Refuse a body whose deformation is not small, or not a number, for its modal coordinates."""
-    shift = np.linalg.norm((body.part.modes @ modes).reshape(-1, 3), axis=1).max(initial=0.0)
-    share = shift / float(np.ptp(body.part.nodes, axis=0).max())
+    shift = np.linalg.norm((body.reduced.modes @ modes).reshape(-1, 3), axis=1).max(initial=0.0)
+    share = shift / float(np.ptp(body.reduced.nodes, axis=0).max())
     if not share <= SMALL:
         modulus = scene.bodies[name].youngs_modulus
         than = "" if modulus is None else f" than {modulus:g} Pa"

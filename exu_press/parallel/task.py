@@ -16,6 +16,7 @@ from typing import Any
 from exu_press.errors import InputError
 from exu_press.installation.versions import version_of
 from fe_models.errors import disk_full
+from fe_models.lazy import named_object
 
 __all__ = [
     "COMPLETED",
@@ -25,7 +26,6 @@ __all__ = [
     "Function",
     "Row",
     "Task",
-    "function_of",
     "name_of",
     "row_of",
     "row_of_task",
@@ -122,13 +122,6 @@ def name_of(function: Function) -> str:
     return f"{module}:{name}"
 
 
-def function_of(name: str) -> Function:
-    """Return the function of "module:name"."""
-    module, _, inner = name.partition(":")
-    function: Function = getattr(import_module(module), inner)
-    return function
-
-
 def row_of_task(task: Task, only_imports: bool = False) -> Row:
     """Return a task's row, in a worker.
 
@@ -138,7 +131,7 @@ def row_of_task(task: Task, only_imports: bool = False) -> Row:
     try:
         for module in task.modules:
             import_module(module)
-        function = function_of(task.function)
+        function: Function = named_object(task.function)
     except Exception as error:
         names = ", ".join((task.function, *task.modules))
         raise InputError(

@@ -3,8 +3,9 @@
 Names are loaded on first access: the picture of a mechanism needs no result, and so no Exudyn.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from fe_models.lazy import lazy_names
 
 if TYPE_CHECKING:
     from exu_press.plots.drawing import drawing_figure
@@ -26,10 +27,4 @@ __all__ = [
     "slider_figure",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    """Load a public name from the module that is named as it is."""
-    if name not in __all__:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    home = "save" if name.startswith("save_") else name.removesuffix("_figure")
-    return getattr(import_module(f"{__name__}.{home}"), name)
+__getattr__ = lazy_names(__name__)

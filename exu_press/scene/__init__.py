@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from exu_press.lazy import lazy_names
 from exu_press.schema.checks import key
+from fe_models.lazy import lazy_names
 
 if TYPE_CHECKING:
     from exu_press.scene.blanking_load import BlankingLoad
@@ -50,25 +50,4 @@ __all__ = [
     "parse_assignment",
 ]
 
-__getattr__ = lazy_names(
-    __name__,
-    {
-        "bodies": "Face Flexible flexible_press",
-        "contact": "ContactDamping",
-        "custom": "CustomJoint",
-        "file": "parse_assignment",
-        "film": "FilmLaw",
-        "friction": "FrictionLaw",
-        "guide": "ElasticGuide",
-        "joint": "DryJoint IdealJoint LubricatedJoint",
-        "joints": "Joints",
-        "blanking_load": "BlankingLoad",
-        "load": "CustomLoad",
-        "sheet_load": "SheetLoad",
-        "spring_load": "SpringLoad",
-        "table_load": "TableLoad",
-        "motor": "Motor",
-        "scene": "Scene mechanism_of",
-        "solver": "Solver",
-    },
-)
+__getattr__ = lazy_names(__name__)

@@ -33,7 +33,7 @@ def changed_keys(
     Args:
         scene: as `Scene.to_dict` has it; its tables may be changed.
         groups: names for several joints at once -> these joints.
-        changes: dotted name -> value.
+        changes: dotted name -> value; None leaves out what the scene has.
 
     Raises:
         InputError: a name is in no table of a scene.
@@ -71,6 +71,10 @@ def changed_keys(
         data["joints"] = changed_joints(data["joints"], groups, joints)
     elif joints:
         raise InputError("joints and a key of joints: allowed is one of the two in one change")
+    for name in (name for name, value in changes.items() if value is None):
+        for path in _member_names(name, groups):
+            if _has(scene, path):
+                drop(data, path)
     return data
 
 
@@ -113,11 +117,7 @@ def gives_key(name: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping
         changes: dotted name -> value; a table may be given whole.
     """
     for changed, value in changes.items():
-        first, _, rest = changed.partition(".")
-        joint, _, inner = rest.partition(".")
-        for member in groups.get(joint, (joint,)) if first == "joints" and rest else ("",):
-            parts = ["joints", member, *([inner] if inner else [])] if member else [changed]
-            path = ".".join(parts)
+        for path in _member_names(changed, groups):
             if name == path or path.startswith(f"{name}."):
                 return True
             if name.startswith(f"{path}.") and _has(value, name.removeprefix(f"{path}.")):
@@ -133,6 +133,15 @@ def drop(data: dict[str, Any], name: str) -> None:
         return
     data[first] = given_keys(data[first])
     drop(data[first], rest)
+
+
+def _member_names(name: str, groups: Mapping[str, tuple[str, ...]]) -> list[str]:
+    """Return a dotted name, with the members of a group of joints in its place."""
+    first, _, rest = name.partition(".")
+    joint, dot, inner = rest.partition(".")
+    if first != "joints" or joint not in groups:
+        return [name]
+    return [f"joints.{member}{dot}{inner}" for member in groups[joint]]
 
 
 def _has(value: Any, name: str) -> bool:

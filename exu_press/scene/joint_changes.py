@@ -45,7 +45,7 @@ def changed_joints(
         for member in groups.get(name, (name,)):
             keys = changed.setdefault(member, {})
             if not inner and not isinstance(value, str):
-                changed[member] = joint_keys(name, value)
+                changed[member] = {} if value is None else joint_keys(name, value)
             elif not last:
                 keys[key or "kind"] = value
             elif key in TABLES_OF_JOINTS and isinstance(keys.setdefault(key, {}), dict):

@@ -1,8 +1,9 @@
 """The studies by the names of their commands; a study's module is imported when it is named."""
 
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from fe_models.lazy import named_object
 
 if TYPE_CHECKING:
     from exu_press.studies.base.command import StudyCommand
@@ -33,8 +34,7 @@ def study_command(name: str) -> "type[StudyCommand] | None":
         InputError: what a distribution registers is no such class.
     """
     if name in STUDIES:
-        module, _, inside = STUDIES[name].partition(":")
-        return getattr(import_module(module), inside)  # type: ignore[no-any-return]
+        return named_object(STUDIES[name])  # type: ignore[no-any-return]
     from exu_press.schema.registered import registered_class  # seldom needed
     from exu_press.studies.base.command import StudyCommand
 

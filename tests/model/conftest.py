@@ -1,8 +1,8 @@
 """STEP files that these tests write are sound: they are read in the process of the tests."""
 
-from importlib import import_module
-
 import pytest
+
+from fe_models.lazy import named_object
 
 
 @pytest.fixture(scope="module")
@@ -10,9 +10,8 @@ def sound_files():
     """Start no children: each costs as much as a short run."""
 
     def here(_, function, *arguments, report=None):
-        module, _, name = function.partition(":")
         reports = [] if report is None else [report]
-        return getattr(import_module(module), name)(*arguments, *reports)
+        return named_object(function)(*arguments, *reports)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("fe_models.geometry.StepFile.in_child", here)

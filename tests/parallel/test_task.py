@@ -6,7 +6,8 @@ import batch_functions
 import pytest
 
 from exu_press.parallel import task
-from exu_press.parallel.task import function_of, name_of, source_digest, task_of, versions
+from exu_press.parallel.task import name_of, source_digest, task_of, versions
+from fe_models.lazy import named_object
 
 
 def test_the_key_is_of_function_arguments_and_versions(monkeypatch):
@@ -26,7 +27,7 @@ def test_the_key_is_of_function_arguments_and_versions(monkeypatch):
 
 
 def test_a_name_leads_back_to_its_function():
-    assert function_of(name_of(batch_functions.digits)) is batch_functions.digits
+    assert named_object(name_of(batch_functions.digits)) is batch_functions.digits
 
 
 def test_what_a_worker_cannot_import_is_refused():

@@ -82,7 +82,7 @@ def energy_and_momenta(mbs, body, model, modes):
     positions = place + local @ turn.T
     velocities = speed + (np.cross(spin, local) + (modes @ q_t).reshape(-1, 3)) @ turn.T
     momenta = model.nodal_mass @ velocities
-    strain = 0.5 * ((2 * np.pi * body.part.frequencies * q) ** 2).sum()
+    strain = 0.5 * ((2 * np.pi * body.reduced.frequencies * q) ** 2).sum()
     energy = 0.5 * (velocities * momenta).sum() + strain
     return energy, momenta.sum(axis=0), np.cross(positions, momenta).sum(axis=0)
 

@@ -7,6 +7,7 @@ import pytest
 from exu_press import InputError, Scene
 
 PRESS = Scene()
+TABLE_LOAD = {"kind": "table", "time": [0.0, 1.0], "force": [0.0, 1.0]}
 
 
 def test_what_a_change_names_is_replaced_and_all_else_is_kept():
@@ -132,10 +133,32 @@ def test_a_typo_in_any_part_of_a_key_names_the_nearest_one(key, near):
         Scene(mechanism="slider_crank").replace({key: 0.1})
 
 
-def test_a_load_that_is_none_is_left_out():
-    load = {"kind": "table", "time": [0.0, 1.0], "force": [0.0, 1.0]}
-    scene = Scene(load={"cushion": load, "ejector": load})
-    assert set(scene.replace({"load.cushion": None}).load) == {"ejector"}
+@pytest.mark.parametrize(
+    ("change", "remaining"),
+    [
+        ("load.cushion", {"load": {"ejector": TABLE_LOAD}}),
+        ("load", {"load": {}}),
+        ("bodies.crank", {"bodies": {"linkage": "linkage"}}),
+        ("bodies", {"bodies": {}}),
+        ("joints.balls", {"joints": {"crank_pin": "lubricated"}}),
+        ("speed_rpm", {"speed_rpm": Scene().speed_rpm}),
+        ("film.law", {"film": {}}),
+    ],
+)
+def test_what_is_none_is_left_out(change, remaining):
+    tables = {
+        "speed_rpm": 100.0,
+        "load": {"cushion": TABLE_LOAD, "ejector": TABLE_LOAD},
+        "bodies": {"crank": "crank", "linkage": "linkage"},
+        "joints": {"crank_pin": "lubricated", "balls": "dry"},
+        "film": {"law": "short"},
+    }
+    assert Scene(**tables).replace({change: None}) == Scene(**{**tables, **remaining})
+
+
+def test_a_body_that_is_not_there_cannot_be_left_out():
+    with pytest.raises(InputError, match=r"bodies.cranc .*allowed are crank"):
+        Scene().replace({"bodies.cranc": None})
 
 
 @pytest.mark.parametrize(

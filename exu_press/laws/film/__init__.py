@@ -5,7 +5,7 @@ Names are loaded on first access.
 
 from typing import TYPE_CHECKING
 
-from exu_press.lazy import lazy_names
+from fe_models.lazy import lazy_names
 
 if TYPE_CHECKING:
     from exu_press.laws.film.asperities import pad_with_asperities, with_asperities
@@ -33,15 +33,4 @@ __all__ = [
     "with_asperities",
 ]
 
-__getattr__ = lazy_names(
-    __name__,
-    {
-        "asperities": "pad_with_asperities with_asperities",
-        "ball": "BallFilm socket_drag",
-        "contract": "FilmForce FilmLaw dissipated_power film_scale",
-        "finite_bearing": "finite",
-        "long_bearing": "pi_film pinkus",
-        "plane_pad": "PadFilm PadLaw",
-        "short_bearing": "short",
-    },
-)
+__getattr__ = lazy_names(__name__)

@@ -4,7 +4,6 @@ import shlex
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -14,6 +13,7 @@ from exu_press.scene import Scene
 from exu_press.scene.warnings import scene_warnings
 from exu_press.schema.csv_table import Value, write_csv
 from exu_press.terminal.columns import columns
+from fe_models.lazy import named_object
 
 __all__ = [
     "FORMAT",
@@ -91,8 +91,7 @@ class Picture:
 
     def draw(self, report: "Report") -> Any:
         """Return the figure."""
-        module, _, name = self.function.partition(":")
-        return getattr(import_module(module), name)(report, *self.arguments)
+        return named_object(self.function)(report, *self.arguments)
 
 
 @dataclass(frozen=True)

@@ -109,7 +109,7 @@ def check_drawing(
         raise InputError("bodies: none; allowed is at least the crank")
     _check_unique("bodies", names)
     _check_unique("joints", [joint.name for joint in joints])
-    _check_unique("guides", [guide.body for guide in guides])
+    _check_unique("guides", [guide.name for guide in guides])
     _check_unique("gears", [gear.name for gear in gears])
     for name, what in RESERVED.items():
         if name in names:
@@ -123,10 +123,15 @@ def check_drawing(
             _check_positive(f"{where}.inertia", body.inertia, "kg m^2")
     for joint in joints:
         _check_joint(joint, names)
-        _check_channels(joint.name, names)
+        _check_channels(joint.name, [*names, *(guide.name for guide in guides)])
     for guide in guides:
-        _check_known(f"guides.{guide.body}", guide.body, names)
-        _check_direction(f"guides.{guide.body}.direction", guide.direction)
+        _check_known(f"{guide.key}.body", guide.body, names)
+        _check_known(f"{guide.key}.on", guide.on, [*names, GROUND])
+        if guide.on == guide.body:
+            raise InputError(
+                f"{guide.key}: guides {guide.body!r} on itself; allowed are two bodies"
+            )
+        _check_direction(f"{guide.key}.direction", guide.direction)
     _check_known("crank", crank, names)
     _check_known("output.body", output.body, names)
     _check_direction("output.direction", output.direction)
@@ -134,6 +139,7 @@ def check_drawing(
     for guide in guides:
         if (
             guide.body == output.body
+            and guide.on_frame
             and abs(_cosine(guide.direction, output.direction)) < PERPENDICULAR
         ):
             raise InputError(
@@ -187,7 +193,9 @@ def _check_connections(
     bodies: Sequence[Body], joints: Sequence[Joint], guides: Sequence[Guide], crank: str
 ) -> None:
     """Refuse bodies on nothing, rods without two ends, and a crank that is not in the frame."""
-    guided = {guide.body for guide in guides}
+    pairs = [guide.bodies for guide in guides]
+    guided = {name for pair in pairs for name in pair}
+    moves_guides = any(crank in pair and GROUND not in pair for pair in pairs)
     size = drawing_size(joints)
     for body in bodies:
         ends = (joint.at for joint in joints if body.name in (joint.journal, joint.bearing))
@@ -199,17 +207,18 @@ def _check_connections(
                 f"bodies.{body.name}.inertia: missing; allowed is a number > 0 (kg m^2): only a "
                 f"body with joints in two places is a uniform rod, this one has {len(points)}"
             )
-    pairs = [{joint.journal, joint.bearing} for joint in joints]
-    if not any(crank in pair and GROUND not in pair for pair in pairs):
+    is_guided = {crank, GROUND} in pairs
+    pairs = [joint.bodies for joint in joints]
+    if not (moves_guides or any(crank in pair and GROUND not in pair for pair in pairs)):
         raise InputError(f"crank = {crank!r}: has no joint with another body, which it could move")
-    shafts = pairs.count({crank, GROUND})
-    if shafts != 1 or crank in guided:
+    shafts = pairs.count(frozenset((crank, GROUND)))
+    if shafts != 1 or is_guided:
         raise InputError(
             f"crank = {crank!r}: has {shafts} joints with the {GROUND}"
-            f"{' and a guide' if crank in guided else ''}; allowed is one joint, its shaft"
+            f"{' and a guide' if is_guided else ''}; allowed is one joint, its shaft"
         )
     pins = (joint.at for joint in joints if crank in (joint.journal, joint.bearing))
-    if len(distinct_points(pins, size)) == 1:
+    if len(distinct_points(pins, size)) == 1 and not moves_guides:
         raise InputError(
             f"crank = {crank!r}: all of its joints lie on its shaft, so that it moves nothing; "
             "allowed is a joint beside the shaft"

@@ -54,7 +54,7 @@ class Examination:
 
     @property
     def wrong_guides(self) -> tuple[str, ...]:
-        """Names of the bodies whose guide is one constraint too many."""
+        """Names of the guides that are one constraint too many."""
         return self._overconstraining("guides")
 
     @property
@@ -87,7 +87,7 @@ class Examination:
     def _holding(self, body: str) -> list[str]:
         """Return the names of the joints, guides and gears of a body."""
         joints = [f"joints.{joint.name}" for joint in self.mechanism.joints_of(body)]
-        joints += [f"guides.{g.body}" for g in self.mechanism.guides if g.body == body]
+        joints += [g.key for g in self.mechanism.guides if body in g.bodies]
         gears = self.mechanism.gears
         return joints + [f"gears.{g.name}" for g in gears if body in (g.body, g.to)]
 

@@ -34,7 +34,7 @@ from typing import Any
 from exu_press.errors import InputError, error_prefix
 from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.mechanism import Mechanism
-from exu_press.mechanism.parts import Body, Guide, Joint, Output
+from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output
 from exu_press.schema.checks import as_float, nearest, refuse_unknown
 from exu_press.schema.toml import read_toml, toml_text
 
@@ -57,7 +57,7 @@ SHIPPED = tuple(sorted(path.stem for path in FILES.glob("*.toml")))
 SECTIONS: dict[str, tuple[type, tuple[str, ...], tuple[str, ...]]] = {
     "bodies": (Body, ("centre_of_mass", "mass"), ("inertia", "angle")),
     "joints": (Joint, ("at", "journal", "bearing"), ("shape",)),
-    "guides": (Guide, ("direction",), ()),
+    "guides": (Guide, ("direction",), ("body", "on")),
     "gears": (Gear, ("body", "ratio"), ("to",)),
 }
 """Section of the file -> class of its tables, their required keys, their optional keys."""
@@ -233,6 +233,11 @@ def _value(value: Any) -> Any:
 
 
 def _plain(item: Any, required: tuple[str, ...], optional: tuple[str, ...]) -> dict[str, Any]:
-    """Return the keys of a body, joint, guide or output, points as lists."""
+    """Return the keys of a body, joint, guide or output that a file needs, points as lists."""
+    implied = {"body": getattr(item, "name", None), "on": GROUND}
     values = {key: getattr(item, key) for key in required + optional}
-    return {key: [*v] if isinstance(v, tuple) else v for key, v in values.items()}
+    return {
+        key: [*value] if isinstance(value, tuple) else value
+        for key, value in values.items()
+        if key in required or value not in (None, implied.get(key))
+    }

@@ -66,8 +66,8 @@ class IndependentConstraints:
             guide, along x or y.
         joints: names of the other ideal joints that hold both directions.
         single_axis: name of an ideal joint that holds one direction -> that constraint.
-        guides: name of a body that is not sliding -> whether its guide holds it along the normal,
-            and its angle.
+        guides: name of a guide, but those of sliding bodies -> whether it holds its body along the
+            normal, and its angle.
         redundant: names of joints and guides of which a constraint is omitted.
         gears: names of the gears that hold.
         undetermined: names, as "joints.NAME", of constraints that gears stress against each other.
@@ -101,24 +101,24 @@ def independent_constraints(mechanism: Mechanism, ideal: frozenset[str]) -> Inde
     pivots = _pivots(mechanism, ideal)
     joints = [j for j in mechanism.joints if j.name in ideal and j not in pivots.values()]
     guides = {
-        guide.body: (first.guided[guide.body, "normal"], first.guided[guide.body, "angle"])
+        guide.name: (first.guided[guide.name, "normal"], first.guided[guide.name, "angle"])
         for guide in mechanism.guides
     }
-    sliding_bodies = frozenset(
-        guide.body
+    sliding = {
+        guide.name: guide.body
         for guide in mechanism.guides
-        if all(guides[guide.body]) and 0.0 in guide.direction
-    )
+        if guide.on_frame and all(guides[guide.name]) and 0.0 in guide.direction
+    }
     selected = IndependentConstraints(
         pivots=pivots,
-        sliding_bodies=sliding_bodies,
+        sliding_bodies=frozenset(sliding.values()),
         joints=tuple(joint.name for joint in joints if len(first.directions[joint.name]) == 2),
         single_axis={
             joint.name: _single_axis(joint, first, second)
             for joint in joints
             if len(first.directions[joint.name]) == 1
         },
-        guides={body: held for body, held in guides.items() if body not in sliding_bodies},
+        guides={name: held for name, held in guides.items() if name not in sliding},
         redundant=first.redundant,
         gears=first.gears,
         undetermined=first.stressed_by_gears() & second.stressed_by_gears(),
@@ -135,12 +135,17 @@ def independent_constraints(mechanism: Mechanism, ideal: frozenset[str]) -> Inde
 
 
 def with_all_coordinates(
-    constraints: IndependentConstraints, bodies: frozenset[str]
+    constraints: IndependentConstraints, mechanism: Mechanism, bodies: frozenset[str]
 ) -> IndependentConstraints:
     """Return constraints where pivots and guides of some bodies are constraints of coordinates."""
     pivots = {body: joint for body, joint in constraints.pivots.items() if body not in bodies}
     joints = [joint.name for body, joint in constraints.pivots.items() if body in bodies]
-    guides = dict.fromkeys(constraints.sliding_bodies & bodies, (True, True))
+    guides = {
+        guide.name: (True, True)
+        for guide in mechanism.guides
+        if guide.body in constraints.sliding_bodies & bodies
+        and guide.name not in constraints.guides
+    }
     return replace(
         constraints,
         pivots=pivots,
@@ -156,7 +161,7 @@ class _Selection:
     Attributes:
         angles: of the bodies there, rad.
         directions: name of an ideal joint -> unit vectors that it constrains, none to two.
-        guided: (body, "normal" or "angle") -> whether its guide constrains it.
+        guided: (name of a guide, "normal" or "angle") -> whether it constrains that.
         gears: names of gears that are not redundant.
         redundant: names of joints, guides and gears with a redundant constraint.
         redundant_unguided: names of such joints whose bodies no parallel guides hold.
@@ -174,7 +179,7 @@ class _Selection:
         self.directions: dict[str, list[Array]] = {}
         self.guided: dict[tuple[str, str], bool] = {}
         redundant: dict[str, None] = {}
-        guides = {guide.body: guide for guide in mechanism.guides if guide.holds_across}
+        guides = {g.body: g for g in mechanism.guides if g.on_frame and g.holds_across}
         joints = [joint for joint in mechanism.joints if joint.name in ideal]
         pivots = list(_pivots(mechanism, ideal).values())
         parallel = {joint.name: _common_direction(joint, guides) for joint in joints}
@@ -182,9 +187,9 @@ class _Selection:
         for joint in pivots:
             self.directions[joint.name] = self._add_joint(joint, np.eye(2))
         for guide in mechanism.guides:
-            normal = self._rows[f"guides.{guide.body}"][:1]
+            normal = self._rows[guide.key][:1]
             is_held = guide.holds_across and bool(self._add_independent(normal))
-            self.guided[guide.body, "normal"] = is_held
+            self.guided[guide.name, "normal"] = is_held
         for joint in joints:
             if joint not in pivots:
                 along = parallel[joint.name]
@@ -202,11 +207,11 @@ class _Selection:
         )
         redundant |= dict.fromkeys(g.name for g in mechanism.gears if g.name not in self.gears)
         for guide in mechanism.guides:
-            angle = self._rows[f"guides.{guide.body}"][1:]
+            angle = self._rows[guide.key][1:]
             is_held = guide.holds_angle and bool(self._add_independent(angle))
-            self.guided[guide.body, "angle"] = is_held
-            if guide.holds_angle and not (is_held and self.guided[guide.body, "normal"]):
-                redundant[guide.body] = None
+            self.guided[guide.name, "angle"] = is_held
+            if guide.holds_angle and not (is_held and self.guided[guide.name, "normal"]):
+                redundant[guide.name] = None
         for joint in joints:
             along = parallel[joint.name]
             if along is not None:
@@ -264,8 +269,8 @@ class _Selection:
             elif joint.name in constraints.joints or joint in constraints.pivots.values():
                 rows += [*both]
         for guide in self._mechanism.guides:
-            is_held = np.array(guides[guide.body])
-            rows += [*self._rows[f"guides.{guide.body}"][is_held]]
+            is_held = np.array(guides[guide.name])
+            rows += [*self._rows[guide.key][is_held]]
         rows += [row for gear in constraints.gears for row in self._rows[f"gears.{gear}"]]
         matrix = np.array(rows)
         return float(np.linalg.slogdet(matrix)[0]) if len(rows) == matrix.shape[1] else 0.0

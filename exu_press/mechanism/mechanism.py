@@ -39,7 +39,7 @@ class Mechanism:
         name: for messages and pictures.
         bodies: in the order of the result's body channels.
         joints: ideal or with clearance, as a scene says.
-        guides: in the frame.
+        guides: in the frame, or between moving bodies.
         gears: between two bodies' rotations.
         crank: name of the driven body.
         output: whose motion the result's slider channels record.
@@ -136,12 +136,20 @@ class Mechanism:
 
     @property
     def crank_radius(self) -> float:
-        """Largest distance of the crank's joints from its shaft, m."""
-        return max(self.crank_pins.values())
+        """Largest distance of the crank's joints from its shaft, m; its size where it has none."""
+        return max(self.crank_pins.values(), default=self.size)
 
     def body(self, name: str) -> Body:
         """Return a body by its name."""
         return next(body for body in self.bodies if body.name == name)
+
+    def guide(self, name: str) -> Guide:
+        """Return a guide by its name."""
+        return next(guide for guide in self.guides if guide.name == name)
+
+    def frame_guide(self, body: str) -> Guide | None:
+        """Return the guide of the frame that holds a body, or None."""
+        return next((g for g in self.guides if g.body == body and g.on_frame), None)
 
     def joints_of(self, body: str) -> list[Joint]:
         """Return the joints of a body."""
@@ -156,8 +164,10 @@ class Mechanism:
         return journal, bearing
 
     def points(self, body: str) -> list[Point]:
-        """Return the positions of a body's joints in its frame, m."""
-        return [point for joint in self.joints for name, point in self.ends(joint) if name == body]
+        """Return the positions of a body's joints, and of its centre in a moving guide, m."""
+        points = [point for j in self.joints for name, point in self.ends(j) if name == body]
+        slides = any(guide.body == body and not guide.on_frame for guide in self.guides)
+        return [*points, (0.0, 0.0)] if slides else points
 
     def require_turning(self) -> None:
         """Raise InputError unless the crank turns through a whole revolution; see `motion`."""
@@ -191,7 +201,7 @@ class Mechanism:
 
         None where there are none: the output is in no guide, or reverses more than twice.
         """
-        if not any(guide.body == self.slider for guide in self.guides):
+        if self.frame_guide(self.slider) is None:
             return None
         angle = np.linspace(0.0, 2.0 * np.pi, 721)[:-1]
         position, velocity, _ = self.ideal_slider(angle, 1.0)

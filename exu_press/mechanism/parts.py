@@ -90,9 +90,14 @@ class Joint:
         return self.shape == "spherical"
 
     @property
+    def bodies(self) -> frozenset[str]:
+        """Names of both bodies."""
+        return frozenset((self.journal, self.bearing))
+
+    @property
     def on_frame(self) -> bool:
         """Whether one of its bodies is the frame."""
-        return GROUND in (self.journal, self.bearing)
+        return GROUND in self.bodies
 
 
 @dataclass(frozen=True)
@@ -122,21 +127,44 @@ class Guideway:
 
 @dataclass(frozen=True)
 class Guide:
-    """A straight guide in the frame: a body moves along it and does not turn.
+    """A prismatic joint: a body moves along a line of another one, and turns with it alone.
 
     Attributes:
-        body: that it guides.
-        direction: along the guide; `Mechanism` makes it a unit vector.
+        name: as in messages and channels.
+        direction: of the line in the drawing; `Mechanism` makes it a unit vector.
+        body: that it guides; by default that of its name.
+        on: body along which it moves, or the frame.
         lateral: spring across the guide, or None where the guide is ideal.
         tilting: spring of its angle, or None.
         guideway: with clearance, or None.
     """
 
-    body: str
+    name: str
     direction: Point = (0.0, 1.0)
+    body: str = ""
+    on: str = GROUND
     lateral: Spring | None = None
     tilting: Spring | None = None
     guideway: Guideway | None = None
+
+    def __post_init__(self) -> None:
+        """Name the body."""
+        object.__setattr__(self, "body", self.body or self.name)
+
+    @property
+    def key(self) -> str:
+        """Its table in a mechanism file."""
+        return f"guides.{self.name}"
+
+    @property
+    def bodies(self) -> frozenset[str]:
+        """Names of both bodies."""
+        return frozenset((self.body, self.on))
+
+    @property
+    def on_frame(self) -> bool:
+        """Whether it stands still."""
+        return self.on == GROUND
 
     @property
     def holds_across(self) -> bool:
@@ -150,7 +178,7 @@ class Guide:
 
     @property
     def normal(self) -> Point:
-        """Unit normal of the guide, to the right of its direction."""
+        """Unit normal of the guide in the drawing, to the right of its direction."""
         return self.direction[1], -self.direction[0]
 
 

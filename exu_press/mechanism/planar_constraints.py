@@ -13,6 +13,7 @@ Source: E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems
 1989, chapter 3.
 """
 
+import cmath
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -157,7 +158,7 @@ class PointOnLine(NamedTuple):
 
 
 class RotationRatio(NamedTuple):
-    """A body turns a ratio times as far as another: on a guide with the frame, or as gears do.
+    """A body turns a ratio times as far as another: 1 in a guide.
 
     `offset` is angle - ratio * (angle of the base) in the drawing.
     """
@@ -194,7 +195,7 @@ class PlanarConstraints:
         bodies: names, in the order of their coordinates x and y, over the size, and angle, rad.
         drawn: coordinates in the drawing, (3 n,).
         constraints: with their names. "joints.NAME" has two rows, journal minus bearing along x
-            and y; "guides.BODY" has one across it and one of the angle; "gears.NAME" has one.
+            and y; "guides.NAME" has one across it and one of the angle; "gears.NAME" has one.
     """
 
     size: float
@@ -288,11 +289,12 @@ def planar_constraints(
             ends = *end(joint.journal, joint.at), *end(joint.bearing, joint.at)
             yield f"joints.{joint.name}", Coincidence(*ends)
         for guide in guides:
-            body = drawn[guide.body]
-            ends = index[guide.body], 0j, *end(GROUND, body.centre_of_mass)
-            yield f"guides.{guide.body}", PointOnLine(*ends, complex(*guide.normal))
-            turning = RotationRatio(index[guide.body], index[GROUND], 1.0, body.angle)
-            yield f"guides.{guide.body}", turning
+            body, base = drawn[guide.body], drawn[guide.on]
+            ends = index[guide.body], 0j, *end(guide.on, body.centre_of_mass)
+            normal = complex(*guide.normal) * cmath.exp(-1j * base.angle)
+            yield guide.key, PointOnLine(*ends, normal)
+            offset = body.angle - base.angle
+            yield guide.key, RotationRatio(index[guide.body], index[guide.on], 1.0, offset)
         for gear in gears:
             offset = drawn[gear.body].angle - gear.ratio * drawn[gear.to].angle
             pair = index[gear.body], index[gear.to]

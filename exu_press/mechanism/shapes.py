@@ -4,10 +4,12 @@ Outlines are drawn, not measured: links have one width, blocks grow with the cub
 mass. Only the joints' positions are the mechanism's.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
+from exu_press.mechanism.guide_motion import guide_path
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import Guide
 from exu_press.numerics.arrays import Array
@@ -23,7 +25,13 @@ __all__ = [
     "transform_points",
 ]
 
-COLOURS = {"crank": "#F2C14E", "bearing": "#8FC1E3", "link": "#C3D0DA", "block": "#DADFE3"}
+COLOURS = {
+    "crank": "#F2C14E",
+    "bearing": "#8FC1E3",
+    "link": "#C3D0DA",
+    "block": "#DADFE3",
+    "slide": "#DADFE3",
+}
 """By role; "bearing" is the body on the pin that is farthest from the crank's shaft."""
 
 ROD = 0.011
@@ -48,7 +56,8 @@ class Shape:
 
     Attributes:
         outline: (n, 2) corners of a polygon, counter-clockwise.
-        role: "crank", "bearing", "link" or "block", which a guide holds.
+        role: "crank", "bearing", "link", "block" in the frame, or "slide" in a moving
+            guide.
     """
 
     outline: Array
@@ -73,19 +82,33 @@ def shapes_of(mechanism: Mechanism, height: float | None = None) -> dict[str, Sh
     """
     if height is None:
         height = float(np.ptp(swept_points(mechanism)[:, 1]))
-    guided = {guide.body for guide in mechanism.guides}
+    guides = {guide.body: guide for guide in mechanism.guides}
     heaviest = max(body.mass for body in mechanism.bodies)
     shapes = {}
     for body in mechanism.bodies:
         points = np.array(mechanism.points(body.name) or [(0.0, 0.0)])
-        if body.name in guided:
+        if body.name in guides:
             margin = BLOCK * height * float(np.cbrt(body.mass / heaviest))
-            outline = _block(points, margin)
+            x, y = guides[body.name].direction
+            turn = 0.0 if guides[body.name].on_frame else math.atan2(y, x) - body.angle
+            pose = np.array([0.0, 0.0, turn])
+            outline = transform_points(_block(transform_points(points, -pose), margin), pose)
         else:
             margin = ROD * height * (1.6 if body.name == mechanism.crank else 1.0)
-            outline = _link(points, margin)
+            paths = [
+                np.array([body.local(point) for point in path])
+                for path in _guide_paths(mechanism, body.name)
+            ]
+            outline = _link(np.vstack([points, *paths]), margin)
         shapes[body.name] = Shape(outline, _role(mechanism, body.name))
     return shapes
+
+
+def _guide_paths(mechanism: Mechanism, body: str) -> list[Array]:
+    """Return the paths (n, 2) in the drawing of what slides on a body, over a revolution."""
+    return [
+        guide_path(mechanism, guide, REVOLUTION) for guide in mechanism.guides if guide.on == body
+    ]
 
 
 def swept_points(mechanism: Mechanism) -> Array:
@@ -96,6 +119,7 @@ def swept_points(mechanism: Mechanism) -> Array:
         [
             transform_points(local, pose)
             for name, local in points.items()
+            if len(local)
             for pose in motion[name].position
         ]
     )
@@ -167,16 +191,17 @@ class FrontView:
         self.unit = float((self.high - self.low).max())
 
     def layer(self, body: str) -> int:
-        """Return a body's layer: the slider, other blocks, links, and the crank in front."""
+        """Return a body's layer: the slider, other blocks, links, and in front crank and slides."""
         if body == self._mechanism.slider:
             return -1
-        return {"block": 0, "crank": 2}.get(self.shapes[body].role, 1)
+        return {"block": 0, "slide": 2, "crank": 2}.get(self.shapes[body].role, 1)
 
     def rails(self) -> list[Array]:
-        """Return the corners (4, 2) of the rails on both sides of every guided body."""
+        """Return the corners (4, 2) of the frame's rails on both sides of its guided bodies."""
         return [
             corners
             for guide in self._mechanism.guides
+            if guide.on_frame
             for corners in rail_corners(guide, self.swept[guide.body], self.unit)
         ]
 
@@ -205,8 +230,11 @@ class FrontView:
 def _role(mechanism: Mechanism, body: str) -> str:
     if body == mechanism.crank:
         return "crank"
-    if any(guide.body == body for guide in mechanism.guides):
-        return "block"
+    guides = [guide for guide in mechanism.guides if guide.body == body]
+    if guides:
+        return "block" if any(guide.on_frame for guide in guides) else "slide"
+    if not mechanism.crank_pins:
+        return "link"
     pin = max(mechanism.crank_pins, key=mechanism.crank_pins.__getitem__)
     on_pin = any(joint.name == pin for joint in mechanism.joints_of(body))
     return "bearing" if on_pin else "link"

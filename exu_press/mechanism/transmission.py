@@ -1,9 +1,11 @@
 """Transmission angles of a mechanism's dyads over the crank angle.
 
-A dyad is a group of two bodies: two links (RRR), or a link and a body on a guide
-(RRP). The transmission angle of the former is the acute angle between the two links, that of the
-latter the acute angle between the link and the normal of the guide [1]_. A link drives its body
-best at 90 deg; at 0 deg the dyad locks. Textbooks recommend 40 to 50 deg at least.
+A dyad is a group of two bodies: two links (RRR), a link and a body on a guide (RRP), or a block on
+a pin that slides on a link (RPR). The transmission angle is the acute angle between two lines [1]_:
+those of the two links, or the link and the normal of the guide; in the latter dyad the normal of
+the guide, along which the block presses, and the line from the pin to the link's other joint. A
+link drives its body best at 90 deg; at 0 deg the dyad locks. Textbooks recommend 40 to 50 deg at
+least.
 
 References
 ----------
@@ -16,15 +18,16 @@ from collections.abc import Mapping
 import numpy as np
 
 from exu_press.mechanism.groups import groups_of
+from exu_press.mechanism.guide_motion import guide_direction
 from exu_press.mechanism.mechanism import Mechanism
-from exu_press.mechanism.parts import GROUND, Joint
+from exu_press.mechanism.parts import GROUND, Guide, Joint
 from exu_press.numerics.arrays import Array
 
 __all__ = ["group_equal_angles", "transmission_angles"]
 
 
 def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
-    """Return transmission angles (n,), rad, by the name of the joint inside each dyad.
+    """Return transmission angles (n,), rad, by the name of the joint or guide inside each dyad.
 
     Groups of more than two bodies have none.
 
@@ -36,7 +39,6 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
         InputError: the crank does not turn through a revolution.
     """
     motion = mechanism.motion(angle, 1.0)
-    guides = {guide.body: guide for guide in mechanism.guides}
 
     def path(joint: Joint) -> Array:
         (body, point), _ = sorted(mechanism.ends(joint), key=lambda end: end[0] == GROUND)
@@ -44,26 +46,33 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
 
     transmission: dict[str, Array] = {}
     for group in groups_of(mechanism.constraints, mechanism.crank):
-        dyad = group.bodies
-        if len(dyad) != 2:
+        if len(group.bodies) != 2:
             continue
-        joints = {body: mechanism.joints_of(body) for body in dyad}
-        inner = [joint for joint in joints[dyad[0]] if joint in joints[dyad[1]]]
+        dyad = {*group.bodies}
+        elements: tuple[Joint | Guide, ...] = (*mechanism.joints, *mechanism.guides)
+        inner = [element for element in elements if element.bodies == dyad]
         outer = [
-            [j for j in joints[body] if {j.journal, j.bearing} & group.predecessors]
-            for body in dyad
-            if body not in guides
+            element
+            for element in elements
+            if len(element.bodies & dyad) == 1 and element.bodies & group.predecessors
         ]
-        if len(inner) != 1 or not outer or any(len(ends) != 1 for ends in outer):
+        pins = [element for element in outer if isinstance(element, Joint)]
+        guides = [element for element in outer if isinstance(element, Guide)]
+        if len(inner) != 1 or not pins or len(pins) + len(guides) != 2:
             continue
-        centre = path(inner[0])
-        lines = [path(ends[0]) - centre for ends in outer]
-        if len(lines) == 1:
-            guided = next(body for body in dyad if body in guides)
-            lines.append(np.broadcast_to(np.array(guides[guided].normal), centre.shape))
+        (within,) = inner
+        if isinstance(within, Joint):
+            centre = path(within)
+            lines = [path(pin) - centre for pin in pins]
+        elif len(pins) == 2:
+            guides = [within]
+            lines = [path(pins[1]) - path(pins[0])]
+        else:
+            continue
+        lines += [guide_direction(mechanism, guide, guide.normal, motion) for guide in guides]
         across = np.abs(lines[0][:, 0] * lines[1][:, 1] - lines[0][:, 1] * lines[1][:, 0])
         along = np.abs((lines[0] * lines[1]).sum(axis=1))
-        transmission[inner[0].name] = np.arctan2(across, along)
+        transmission[within.name] = np.arctan2(across, along)
     return transmission
 
 

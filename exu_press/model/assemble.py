@@ -90,9 +90,9 @@ def _assemble(
     if system.flexible:
         ideal |= hold_flexible_bodies(system, start)
     guides = {
-        guide.body: add_guide(system, guide)
+        guide.name: add_guide(system, guide)
         for guide in mechanism.guides
-        if guide.body not in constraints.sliding_bodies
+        if guide.name in constraints.guides
     }
     gears = {
         gear.name: add_gear(system, gear)
@@ -160,28 +160,28 @@ def _clearance_joints(system: System) -> dict[str, ClearanceJoint]:
 
 
 def _guideways(system: System) -> dict[str, tuple[ClearanceJoint, ...]]:
-    """Add the guideways with clearance; return the contacts of each body's ends and its film."""
+    """Add the guideways with clearance; return the contacts of a body's two ends and its film."""
     guides = [(guide, guide.guideway) for guide in system.mechanism.guides]
     if not any(guideway for _, guideway in guides):
         return {}
     from exu_press.model.guideways import add_guideways
 
-    return {g.body: add_guideways(system, g, guideway) for g, guideway in guides if guideway}
+    return {g.name: add_guideways(system, g, guideway) for g, guideway in guides if guideway}
 
 
 def _guide_friction(
     system: System, guides: Mapping[str, Mapping[str, int]]
 ) -> dict[str, "GuideFriction"]:
-    """Add the friction of guides without clearance; return it by their bodies."""
+    """Add the friction of guides without clearance; return it by their names."""
     table = system.scene.guide
     if table is None or not table.rubs or table.clearance is not None:
         return {}
     from exu_press.model.guide_friction import add_guide_friction
 
     return {
-        guide.body: add_guide_friction(system, guide, guides[guide.body])
+        guide.name: add_guide_friction(system, guide, guides[guide.name])
         for guide in system.mechanism.guides
-        if guide.lateral or "force" in guides[guide.body]
+        if guide.lateral or "force" in guides[guide.name]
     }
 
 
@@ -208,7 +208,7 @@ def _states(
         from exu_press.scene.wearing import wearing_guides, wearing_joints
 
         wearing += [clearance[name] for name in wearing_joints(scene)]
-        wearing += [end for body in wearing_guides(scene) for end in guideways[body]]
+        wearing += [end for name in wearing_guides(scene) for end in guideways[name]]
     ends = [end for contacts in guideways.values() for end in contacts]
     return States([*clearance.values(), *ends], wearing)
 
@@ -237,8 +237,9 @@ def _add_sensors(
             sensor = SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=output)
             system.sensors[name, level] = system.mbs.AddSensor(sensor)
     forces = {(name, "force"): number for name, number in joints.items()}
-    for body, numbers in guides.items():
-        forces |= {(f"{body}_guide", kind): number for kind, number in numbers.items()}
+    for guide, numbers in guides.items():
+        name = system.mechanism.guide(guide).key
+        forces |= {(name, kind): number for kind, number in numbers.items()}
     forces |= {(f"gear_{name}", "torque"): number for name, number in gears.items()}
     for key, number in forces.items():
         local = number in system.local_forces

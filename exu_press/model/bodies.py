@@ -46,10 +46,12 @@ def _add_rigid_body(system: System, body: Body, start: Motion) -> None:
         point = body.local(pivot.at)
         added: RigidBody = PivotedBody(system.mbs, body, start, pivot.at, point, relaxed)
     elif body.name in system.constraints.sliding_bodies:
-        guide = next(guide for guide in system.mechanism.guides if guide.body == body.name)
+        guide = system.mechanism.frame_guide(body.name)
+        assert guide is not None
         added = SlidingBody(system.mbs, body, start, guide.direction, relaxed)
     else:
-        if system.constraints.guides.get(body.name, (False, False))[1]:
+        guide = system.mechanism.frame_guide(body.name)
+        if guide is not None and system.constraints.guides[guide.name][1]:
             start = _upright(start, float(relaxed[2]))
         added = RigidBody(system.mbs, body, start, relaxed)
     system.add_rigid(body.name, added)
@@ -73,9 +75,10 @@ def _add_flexible_body(
 
     placed, ideal = system.parts[name], system.ideal[name].position[0]
     frame = deformed or undeformed_start(placed.frame_motion(start))
-    for guide in system.mechanism.guides:
-        if guide.body == name:
-            frame = fit_to_guide(frame, placed, guide, system.constraints.guides[name], ideal)
+    guide = system.mechanism.frame_guide(name)
+    if guide is not None:
+        holds = system.constraints.guides[guide.name]
+        frame = fit_to_guide(frame, placed, guide, holds, ideal)
     body = add_part(
         system.mbs,
         name,

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from exudyn import graphics
 
-from exu_press.mechanism import GROUND, Mechanism, Point
+from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Point
 from exu_press.mechanism.parts import DRIVE
 from exu_press.mechanism.shapes import FrontView, swept_points
 from exu_press.model import Model, build
@@ -79,8 +79,8 @@ def _layers(mechanism: Mechanism) -> dict[str, int]:
     """Return a layer for every body, such that bodies with a common joint never share one."""
     layers: dict[str, int] = {}
     for body in mechanism.bodies:
-        joints = mechanism.joints_of(body.name)
-        used = {layers.get(end) for joint in joints for end in (joint.journal, joint.bearing)}
+        elements: tuple[Joint | Guide, ...] = (*mechanism.joints, *mechanism.guides)
+        used = {layers.get(end) for e in elements if body.name in e.bodies for end in e.bodies}
         layers[body.name] = next(n for n in range(len(mechanism.bodies)) if n not in used)
     return layers
 
@@ -91,6 +91,8 @@ def _frame(
     """Return the guides' rails beside their bodies, and the pivots' pins."""
     solids = []
     for guide in mechanism.guides:
+        if not guide.on_frame:
+            continue
         outline, width = view.swept[guide.body], 0.25 * thickness
         (x_min, low), (x_max, high) = outline.min(axis=0), outline.max(axis=0)
         for x in (x_min - width, x_max + width):

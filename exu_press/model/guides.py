@@ -1,5 +1,7 @@
 """The guides of a system without clearance: constraints where they are ideal, or springs."""
 
+import math
+
 import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyRigid,
@@ -11,6 +13,7 @@ from exudyn.itemInterface import (
 )
 
 from exu_press.mechanism import Guide, Spring
+from exu_press.model.ideal_joints import hold_direction
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
 
@@ -25,7 +28,7 @@ def add_guide(system: System, guide: Guide) -> dict[str, int]:
     """
     if guide.body in system.flexible:
         return _add_flexible_guide(system, guide)
-    holds_across, holds_angle = system.constraints.guides[guide.body]
+    holds_across, holds_angle = system.constraints.guides[guide.name]
     added = {}
     if guide.lateral is not None:
         added["force"] = _lateral_spring(system, guide, guide.lateral)
@@ -34,7 +37,7 @@ def add_guide(system: System, guide: Guide) -> dict[str, int]:
     if guide.tilting is not None:
         added["moment"] = system.spring(guide.body, "angle", guide.tilting)
     elif holds_angle:
-        added["moment"] = system.hold(guide.body, "angle")
+        added["moment"] = system.hold(guide.body, "angle", guide.on)
     return added
 
 
@@ -49,7 +52,7 @@ def _add_flexible_guide(system: System, guide: Guide) -> dict[str, int]:
     values, rows = guided_motion(mbs, body, system.parts[guide.body])
     change = values - system.ideal[guide.body].position[0]
     change[2] = np.remainder(change[2] + np.pi, 2.0 * np.pi) - np.pi
-    is_held = dict(zip(("force", "moment"), system.constraints.guides[guide.body], strict=True))
+    is_held = dict(zip(("force", "moment"), system.constraints.guides[guide.name], strict=True))
     springs = {"force": guide.lateral, "moment": guide.tilting}
     directions = {"force": (*guide.normal, 0.0), "moment": (0.0, 0.0, 1.0)}
     references = [np.array(mbs.GetNodeParameter(n, "referenceCoordinates")) for n in body.nodes]
@@ -93,7 +96,12 @@ def _hold_row(system: System, nodes: list[int], row: Array, frame: int, offset: 
 
 
 def _hold_across(system: System, guide: Guide) -> int:
-    """Hold a rigid body along its guide's normal; linear in the coordinates, and exact."""
+    """Hold a rigid body along its guide's normal; in the frame linear in the coordinates."""
+    if not guide.on_frame:
+        drawn, at = system.mechanism.body, system.mechanism.body(guide.body).centre_of_mass
+        angle = math.atan2(guide.normal[1], guide.normal[0]) - drawn(guide.on).angle
+        line, point = (guide.on, drawn(guide.on).local(at)), (guide.body, (0.0, 0.0))
+        return hold_direction(system, guide.key, line, angle, system.marker(*point))
     rigid = system.rigid[guide.body]
     offset = np.dot(system.mechanism.body(guide.body).centre_of_mass, guide.normal)
     by_name = dict(zip(("x", "y", "angle"), (*guide.normal, 0.0), strict=True))

@@ -12,11 +12,11 @@ from exudyn.itemInterface import (
 from exudyn.rigidBodyUtilities import RotationMatrixZ
 
 from exu_press.errors import InputError
-from exu_press.mechanism import GROUND, Joint
+from exu_press.mechanism import GROUND, Joint, Point
 from exu_press.mechanism.independent_constraints import SingleAxis
 from exu_press.model.system import System
 
-__all__ = ["add_ideal_joint"]
+__all__ = ["add_ideal_joint", "hold_direction"]
 
 
 def add_ideal_joint(system: System, joint: Joint) -> int:
@@ -36,14 +36,34 @@ def _add_single_axis(system: System, joint: Joint, axis: SingleAxis) -> int:
     flexible = [name for name in (body, end[0]) if name in system.flexible]
     if flexible:
         return _add_flexible_single_axis(system, joint, axis, flexible[0])
-    local, angle = point, axis.angle
+    return hold_direction(
+        system, joint.name, (body, point), axis.angle, system.joint_marker(joint, *end)
+    )
+
+
+def hold_direction(
+    system: System, name: str, end: tuple[str, Point], angle: float, marker_of_point: int
+) -> int:
+    """Hold a point of a body on a line of another rigid one.
+
+    Args:
+        system: with both bodies.
+        name: of the constraint.
+        end: body with the line, or the frame, and a point of the line in the body's frame.
+        angle: of the line's normal in that frame, rad.
+        marker_of_point: number of the marker of the point that is held.
+
+    Returns:
+        Object number; its force, along the normal, is that on the body with the line.
+    """
+    body, local = end
     if body != GROUND:
-        local, angle = system.rigid[body].local(point), angle + system.rigid[body].frame_angle
+        local, angle = system.rigid[body].local(local), angle + system.rigid[body].frame_angle
     frame = exu.HT().Set(RotationMatrixZ(angle), [*local, 0.0])
     marker = MarkerBodyRigid(bodyNumber=system.bodies[body], localHT=frame)
     constraint = ObjectJointGeneric(
-        name=joint.name,
-        markerNumbers=[system.mbs.AddMarker(marker), system.joint_marker(joint, *end)],
+        name=name,
+        markerNumbers=[system.mbs.AddMarker(marker), marker_of_point],
         constrainedAxes=[1, 0, 0, 0, 0, 0],
     )
     number = int(system.mbs.AddObject(constraint))
@@ -53,7 +73,7 @@ def _add_single_axis(system: System, joint: Joint, axis: SingleAxis) -> int:
 
 def _add_flexible_single_axis(system: System, joint: Joint, axis: SingleAxis, flexible: str) -> int:
     """Constrain a flexible body's joint in one direction, where a guide keeps that along x or y."""
-    guided = {guide.body for guide in system.mechanism.guides}
+    guided = {guide.body for guide in system.mechanism.guides if guide.on_frame}
     angle = axis.angle
     if axis.body != GROUND:
         angle += float(system.ideal[axis.body].position[0, 2])

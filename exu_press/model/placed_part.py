@@ -159,7 +159,7 @@ def _place_part(
     _refuse_shared(faces)
     drive = named_faces.get(DRIVE_FACE, ()) if is_driven else ()
     patches = {f"load {name}": load.face for name, load in loads.items() if load.face is not None}
-    guide = next((guide for guide in mechanism.guides if guide.body == body.name), None)
+    guide = mechanism.frame_guide(body.name)
     if guide is not None:
         patches = {GUIDE_FACE: named_faces.get(GUIDE_FACE, ()), **patches}
     is_fitted = (

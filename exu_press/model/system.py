@@ -66,11 +66,10 @@ class System:
             from exu_press.scene.elastic import with_elastic_guides
 
             self.mechanism = with_elastic_guides(self.mechanism, scene.guide, solids)
-        guided = frozenset(guide.body for guide in self.mechanism.guides)
-        if scene.guide is None or not scene.guide.rubs:
-            guided &= scene.bodies.keys()
+        guided = _guided_bodies(scene, self.mechanism)
         self.constraints = with_all_coordinates(
             independent_constraints(self.mechanism, scene.joints.ideal),
+            self.mechanism,
             _beside_flexible(scene, self.mechanism) | guided,
         )
         self.ideal = self.mechanism.motion(np.array([scene.start_angle]), scene.start_speed)
@@ -117,15 +116,17 @@ class System:
         return self.flexible[body].add_point_marker(self.mbs, *points)
 
     def coordinate(self, body: str, coordinate: str) -> int:
-        """Add a marker on a rigid body's "x", "y" or "angle"."""
+        """Return a marker of a rigid body's "x", "y" or "angle", or of one that stands still."""
+        if body == GROUND or coordinate not in self.rigid[body].coordinates:
+            return int(self.still)
         rigid = self.rigid[body]
         number = rigid.coordinates.index(coordinate)
         marker = MarkerNodeCoordinate(nodeNumber=rigid.node, coordinate=number)
         return int(self.mbs.AddMarker(marker))
 
-    def hold(self, body: str, coordinate: str, **options: Any) -> int:
-        """Hold a rigid body's coordinate by a constraint."""
-        markers = [self.still, self.coordinate(body, coordinate)]
+    def hold(self, body: str, coordinate: str, on: str = GROUND, **options: Any) -> int:
+        """Hold a rigid body's coordinate by a constraint, relative to another body's."""
+        markers = [self.coordinate(on, coordinate), self.coordinate(body, coordinate)]
         return int(self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers, **options)))
 
     def spring(self, body: str, coordinate: str, spring: Spring) -> int:
@@ -136,6 +137,20 @@ class System:
             damping=spring.damping,
         )
         return int(self.mbs.AddObject(connector))
+
+
+def _guided_bodies(scene: Scene, mechanism: Mechanism) -> frozenset[str]:
+    """Return the bodies of guides that need all their coordinates.
+
+    These are flexible ones, those that rub, and those of moving guides that give way.
+    """
+    rubs = scene.guide is not None and scene.guide.rubs
+    return frozenset(
+        body
+        for guide in mechanism.guides
+        for body in guide.bodies - {GROUND}
+        if rubs or body in scene.bodies or not (guide.on_frame or guide.holds_across)
+    )
 
 
 def _beside_flexible(scene: Scene, mechanism: Mechanism) -> frozenset[str]:

@@ -55,9 +55,9 @@ def curves_of(result: Result) -> list[Curve]:
     for name in result.joints:
         of_owners += _joint(result, name)
     for guide in mechanism.guides:
-        begin = guide_channel(mechanism, guide.body)
-        group = f"Guide of {_label_of(guide.body)}"
-        of_owners += _channels_of(result, begin, group, Owner.GUIDE, guide.body)
+        begin = guide_channel(mechanism, guide.name)
+        group = f"Guide of {_label_of(guide.name)}"
+        of_owners += _channels_of(result, begin, group, Owner.GUIDE, guide.name)
     for gear in mechanism.gears:
         of_owners += _channels_of(
             result, f"gear_{gear.name}", f"Gear {_label_of(gear.name)}", Owner.GEAR, gear.name

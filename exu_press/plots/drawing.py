@@ -74,7 +74,8 @@ def _draw(axes: Axes, examined: Examination) -> None:
     axes.set_aspect("equal", adjustable="box", anchor="C")
     if examined.stroke is not None:
         _draw_paths(axes, examined)
-    for body in sorted(mechanism.bodies, key=lambda body: shapes[body.name].role != "block"):
+    layers = {"block": 0, "slide": 2}
+    for body in sorted(mechanism.bodies, key=lambda body: layers.get(shapes[body.name].role, 1)):
         wrong = body.name in examined.wrong_bodies
         patch = Polygon(
             shapes[body.name].outline_at(drawn[body.name]),
@@ -99,7 +100,7 @@ def _draw(axes: Axes, examined: Examination) -> None:
     for guide in mechanism.guides:
         at = np.array(mechanism.body(guide.body).centre_of_mass)
         ends = [at + sign * 0.16 * mechanism.size * np.array(guide.direction) for sign in (-1, 1)]
-        colour = WRONG if guide.body in examined.wrong_guides else GREY
+        colour = WRONG if guide.name in examined.wrong_guides else GREY
         axes.plot(*np.array(ends).T, color=colour, linewidth=1.2, linestyle="-.", zorder=0.8)
     for outline in pitch_circles(mechanism):
         axes.plot(*outline.T, color=GREY, linewidth=0.9, linestyle=(0, (6, 3)), zorder=0.8)
@@ -141,12 +142,12 @@ def _draw_names(axes: Axes, examined: Examination) -> None:
         places.setdefault(joint.at, []).append(joint.name)
     joints = {", ".join(names): np.array(at) for at, names in places.items()}
     wrong_joints = [n for n in joints if set(n.split(", ")) & set(examined.wrong_joints)]
-    guided = {guide.body for guide in mechanism.guides}
-    bodies = {
-        f"{body.name} (guided)" if body.name in guided else body.name: _middle(mechanism, body.name)
-        for body in mechanism.bodies
-    }
-    wrong = [n for n in bodies if n.removesuffix(" (guided)") in examined.wrong_bodies]
+    labels = {body.name: body.name for body in mechanism.bodies}
+    for guide in mechanism.guides:
+        where = "guided" if guide.on_frame else f"on {guide.on}"
+        labels[guide.body] += f" ({where})"
+    bodies = {label: _middle(mechanism, name) for name, label in labels.items()}
+    wrong = [labels[name] for name in examined.wrong_bodies]
     (left_edge, right_edge), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     room = 0.45 * max(right_edge - left_edge, top - bottom)
     short = max(0.0, 0.5 * (0.9 * (right_edge - left_edge + 2.0 * room) - (top - bottom)))

@@ -139,7 +139,7 @@ def _loads(axes: Axes, result: Result, names: list[str]) -> None:
 def _guides(axes: Axes, result: Result) -> None:
     mechanism = mechanism_of(result.scene)
     names = {
-        joint_in_words(guide.body).lower(): f"{guide_channel(mechanism, guide.body)}_force"
+        joint_in_words(guide.name).lower(): f"{guide_channel(mechanism, guide.name)}_force"
         for guide in mechanism.guides
     }
     curves = {label: result[name] for label, name in names.items() if name in result}

@@ -205,7 +205,7 @@ def _owners(scene: Scene) -> dict[Owner, tuple[str, ...]]:
     return {
         Owner.RUN: ("",),
         Owner.JOINT: tuple(joint.name for joint in mechanism.joints),
-        Owner.GUIDE: tuple(guide.body for guide in mechanism.guides),
+        Owner.GUIDE: tuple(guide.name for guide in mechanism.guides),
         Owner.GEAR: tuple(gear.name for gear in mechanism.gears),
         Owner.LOAD: tuple(applied_loads(scene)),
         Owner.BODY: tuple(scene.bodies),

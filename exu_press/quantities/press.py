@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 
 from exu_press.mechanism import Guide
+from exu_press.mechanism.guide_motion import pose_in_guide
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral, slopes
 from exu_press.quantities.acceleration import mean_peak_of, peak
@@ -54,17 +55,19 @@ def _guide_peak(quantity: str) -> Callable[[Reading, str], float | None]:
 
 def _sliding_powers(run: Reading) -> dict[str, float | None]:
     """Return the mean of side force times sliding speed, by the guides' bodies."""
-    return {guide.body: _sliding_power(run, guide) for guide in run.mechanism.guides}
+    return {guide.name: _sliding_power(run, guide) for guide in run.mechanism.guides}
 
 
 def _sliding_power(run: Reading, guide: Guide) -> float | None:
-    force = _of_guide(run, guide.body, "force")
+    force = _of_guide(run, guide.name, "force")
     if force is None or len(run.time) < 2:
         return None
-    index, direction = run.result.bodies.index(guide.body), np.array(guide.direction)
-    position = read_columns(
-        run.result.channels, "body_position", lambda values: values[:, index, :2] @ direction
-    )
+    bodies, direction = run.result.bodies, np.array(guide.direction)
+
+    def position_of(poses: Array) -> Array:
+        return np.asarray(pose_in_guide(run.mechanism, guide, bodies, poses)[:, :2] @ direction)
+
+    position = read_columns(run.result.channels, "body_position", position_of)
     power = slopes(run.time, position)
     power *= force
     return run.mean(np.abs(power, out=power))

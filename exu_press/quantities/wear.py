@@ -11,6 +11,7 @@ import numpy as np
 from exu_press.laws.profile import Profile
 from exu_press.laws.wear import Contacts, archard, worn_by_angle
 from exu_press.mechanism import GROUND
+from exu_press.mechanism.guide_motion import pose_in_guide
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.kind import COUNT, FLOW, LOAD
 from exu_press.quantities.quantity import Extreme, Owner, Quantity
@@ -168,20 +169,23 @@ def _sample_profile(shape: Profile) -> tuple[Array, Array]:
     return np.array(angles), np.array([shape.derivatives(angle)[0] for angle in angles])
 
 
-def guideway_depths(result: Result, body: str) -> Array:
-    """Return the depths worn off the guideway of a guided body, (2, 2, 72), m.
+def guideway_depths(result: Result, name: str) -> Array:
+    """Return the depths worn off the guideway of a guide, (2, 2, 72), m.
 
     By its back and front end, on the left and on the right, in 72 parts of each end's path. The
     ends' own edges lose as much, and have no depth.
     """
-    wear = wear_of(result.scene, "guides", body)
-    guide = next(g for g in mechanism_of(result.scene).guides if g.body == body)
-    position = result["body_position"][:, result.bodies.index(body), :2] @ np.array(guide.direction)
+    wear = wear_of(result.scene, "guides", name)
+    mechanism, poses = mechanism_of(result.scene), result["body_position"]
+    guide = mechanism.guide(name)
+    position = pose_in_guide(mechanism, guide, result.bodies, poses)[:, :2] @ np.array(
+        guide.direction
+    )
     middle = 0.5 * (position[1:] + position[:-1])
     low, high = float(position.min()), float(position.max())
     width = max(high - low, 1e-30) / SECTORS
     cell = np.clip(((middle - low) / width).astype(int), 0, SECTORS - 1)
-    channel = guide_channel(mechanism_of(result.scene), body)
+    channel = guide_channel(mechanism, name)
     force, speed = result[f"{channel}_normal_force"], result[f"{channel}_sliding"]
     rate = archard(wear.coefficient, wear.hardness, 1.0, 1.0) / (width * wear.length)
     depths = np.zeros((2, 2, SECTORS))

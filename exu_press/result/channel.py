@@ -152,9 +152,10 @@ class Declarations(tuple[Declaration, ...]):
         return channels
 
 
-def guide_channel(mechanism: Mechanism, body: str) -> str:
+def guide_channel(mechanism: Mechanism, name: str) -> str:
     """Return the prefix of the names of a guide's channels; the slider's is "guide"."""
-    return "guide" if body == mechanism.slider else f"{body}_guide"
+    of_slider = mechanism.frame_guide(mechanism.slider)
+    return "guide" if of_slider is not None and name == of_slider.name else f"{name}_guide"
 
 
 def direction_text(direction: Point) -> str:

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from exu_press.mechanism import Point
+from exu_press.mechanism.guide_motion import guide_direction
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result import ideal_joints
-from exu_press.result.channel import Channel
+from exu_press.result.channel import Channel, guide_channel
 from exu_press.result.guides import guide_channels
 from exu_press.result.recording import Record, Recording
 
@@ -32,7 +33,6 @@ def record(run: Recording) -> Record:
     """
     model, motions, channels, histories = run.model, run.motions, run.so_far.channels, run.histories
     reactions: dict[str, Channel] = {}
-    guides = {guide.body: guide for guide in model.mechanism.guides}
     masses = {body.name: body.mass for body in model.mechanism.bodies}
 
     on_body: dict[str, list[JointOnBody]] = {name: [] for name in masses}
@@ -41,19 +41,24 @@ def record(run: Recording) -> Record:
             if name in on_body and f"{joint.name}_force" in channels:
                 on_body[name].append((joint.name, sign, point))
 
+    actions = {name: _guide_actions(run, name) for name in masses}
+
     def constraint_force(name: str) -> Array:
         """Return the reaction to all forces on a body, (n, 2)."""
-        reaction = _force(model, name, on_body[name], channels)
+        reaction = _force(model, name, on_body[name], channels) + actions[name][:, :2]
         for column, weight in enumerate((0.0, -masses[name] * model.scene.gravity)):
             inertia = masses[name] * motions[name].acceleration[:, column]
             reaction[:, column] = inertia - reaction[:, column] - weight
         return reaction
 
     for name in sorted(model.constraints.sliding_bodies):
-        across = constraint_force(name) @ np.array(guides[name].normal)
+        guide = model.mechanism.frame_guide(name)
+        assert guide is not None
+        across = constraint_force(name) @ np.array(guide.normal)
         angle = motions[name].position[:, 2]
         moment = -_moment(model, name, on_body[name], angle, channels, histories)
-        reactions |= guide_channels(model.mechanism, name, force=across, moment=moment)
+        moment -= actions[name][:, 2]
+        reactions |= guide_channels(model.mechanism, guide.name, force=across, moment=moment)
     for name, pivot in model.constraints.pivots.items():
         if name in model.rigid:
             force = constraint_force(name) * (1.0 if pivot.journal == name else -1.0)
@@ -61,6 +66,24 @@ def record(run: Recording) -> Record:
                 pivot.name, force=ideal_joints.vectors(force, pivot.spherical)
             )
     return Record(reactions)
+
+
+def _guide_actions(run: Recording, name: str) -> Array:
+    """Return force, N, and moment about its centre, N m, of moving guides on a body, (n, 3)."""
+    mechanism, motions = run.model.mechanism, run.motions
+    action = np.zeros((len(run.time), 3))
+    for guide in mechanism.guides:
+        channel = guide_channel(mechanism, guide.name)
+        if guide.on_frame or name not in guide.bodies or f"{channel}_force" not in run:
+            continue
+        normal = guide_direction(mechanism, guide, guide.normal, motions)
+        force = run[f"{channel}_force"][:, None] * normal
+        arm = motions[guide.body].position[:, :2] - motions[name].position[:, :2]
+        moment = arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]
+        if f"{channel}_moment" in run:
+            moment += run[f"{channel}_moment"]
+        action += (1.0 if name == guide.body else -1.0) * np.column_stack([force, moment])
+    return action
 
 
 def _force(

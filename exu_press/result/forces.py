@@ -41,8 +41,10 @@ def _frame_force(model: Model, channels: Mapping[str, Channel]) -> Array:
         if f"{name}_force" in channels:
             on_bodies += sign * channels[f"{name}_force"].values[:, :2]
     for guide in model.mechanism.guides:
+        if not guide.on_frame:
+            continue
         for quantity, direction in (("force", guide.normal), ("friction", guide.direction)):
-            force = channels.get(f"{guide_channel(model.mechanism, guide.body)}_{quantity}")
+            force = channels.get(f"{guide_channel(model.mechanism, guide.name)}_{quantity}")
             if force is not None:
                 on_bodies += np.outer(force.values, direction)
     return -on_bodies

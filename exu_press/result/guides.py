@@ -4,7 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from exu_press.mechanism import Mechanism, Motion
+from exu_press.mechanism import Guide, Mechanism
+from exu_press.mechanism.guide_motion import motion_in_guide
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import (
@@ -40,19 +41,20 @@ CHANNELS = Declarations(
 )
 
 
-def guide_channels(mechanism: Mechanism, body: str, **values: Array) -> dict[str, Channel]:
+def guide_channels(mechanism: Mechanism, name: str, **values: Array) -> dict[str, Channel]:
     """Return the channels of a guide's action on its body.
 
     Args:
         mechanism: with the guide.
-        body: that it guides.
+        name: of the guide.
         values: by quantity, as force (N, across), moment (N m), friction (N, along), loss (J).
     """
-    guide = next(guide for guide in mechanism.guides if guide.body == body)
-    owner, label = guide_channel(mechanism, body), f"{body.replace('_', ' ')} guide"
+    guide = mechanism.guide(name)
+    owner, label = guide_channel(mechanism, name), f"{name.replace('_', ' ')} guide"
     channels: dict[str, Channel] = {}
     for quantity, history in values.items():
         positive = direction_text(guide.direction if quantity == "friction" else guide.normal)
+        positive += "" if guide.on_frame else f" in the drawing, which turns with {guide.on}"
         channels |= CHANNELS.record(owner, label=label, positive=positive, **{quantity: history})
     return channels
 
@@ -72,12 +74,12 @@ def _elastic(run: Recording) -> Record:
     channels: dict[str, Channel] = {}
     stored, dissipated = np.zeros_like(time), np.zeros_like(time)
     for guide in model.mechanism.guides:
-        springs = (guide.lateral, (*guide.normal, 0.0)), (guide.tilting, (0.0, 0.0, 1.0))
-        if not any(spring for spring, _ in springs):
+        if guide.lateral is None and guide.tilting is None:
             continue
         loss = np.zeros_like(time)
-        motion = _guide_motion(run, guide.body)
-        displacement, velocity = motion.position - _relaxed_pose(model, guide.body), motion.velocity
+        pose, velocity = _motion_in_guide(run, guide)
+        displacement = pose - _relaxed_pose(model, guide)
+        springs = (guide.lateral, (*guide.normal, 0.0)), (guide.tilting, (0.0, 0.0, 1.0))
         reactions = {}
         for quantity, (spring, direction) in zip(("force", "moment"), springs, strict=True):
             if spring is not None:
@@ -88,9 +90,9 @@ def _elastic(run: Recording) -> Record:
                 stored += 0.5 * spring.stiffness * deflection**2
                 loss += work(time, spring.damping * rate, rate)
                 reactions[quantity] = -(spring.stiffness * deflection + spring.damping * rate)
-        if guide.body in model.parts:  # others have sensors
-            channels |= guide_channels(model.mechanism, guide.body, **reactions)
-        channels |= guide_channels(model.mechanism, guide.body, loss=loss)
+        if guide.body in model.parts or not guide.on_frame:  # others have sensors
+            channels |= guide_channels(model.mechanism, guide.name, **reactions)
+        channels |= guide_channels(model.mechanism, guide.name, loss=loss)
         dissipated += loss
     return Record(channels, stored, dissipated)
 
@@ -100,9 +102,9 @@ def _friction(run: Recording, channels: Mapping[str, Channel]) -> Record:
     model, time = run.model, run.time
     friction_channels: dict[str, Channel] = {}
     dissipated = np.zeros_like(time)
-    guides = {guide.body: guide for guide in model.mechanism.guides}
     for name, guide_friction in model.guide_friction.items():
-        speed = _guide_motion(run, name).velocity[:, :2] @ np.array(guides[name].direction)
+        guide = model.mechanism.guide(name)
+        speed = _motion_in_guide(run, guide)[1][:, :2] @ np.array(guide.direction)
         prefix = guide_channel(model.mechanism, name)
         normal = np.abs(channels[f"{prefix}_force"].values)
         friction = -guide_friction.friction.coefficients(time, speed) * normal
@@ -114,18 +116,22 @@ def _friction(run: Recording, channels: Mapping[str, Channel]) -> Record:
     return Record(friction_channels, dissipated=dissipated)
 
 
-def _guide_motion(run: Recording, body: str) -> Motion:
-    """Return the motion of what lies in a body's guide."""
-    if body not in run.model.parts:
-        return run.motions[body]
-    from exu_press.result.flexible import guided_motion
+def _motion_in_guide(run: Recording, guide: Guide) -> tuple[Array, Array]:
+    """Return pose and velocity, (n, 3) each, of what lies in a guide, in its drawing."""
+    motions = run.motions
+    if guide.body in run.model.parts:
+        from exu_press.result.flexible import guided_motion
 
-    return guided_motion(run.model, body)
+        motions = {**motions, guide.body: guided_motion(run.model, guide.body)}
+    return motion_in_guide(run.model.mechanism, guide, motions)
 
 
-def _relaxed_pose(model: Model, name: str) -> Array:
-    """Return the pose (3,) in which the springs of a body's guide are relaxed."""
-    if name in model.rigid:
-        return model.rigid[name].reference
-    start = model.mechanism.motion(np.array([model.scene.start_angle]), 1.0)[name]
+def _relaxed_pose(model: Model, guide: Guide) -> Array:
+    """Return the pose (3,) in the drawing in which the springs of a guide are relaxed."""
+    if not guide.on_frame:
+        body = model.mechanism.body(guide.body)
+        return np.array([*body.centre_of_mass, body.angle])
+    if guide.body in model.rigid:
+        return model.rigid[guide.body].reference
+    start = model.mechanism.motion(np.array([model.scene.start_angle]), 1.0)[guide.body]
     return np.asarray(start.position[0])

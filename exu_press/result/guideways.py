@@ -23,8 +23,8 @@ def record(run: Recording) -> Record:
     all_stored, all_losses = np.zeros_like(time), np.zeros_like(time)
     wearing = wearing_guides(model.scene)
     states = {
-        f"{body} {n}": history(model.states, joint, time)
-        for body, ends_of_guide in model.guideways.items()
+        f"{name} {n}": history(model.states, joint, time)
+        for name, ends_of_guide in model.guideways.items()
         for n, joint in enumerate(ends_of_guide)
     }
     for guide in model.mechanism.guides:
@@ -35,7 +35,7 @@ def record(run: Recording) -> Record:
         x, y = guide.direction
         force, moment, loss = np.zeros((len(time), 2)), np.zeros_like(time), np.zeros_like(time)
         for n, side in enumerate((-1.0, 1.0)):
-            end = states[f"{guide.body} {n}"]
+            end = states[f"{guide.name} {n}"]
             end_force = end.force[:, :2]
             reach = 0.5 * side * guide.guideway.length
             arm_x = reach * (np.cos(angle) * x - np.sin(angle) * y)
@@ -46,25 +46,25 @@ def record(run: Recording) -> Record:
             elastic, end_loss = stored_and_lost(end, time)
             loss += end_loss
             all_stored += elastic
-        film = states.get(f"{guide.body} 2")
+        film = states.get(f"{guide.name} 2")
         if film is not None:
             force += film.force
             moment += film.moments.sum(axis=1)
             loss += stored_and_lost(film, time)[1]
-            channels |= guide_channels(model.mechanism, guide.body, gap=film.gap)
+            channels |= guide_channels(model.mechanism, guide.name, gap=film.gap)
         all_losses += loss
         across, along = force @ np.array(guide.normal), force @ np.array(guide.direction)
         channels |= guide_channels(
-            model.mechanism, guide.body, force=across, moment=moment, friction=along, loss=loss
+            model.mechanism, guide.name, force=across, moment=moment, friction=along, loss=loss
         )
-        if guide.body in wearing:
-            both = [states[f"{guide.body} {n}"] for n in (0, 1)]
+        if guide.name in wearing:
+            both = [states[f"{guide.name} {n}"] for n in (0, 1)]
             on_right = [np.sign(end.eccentricity[:, :2] @ np.array(guide.normal)) for end in both]
             normal = [s * end.rubbing[:, 0] for s, end in zip(on_right, both, strict=True)]
             sliding = [end.rubbing[:, 1] for end in both]
             channels |= guide_channels(
                 model.mechanism,
-                guide.body,
+                guide.name,
                 normal_force=np.column_stack(normal),
                 sliding=np.column_stack(sliding),
             )

@@ -23,14 +23,14 @@ def record(run: Recording) -> Record:
     """Return the forces of ideal joints and guides that the solver has as constraint forces."""
     model = run.model
     spherical = {joint.name for joint in model.mechanism.joints if joint.spherical}
+    guides = {guide.key: guide.name for guide in model.mechanism.guides}
     channels: dict[str, Channel] = {}
     for name, quantity in model.sensors:
         if quantity not in ("force", "moment") or name == "drive":
             continue
         values = sensor(model, name, quantity)
-        if name.endswith("_guide"):
-            body = name.removesuffix("_guide")
-            channels |= guide_channels(model.mechanism, body, **{quantity: -values[:, 0]})
+        if name in guides:
+            channels |= guide_channels(model.mechanism, guides[name], **{quantity: -values[:, 0]})
         else:
             if name in model.constraints.single_axis and not _is_on_flexible_body(model, name):
                 values = _single_axis(model, run.motions, name, values[:, 0])

@@ -65,6 +65,10 @@ class Recording:
     histories: "Mapping[str, JointHistory]"
     so_far: Record
 
+    def __contains__(self, channel: str) -> bool:
+        """Return whether the preceding recorders have a channel."""
+        return channel in self.so_far.channels
+
     def __getitem__(self, channel: str) -> Array:
         """Return the values of a channel of the preceding recorders."""
         return self.so_far.channels[channel].values

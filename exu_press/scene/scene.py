@@ -199,6 +199,12 @@ class Scene(Table):
             object.__setattr__(self, "start", usual.get("start", STARTS[0]))
         for law in LAWS:
             self._settle_law(law, laws, unused.get(law, ""))
+        for guide in mechanism_of(self).guides if self.guide is not None else ():
+            if not guide.on_frame:
+                raise InputError(
+                    f"[guide]: {guide.key} moves with {guide.on}; allowed are guides of the frame, "
+                    "or a scene without [guide]"
+                )
         if self.guide is not None and self.guide.guideways is not None:
             contact = self.guide.contact(laws.keys_of("contact"))
             assert contact is not None
@@ -247,7 +253,7 @@ class Scene(Table):
         mechanism = mechanism_of(self)
         joints = {joint.name: self._why_unworn(joint) for joint in mechanism.joints}
         why = "guide.clearance is not given"
-        guides = {g.body: "" if g.guideway is not None else why for g in mechanism.guides}
+        guides = {g.name: "" if g.guideway is not None else why for g in mechanism.guides}
         if all((*joints.values(), *guides.values())):
             why = "no revolute joint is dry or has a mixed film, and no guide has clearance"
             self._refuse({"wear": why}, "wear", self.wear)
@@ -267,8 +273,15 @@ class Scene(Table):
         joints = {b.name: [j.name for j in mechanism.joints_of(b.name)] for b in mechanism.bodies}
         joints[mechanism.crank].append(DRIVE_FACE)
         for guide in mechanism.guides:
-            joints[guide.body].append(GUIDE_FACE)
+            if guide.on_frame:
+                joints[guide.body].append(GUIDE_FACE)
         bodies = bodies_of(self.bodies, mechanism.name, joints)
+        for guide in mechanism.guides:
+            if not guide.on_frame and guide.bodies & bodies.keys():
+                raise InputError(
+                    f"bodies.{min(guide.bodies & bodies.keys())}: {guide.key} slides on it or with "
+                    "it; allowed is a rigid body there"
+                )
         motor = self.drive
         if mechanism.crank in bodies and motor is not None and motor.on_crank == 0.0:
             raise InputError(

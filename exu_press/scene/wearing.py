@@ -16,10 +16,10 @@ def wearing_joints(scene: Scene) -> tuple[str, ...]:
 
 
 def wearing_guides(scene: Scene) -> tuple[str, ...]:
-    """Return the bodies whose guides' wear is asked for: those with clearance."""
+    """Return the guides whose wear is asked for: those with clearance."""
     if scene.wear is None:
         return ()
-    return tuple(g.body for g in mechanism_of(scene).guides if g.guideway is not None)
+    return tuple(g.name for g in mechanism_of(scene).guides if g.guideway is not None)
 
 
 def wear_of(scene: Scene, kind: str, name: str) -> WearAt:

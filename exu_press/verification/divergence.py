@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exu_press.mechanism.guide_motion import pose_in_guide
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.kind import ROUNDING
 from exu_press.result import Result
@@ -87,7 +88,7 @@ def _clearance_positions(run: Result) -> Iterator[tuple[float, Array]]:
     mechanism = mechanism_of(run.scene)
     for guide in mechanism.guides:
         if guide.guideway is not None:
-            position = run["body_position"][:, run.bodies.index(guide.body)]
+            position = pose_in_guide(mechanism, guide, run.bodies, run["body_position"])
             lateral = position[:, :2] @ np.array(guide.normal)
             angle = position[:, 2] - mechanism.body(guide.body).angle
             reach = 0.5 * guide.guideway.length * np.sin(angle)

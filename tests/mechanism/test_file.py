@@ -104,7 +104,10 @@ def test_a_mechanism_is_written_and_read_back_equal(drawn):
         ),
         ([('bearing = "rod"', 'bearing = "crank"')], "joints.crank_pin: joins 'crank' to itself"),
         ([('"spherical"', '"sphere"')], "joints.wrist_pin.shape = 'sphere': unknown (did you mean"),
-        ([("[guides.slider]", "[guides.sleder]")], "guides.sleder = 'sleder': unknown (did you"),
+        (
+            [("[guides.slider]", "[guides.sleder]")],
+            "guides.sleder.body = 'sleder': unknown (did you",
+        ),
         ([("direction = [0, 2]", "direction = [0, 0]")], "guides.slider.direction = (0.0, 0.0): "),
         ([('crank = "crank"', 'crank = "wheel"')], "crank = 'wheel': unknown"),
         ([('crank = "crank"', 'crank = "rod"')], "crank = 'rod': has 0 joints with the frame"),

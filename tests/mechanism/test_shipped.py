@@ -14,12 +14,17 @@ PINS = {"radius": 0.02, "clearance": 2e-5}
 JOINTS = {
     "andrews_squeezer": {"crank_pin": SMALL, "upper": SMALL},
     "cycloidal_press": {"rod_pin": PINS},
+    "crank_shaper": {"crank_pin": PINS, "rod_pin": PINS},
     "drag_link": {"wrist_pin": PINS},
     "eccentric_press": {"crank_pin": {}, "wrist_pin": {}},
     "four_bar": {"crank_pin": PINS, "knuckle": PINS, "pivot": PINS},
+    "oldham": {"driven_shaft": PINS},
+    "oscillating_cylinder": {"crank_pin": PINS},
     "six_bar": {"crank_pin": PINS, "coupler_pin": PINS, "pivot": PINS, "rod_pins": PINS},
     "two_point_press": {"crank_pins": PINS, "wrist_pins": PINS},
+    "whitworth": {"crank_pin": PINS, "pivot": PINS},
 }
+BARS = {"contact": {"length": 0.02}, "film": {"length": 0.02, "viscosity": 0.1}}
 LAWS = {
     "andrews_squeezer": {
         "contact": {"length": 2e-3},
@@ -27,7 +32,9 @@ LAWS = {
     },
     "cycloidal_press": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
     "drag_link": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
-    "four_bar": {"contact": {"length": 0.02}, "film": {"length": 0.02, "viscosity": 0.1}},
+    **dict.fromkeys(
+        ("crank_shaper", "four_bar", "oldham", "oscillating_cylinder", "whitworth"), BARS
+    ),
     "six_bar": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
     "two_point_press": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
 }

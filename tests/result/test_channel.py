@@ -66,7 +66,7 @@ def test_the_positive_direction_is_that_of_output_and_guide():
         turned = replace(mechanism, output=replace(mechanism.output, direction=direction))
         run = simulate(Scene(mechanism=turned, joints={}, revolutions=0.01))
         assert run.channels["slider_position"].long_name == f"slider position, {text}"
-    assert direction_text(Guide(body="ram", direction=(1.0, 0.0)).normal) == "downwards"
+    assert direction_text(Guide("ram", direction=(1.0, 0.0)).normal) == "downwards"
     run = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=0.01))
     meaning = run.channels["guide_force"].long_name
     assert meaning == "slider guide: force on the body, to the right"

@@ -16,14 +16,15 @@ from exu_press.studies.attractor.report import AttractorReport
 from exu_press.studies.spectrum import Spectra, spectra
 from exu_press.studies.spectrum_figure import draw_spectrum
 
-__all__ = ["attractor_figure", "attractor_picture"]
+__all__ = ["attractor_figure"]
 
 ORDERS = 30
 
 
 @with_style
-def attractor_figure(motion: Attractor) -> Figure:
+def attractor_figure(report: AttractorReport) -> Figure:
     """Return eight panels, of the first joint with clearance and the most scattered figure."""
+    motion = report.motion
     low, high = motion.per_second[1:]
     exponent = f"in [{low:.3g}, {high:.3g}] 1/s" if np.isfinite(low) else f"below {high:.3g} 1/s"
     exponent = exponent if np.isfinite(high) else "not known"
@@ -52,11 +53,6 @@ def attractor_figure(motion: Attractor) -> Figure:
     _histogram(panels[1, 2], label, values)
     _by_revolution(panels[1, 3], label, values, motion.skip)
     return figure
-
-
-def attractor_picture(report: AttractorReport) -> Figure:
-    """Return the picture of a report."""
-    return attractor_figure(report.motion)
 
 
 def _scatter(values: Array) -> float:

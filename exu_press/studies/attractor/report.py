@@ -5,11 +5,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.units import shown_unit, with_unit
 from exu_press.scene import Scene
 from exu_press.studies.attractor.motion import Attractor
-from exu_press.studies.base.report import Column, Picture, Points, Report, Table, quantity_column
+from exu_press.studies.base.report import Column, Points, Report, Table, quantity_column
 
 __all__ = ["AttractorReport"]
 
@@ -24,13 +23,10 @@ class AttractorReport(Report):
 
     name = "attractor"
     files = ("attractor.json",)
+    heading = "In the long run"
+    drawn = (("attractor", "Section, phase portrait, transient, orders, values by revolution."),)
 
     motion: Attractor
-
-    @property
-    def title(self) -> str:
-        """Heading of the page."""
-        return f"In the long run: {describe([self.scene], ONE_LINE)}"
 
     @property
     def subtitle(self) -> str:
@@ -58,12 +54,6 @@ class AttractorReport(Report):
         lines = [self.subtitle, *self._period(), *self._exponent()]
         rows = [self._figure(name) for name in self.motion.units]
         return [Table("Motion", head, rows, above=lines)]
-
-    def pictures(self) -> list[Picture]:
-        """Return the picture of the motion."""
-        caption = "Section, phase portrait, transient, orders, values by revolution."
-        function = "exu_press.studies.attractor.figure:attractor_picture"
-        return [Picture("attractor", caption, function)]
 
     def points(self) -> Points:
         """Return every revolution: its point in the section and its figures."""

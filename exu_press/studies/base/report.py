@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from exu_press.files.output_directory import write_json
+from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.units import shown_unit
 from exu_press.scene import Scene
 from exu_press.scene.warnings import scene_warnings
@@ -186,15 +187,28 @@ class Report(ABC):
     files: ClassVar[tuple[str, ...]] = ()
     """Names of what `save` writes and a user reads."""
 
-    @property
-    @abstractmethod
-    def title(self) -> str:
-        """Heading of the page."""
+    heading: ClassVar[str] = ""
+    """What stands before the scenes in the title."""
+
+    scene_file: ClassVar[str] = ""
+    """Name of the file of the scene that the study led to."""
+
+    drawn: ClassVar[tuple[tuple[str, str], ...]] = ()
+    """Name and caption of each picture; NAME_figure in the module `figure` beside the report's
+    draws it."""
+
+    study: Any
 
     @property
-    @abstractmethod
+    def title(self) -> str:
+        """Heading of the page."""
+        return f"{self.heading}: {describe(self.scenes, ONE_LINE)}"
+
+    @property
     def scene(self) -> Scene | None:
         """The scene of the study, or the one that it led to; None where it has none."""
+        scene: Scene = self.study.scene
+        return scene
 
     @abstractmethod
     def tables(self) -> list[Table]:
@@ -222,7 +236,8 @@ class Report(ABC):
 
     def pictures(self) -> list[Picture]:
         """Return the pictures."""
-        return []
+        module = f"{type(self).__module__.rpartition('.')[0]}.figure"
+        return [Picture(name, text, f"{module}:{name}_figure") for name, text in self.drawn]
 
     def points(self) -> Points | None:
         """Return the runs as points; None where the page has none."""
@@ -250,11 +265,13 @@ class Report(ABC):
         return list(dict.fromkeys(text for scene in self.scenes for text in scene_warnings(scene)))
 
     def save(self, directory: Path) -> None:
-        """Write NAME.json, CSV files, and the file of which a page is made."""
+        """Write NAME.json, CSV files, the scene, and the file of which a page is made."""
         if data := self.to_dict():
             write_json(directory / f"{self.name}.json", data)
         for name, values in self.csv_files().items():
             write_csv(directory / name, values)
+        if self.scene_file and self.scene is not None:
+            self.scene.save(directory / self.scene_file, overwrite=True)
         write_json(directory / REPORT_FILE, {"format": FORMAT, **self.page_data()})
 
     def page_data(self) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from exu_press.plots.words import describe
 from exu_press.studies.base import Row
 from exu_press.studies.bifurcation.report import BifurcationReport
 
-__all__ = ["bifurcation_figure", "bifurcation_picture", "period_map_figure"]
+__all__ = ["bifurcation_figure", "period_map_figure"]
 
 MARKERS = {"up": "^", "down": "v", "from the start": "o"}
 
@@ -26,7 +26,7 @@ MOST_TICKS = 9
 
 
 @with_style
-def bifurcation_figure(report: BifurcationReport) -> Figure:
+def _diagram(report: BifurcationReport) -> Figure:
     """Return the diagram of one key: eccentricity on the section, period, exponent over it."""
     study, values = report.study, report.study.values
     own = study.bifurcation
@@ -75,10 +75,9 @@ def bifurcation_figure(report: BifurcationReport) -> Figure:
     return figure
 
 
-def bifurcation_picture(report: BifurcationReport) -> Figure:
+def bifurcation_figure(report: BifurcationReport) -> Figure:
     """Return the diagram over one key, or the map over two."""
-    figure = bifurcation_figure if report.study.second is None else period_map_figure
-    return figure(report)
+    return (_diagram if report.study.second is None else period_map_figure)(report)
 
 
 @with_style

@@ -9,9 +9,8 @@ import numpy as np
 from exu_press.errors import required_package
 from exu_press.parallel.task import COMPLETED
 from exu_press.quantities.units import meaning_of, unit_of, with_unit
-from exu_press.scene import Scene
 from exu_press.studies.base import Row
-from exu_press.studies.base.report import Column, Picture, Points, Report, Table
+from exu_press.studies.base.report import Column, Points, Report, Table
 from exu_press.studies.bifurcation.study import Bifurcation
 
 __all__ = ["BifurcationReport", "Branch"]
@@ -51,6 +50,7 @@ class BifurcationReport(Report):
 
     name = "bifurcation"
     files = ("bifurcation.json",)
+    drawn = (("bifurcation", "The diagram."),)
 
     study: Bifurcation
     branches: Sequence[Branch]
@@ -72,11 +72,6 @@ class BifurcationReport(Report):
         failed = sum(row["status"] != COMPLETED for row in rows)
         return f"{len(rows)} runs, {failed} without a result"
 
-    @property
-    def scene(self) -> Scene:
-        """The scene whose keys vary."""
-        return self.study.scene
-
     def tables(self) -> list[Table]:
         """Return period, exponent and motion at each point."""
         head = (*map(with_unit, self.study.names), "way", "period", "exponent per revolution")
@@ -91,11 +86,6 @@ class BifurcationReport(Report):
             for value, row in branch
         ]
         return [Table("Runs", (*head, "motion"), rows)]
-
-    def pictures(self) -> list[Picture]:
-        """Return the diagram over one key, or the map over two."""
-        function = "exu_press.studies.bifurcation.figure:bifurcation_picture"
-        return [Picture("bifurcation", "The diagram.", function)]
 
     def points(self) -> Points | None:
         """Return every point of every section; None where no run has any."""

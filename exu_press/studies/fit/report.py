@@ -2,19 +2,17 @@
 
 import math
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from scipy.stats import chi2
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.uncertain import significant
 from exu_press.quantities.units import shown_unit, with_unit
 from exu_press.scene import Scene
 from exu_press.studies.base import Range
-from exu_press.studies.base.report import Line, Panel, Picture, Report, Table
+from exu_press.studies.base.report import Line, Panel, Report, Table
 from exu_press.studies.fit.curve import Curve, RecordedCurve
 from exu_press.studies.fit.identifiability import Direction, Identifiability
 from exu_press.studies.fit.minimum import Minimum
@@ -63,6 +61,8 @@ class FitReport(Report):
 
     name = "fit"
     files = ("fit.json", "fitted.toml")
+    heading, scene_file = "Fit", "fitted.toml"
+    drawn = (("fit", "Measured and computed."), ("profiles", "Chi-square over each key."))
 
     study: Fit
     values: dict[str, float]
@@ -102,11 +102,6 @@ class FitReport(Report):
         return float(chi2.sf(self.chi_square, self.freedom)) if self.freedom > 0.0 else None
 
     @property
-    def title(self) -> str:
-        """Heading of the page."""
-        return f"Fit: {describe([self.scene], ONE_LINE)}"
-
-    @property
     def subtitle(self) -> str:
         """Misfit."""
         return f"chi-square {self.chi_square:.4g} with {self.freedom:g} degrees of freedom"
@@ -137,14 +132,6 @@ class FitReport(Report):
                 numbers,
                 below=[*self._curve_lines(), *_inexact(self.largest_error)],
             ),
-        ]
-
-    def pictures(self) -> list[Picture]:
-        """Return residuals and curves, and how well each key is determined."""
-        figure = "exu_press.studies.fit.figure"
-        return [
-            Picture("fit", "Measured and computed.", f"{figure}:fit_figure"),
-            Picture("profiles", "Chi-square over each key.", f"{figure}:profiles_figure"),
         ]
 
     def panels(self) -> list[Panel]:
@@ -240,11 +227,6 @@ class FitReport(Report):
             "largest_error_over_uncertainty": self.largest_error,
             "runs": self.run_summary,
         }  # fmt: skip
-
-    def save(self, directory: Path) -> None:
-        """Write fit.json, the fitted scene, and the file of which a page is made."""
-        super().save(directory)
-        self.scene.save(directory / "fitted.toml", overwrite=True)
 
     def _searches(self) -> list[str]:
         minima = ", ".join(

@@ -9,7 +9,6 @@ import numpy as np
 
 from exu_press.files.output_directory import subdirectory
 from exu_press.numerics.arrays import Array
-from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities import quantity_of
 from exu_press.quantities.uncertain import significant, uncertain
 from exu_press.quantities.units import with_unit
@@ -17,7 +16,7 @@ from exu_press.scene import Scene
 from exu_press.schema.csv_table import Value
 from exu_press.studies.base import Range
 from exu_press.studies.base.evaluation import Evaluation
-from exu_press.studies.base.report import Column, Picture, Points, Report, Table, quantity_column
+from exu_press.studies.base.report import Column, Points, Report, Table, quantity_column
 from exu_press.studies.optimise.study import Optimise
 
 __all__ = ["OptimiseReport"]
@@ -47,6 +46,8 @@ class OptimiseReport(Report):
 
     name = "optimise"
     files = ("optimise.json", "trials.csv", "chosen.toml", "front/")
+    heading, scene_file = "Optimum", "chosen.toml"
+    drawn = (("front", "The front: all trials, and those that no other one beats."),)
 
     study: Optimise
     method: str
@@ -78,11 +79,6 @@ class OptimiseReport(Report):
             if isinstance(key, Range)
         }
         return [name for name, share in shares.items() if not AT_END < share < 1.0 - AT_END]
-
-    @property
-    def title(self) -> str:
-        """Heading of the page."""
-        return f"Optimum: {describe([self.scene], ONE_LINE)}"
 
     @property
     def subtitle(self) -> str:
@@ -130,11 +126,6 @@ class OptimiseReport(Report):
         above = [*self.run_summary, f"method: {self.method} ({self.why})"]
         head = ("", *map(with_unit, study.keys), *heads)
         return [Table("Front", head, rows, above=above, below=below), self._trial_table()]
-
-    def pictures(self) -> list[Picture]:
-        """Return the front."""
-        caption = "The front: all trials, and those that no other one beats."
-        return [Picture("front", caption, "exu_press.studies.optimise.figure:front_figure")]
 
     def points(self) -> Points:
         """Return the trials; one of the front opens with its scene."""
@@ -187,7 +178,6 @@ class OptimiseReport(Report):
     def save(self, directory: Path) -> None:
         """Write optimise.json, trials.csv, the chosen scene and those of the front."""
         super().save(directory)
-        self.scene.save(directory / "chosen.toml", overwrite=True)
         front = subdirectory(directory, "front")
         for old in front.glob("*.toml"):
             old.unlink()

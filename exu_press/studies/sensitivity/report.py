@@ -8,13 +8,10 @@ from typing import Any
 import numpy as np
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities import quantity_of
 from exu_press.quantities.uncertain import significant, uncertain
-from exu_press.scene import Scene
 from exu_press.schema.csv_table import Value
 from exu_press.studies.base.report import (
-    Picture,
     Points,
     Report,
     Table,
@@ -51,6 +48,8 @@ class SensitivityReport(Report):
 
     name = "sensitivity"
     files = ("sensitivity.json", "samples.csv")
+    heading = "Sensitivity"
+    drawn = (("sensitivity", "Spreads, changes by one key, shares of the variance."),)
 
     study: Sensitivity
     sample: Sample
@@ -62,31 +61,15 @@ class SensitivityReport(Report):
     run_summary: list[str]
 
     @property
-    def title(self) -> str:
-        """Heading of the page."""
-        return f"Sensitivity: {describe([self.scene], ONE_LINE)}"
-
-    @property
     def subtitle(self) -> str:
         """Number of runs."""
         return self.run_summary[0]
-
-    @property
-    def scene(self) -> Scene:
-        """The scene whose keys vary."""
-        return self.study.scene
 
     def tables(self) -> list[Table]:
         """Return the runs, and for each quantity its spread and its share by key."""
         names = self.study.sensitivity.quantities
         quantities = [self._table(index, name) for index, name in enumerate(names)]
         return [Table("Runs", above=self.run_summary), *quantities]
-
-    def pictures(self) -> list[Picture]:
-        """Return spreads, changes by one key and shares of the variance."""
-        caption = "Spreads, changes by one key, shares of the variance."
-        function = "exu_press.studies.sensitivity.figure:sensitivity_figure"
-        return [Picture("sensitivity", caption, function)]
 
     def points(self) -> Points:
         """Return the presses of the sample, the first quantity over the key that decides it."""

@@ -5,9 +5,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from exu_press.plots.words import ONE_LINE, describe
 from exu_press.scene import Scene
-from exu_press.studies.base.report import Picture, Report, Table
+from exu_press.studies.base.report import Report, Table
 from exu_press.studies.stability.judge import RIGHT, STOPPED, WRONG
 
 __all__ = ["Row", "StabilityReport"]
@@ -61,15 +60,12 @@ class StabilityReport(Report):
 
     name = "stability"
     files = ("stability.json",)
+    heading = "At the extremes"
+    drawn = (("stability", "Every axis from end to end."),)
 
     base: Scene
     quick: bool
     rows: tuple[Row, ...]
-
-    @property
-    def title(self) -> str:
-        """Heading of the page."""
-        return f"At the extremes: {describe([self.scene], ONE_LINE)}"
 
     @property
     def subtitle(self) -> str:
@@ -129,11 +125,6 @@ class StabilityReport(Report):
         not_right = [Table("Cases that are not right", above=failed)] if failed else []
         axes = Table("Axes", HEAD, rows, right=True)
         return [axes, *not_right, Table("All cases", above=[summary])]
-
-    def pictures(self) -> list[Picture]:
-        """Return the map of the cases."""
-        function = "exu_press.studies.stability.figure:stability_figure"
-        return [Picture("stability", "Every axis from end to end.", function)]
 
     def _axis(self, axis: str) -> tuple[str, ...]:
         """Return the row of an axis."""

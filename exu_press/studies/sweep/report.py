@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 from exu_press.files.output_directory import replacing
 from exu_press.parallel.task import FAILED, TIME_LIMIT, WORKER_DIED
-from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities import Owner, Quantity
 from exu_press.quantities.catalogue import find_quantity
 from exu_press.quantities.cost import COSTS
@@ -76,6 +75,7 @@ class SweepReport(Report):
 
     name = "sweep"
     files = ("table.csv", "table.nc")
+    heading = "Sweep"
 
     study: Sweep
     columns: Mapping[str, tuple[Value, ...]]
@@ -105,19 +105,9 @@ class SweepReport(Report):
         return error if None not in error.values() and len(error) == len(parts) else None
 
     @property
-    def title(self) -> str:
-        """Heading of the page."""
-        return f"Sweep: {describe(self.study.scenes, ONE_LINE)}"
-
-    @property
     def subtitle(self) -> str:
         """Number of runs, and how they ended."""
         return f"{len(self)} runs over {', '.join(self.study.keys)}: {self._ends()}"
-
-    @property
-    def scene(self) -> Scene:
-        """The scene whose keys vary."""
-        return self.study.scene
 
     @property
     def scenes(self) -> Sequence[Scene]:

@@ -2,7 +2,6 @@
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from exu_press.parallel.task import COMPLETED
@@ -13,7 +12,6 @@ from exu_press.scene import Scene
 from exu_press.studies.base import Row
 from exu_press.studies.base.report import (
     Column,
-    Picture,
     Points,
     Report,
     Table,
@@ -62,6 +60,8 @@ class WearReport(Report):
 
     name = "wear"
     files = ("wear.json", "worn.toml")
+    scene_file = "worn.toml"
+    drawn = (("wear", "The course."),)
 
     study: WearStudy
     course: Sequence[Point]
@@ -143,10 +143,6 @@ class WearReport(Report):
         ]
         return [Table("Jumps", heads, rows, below=below, right=True, excerpt=excerpt)]
 
-    def pictures(self) -> list[Picture]:
-        """Return shapes, clearances and quantities over the strokes."""
-        return [Picture("wear", "The course.", "exu_press.studies.wear.figure:wear_figure")]
-
     def points(self) -> Points | None:
         """Return the course over the strokes; None of a single point."""
         if len(self.course) < 2:
@@ -191,8 +187,3 @@ class WearReport(Report):
             },
             "quantities": {name: self.values(name) for name in self.study.names},
         }
-
-    def save(self, directory: Path) -> None:
-        """Write wear.json, the worn scene, and the file of which a page is made."""
-        super().save(directory)
-        self.scene.save(directory / "worn.toml", overwrite=True)

@@ -6,6 +6,7 @@ import pytest
 from exu_press import Scene, simulate
 from exu_press.studies.attractor import Attractor, Exponent, period_of
 from exu_press.studies.attractor.figure import attractor_figure
+from exu_press.studies.attractor.report import AttractorReport
 
 SCENE = Scene(mechanism="slider_crank", joints={}, revolutions=1.0)
 
@@ -30,7 +31,7 @@ def motion(run, points):
 def test_what_each_panel_shows(run):
     points = np.tile([[0.1, 0.2, 0.3, 0.4], [0.5, 0.6, 0.7, 0.8]], (3, 1))
     section, speeds, portrait, transient, spectrum, orders, values, by_revolution = (
-        attractor_figure(motion(run, points)).axes
+        attractor_figure(AttractorReport(motion(run, points))).axes
     )
     assert section.collections[0].get_offsets().tolist() == points[:, :2].tolist()
     assert speeds.collections[0].get_offsets().tolist() == points[:, [0, 2]].tolist()
@@ -45,6 +46,6 @@ def test_what_each_panel_shows(run):
 
 def test_ideal_joints_and_a_motor_have_the_cranks_speed_alone(run):
     points = np.array([[0.95], [0.96]] * 3)
-    first, second, *_ = attractor_figure(motion(run, points)).axes
+    first, second, *_ = attractor_figure(AttractorReport(motion(run, points))).axes
     assert first.lines[0].get_ydata().tolist() == points[:, 0].tolist()
     assert not second.axison

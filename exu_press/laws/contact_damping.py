@@ -243,6 +243,14 @@ def hysteretic(
     >>> contact = hysteretic(hertz(2.5545e10), restitution=0.5, chi=lambda e: 1.0 - e)
     >>> round(contact.force(10e-6, 0.1, 0.1)[0], 3)
     1211.706
+
+    What chi of the laws below, in their order, delivers where 0.5 is wanted:
+
+    >>> from exu_press.laws.contact_restitution import restitution_of
+    >>> e = 0.5
+    >>> chis = 1.5 * (1 - e), 0.75 * (1 - e**2), 1.6 * (1 / e - 1), 1 / e - e, 1.5 * (1 / e - 1)
+    >>> [round(restitution_of(chi), 3) for chi in chis]
+    [0.663, 0.725, 0.47, 0.488, 0.488]
     """
     demand(
         0.0 < restitution <= 1.0,
@@ -265,142 +273,54 @@ def hysteretic(
     return NormalContact(stiffness, damping, needs_impact_speed=True, tension=tension)
 
 
-def hunt_crossley(
-    stiffness: Stiffness,
-    restitution: float,
-    tension: bool = False,
-    slowest_impact: float = SLOWEST_IMPACT,
-) -> NormalContact:
-    r"""Hysteretic damping of Hunt and Crossley.
+def _with_chi(chi: Callable[[float], float]) -> Callable[..., NormalContact]:
+    """Return the law of a chi; arguments and errors as of `hysteretic`, but for chi."""
 
-    .. math::
-        \chi = \tfrac32 (1 - e)
+    def law(
+        stiffness: Stiffness,
+        restitution: float,
+        tension: bool = False,
+        slowest_impact: float = SLOWEST_IMPACT,
+    ) -> NormalContact:
+        return hysteretic(stiffness, restitution, chi, tension, slowest_impact)
 
-    Arguments and errors as of `hysteretic`. Range: derived for e near 1. A wanted 0.5 delivers:
-
-    >>> from exu_press.laws.contact_restitution import restitution_of
-    >>> e = 0.5
-    >>> round(restitution_of(1.5 * (1 - e)), 3)
-    0.663
-
-    References
-    ----------
-    .. [1] Hunt, K. H., and F. R. E. Crossley. "Coefficient of Restitution Interpreted as Damping in
-       Vibroimpact." J. Appl. Mech. 42 (1975): 440-445.
-    """
-    return hysteretic(stiffness, restitution, lambda e: 1.5 * (1.0 - e), tension, slowest_impact)
+    return law
 
 
-def lankarani_nikravesh(
-    stiffness: Stiffness,
-    restitution: float,
-    tension: bool = False,
-    slowest_impact: float = SLOWEST_IMPACT,
-) -> NormalContact:
-    r"""Hysteretic damping of Lankarani and Nikravesh.
+hunt_crossley = _with_chi(lambda e: 1.5 * (1.0 - e))
+r"""chi = 3/2 (1 - e), derived for e near 1.
 
-    .. math::
-        \chi = \tfrac34 (1 - e^2)
+Hunt, K. H., and F. R. E. Crossley. "Coefficient of Restitution Interpreted as Damping in
+Vibroimpact." J. Appl. Mech. 42 (1975): 440-445.
+"""
 
-    Arguments and errors as of `hysteretic`. Range: derived for e near 1. A wanted 0.5 delivers:
+lankarani_nikravesh = _with_chi(lambda e: 0.75 * (1.0 - e**2))
+r"""chi = 3/4 (1 - e^2), derived for e near 1.
 
-    >>> from exu_press.laws.contact_restitution import restitution_of
-    >>> e = 0.5
-    >>> round(restitution_of(0.75 * (1 - e**2)), 3)
-    0.725
+Lankarani, H. M., and P. E. Nikravesh. "A Contact Force Model with Hysteresis Damping for Impact
+Analysis of Multibody Systems." J. Mech. Des. 112 (1990): 369-376.
+"""
 
-    References
-    ----------
-    .. [1] Lankarani, H. M., and P. E. Nikravesh. "A Contact Force Model with Hysteresis Damping for
-       Impact Analysis of Multibody Systems." J. Mech. Des. 112 (1990): 369-376.
-    """
-    return hysteretic(
-        stiffness, restitution, lambda e: 0.75 * (1.0 - e**2), tension, slowest_impact
-    )
+flores = _with_chi(lambda e: 1.6 * (1.0 - e) / e)
+r"""chi = 8 (1 - e) / (5 e), for every e in (0, 1].
 
+Flores, P., M. Machado, M. T. Silva, and J. M. Martins. "On the Continuous Contact Force Models for
+Soft Materials in Multibody Dynamics." Multibody Syst. Dyn. 25 (2011): 357-375.
+"""
 
-def flores(
-    stiffness: Stiffness,
-    restitution: float,
-    tension: bool = False,
-    slowest_impact: float = SLOWEST_IMPACT,
-) -> NormalContact:
-    r"""Hysteretic damping of Flores, Machado, Silva and Martins.
+gonthier = _with_chi(lambda e: (1.0 - e**2) / e)
+r"""chi = (1 - e^2) / e, an approximation of its authors for every e in (0, 1].
 
-    .. math::
-        \chi = \frac{8 (1 - e)}{5 e}
+Gonthier, Y., J. McPhee, C. Lange, and J.-C. Piedboeuf. "A Regularized Contact Model with Asymmetric
+Damping and Dwell-Time Dependent Friction." Multibody Syst. Dyn. 11 (2004): 209-233.
+"""
 
-    Arguments and errors as of `hysteretic`. Range: every e in (0, 1]. A wanted 0.5 delivers:
+hu_guo = _with_chi(lambda e: 1.5 * (1.0 - e) / e)
+r"""chi = 3 (1 - e) / (2 e), for every e in (0, 1].
 
-    >>> from exu_press.laws.contact_restitution import restitution_of
-    >>> e = 0.5
-    >>> round(restitution_of(1.6 * (1 - e) / e), 3)
-    0.47
-
-    References
-    ----------
-    .. [1] Flores, P., M. Machado, M. T. Silva, and J. M. Martins. "On the Continuous Contact Force
-       Models for Soft Materials in Multibody Dynamics." Multibody Syst. Dyn. 25 (2011): 357-375.
-    """
-    return hysteretic(
-        stiffness, restitution, lambda e: 1.6 * (1.0 - e) / e, tension, slowest_impact
-    )
-
-
-def gonthier(
-    stiffness: Stiffness,
-    restitution: float,
-    tension: bool = False,
-    slowest_impact: float = SLOWEST_IMPACT,
-) -> NormalContact:
-    r"""Hysteretic damping of Gonthier, McPhee, Lange and Piedboeuf, their approximation.
-
-    .. math::
-        \chi = \frac{1 - e^2}{e}
-
-    Arguments and errors as of `hysteretic`. Range: every e in (0, 1]. A wanted 0.5 delivers:
-
-    >>> from exu_press.laws.contact_restitution import restitution_of
-    >>> e = 0.5
-    >>> round(restitution_of((1 - e**2) / e), 3)
-    0.488
-
-    References
-    ----------
-    .. [1] Gonthier, Y., J. McPhee, C. Lange, and J.-C. Piedboeuf. "A Regularized Contact Model with
-       Asymmetric Damping and Dwell-Time Dependent Friction." Multibody Syst. Dyn. 11 (2004):
-       209-233.
-    """
-    return hysteretic(stiffness, restitution, lambda e: (1.0 - e**2) / e, tension, slowest_impact)
-
-
-def hu_guo(
-    stiffness: Stiffness,
-    restitution: float,
-    tension: bool = False,
-    slowest_impact: float = SLOWEST_IMPACT,
-) -> NormalContact:
-    r"""Hysteretic damping of Hu and Guo.
-
-    .. math::
-        \chi = \frac{3 (1 - e)}{2 e}
-
-    Arguments and errors as of `hysteretic`. Range: every e in (0, 1]. A wanted 0.5 delivers:
-
-    >>> from exu_press.laws.contact_restitution import restitution_of
-    >>> e = 0.5
-    >>> round(restitution_of(1.5 * (1 - e) / e), 3)
-    0.488
-
-    References
-    ----------
-    .. [1] Hu, S., and X. Guo. "A Dissipative Contact Force Model for Impact Analysis in Multibody
-       Dynamics." Multibody Syst. Dyn. 35 (2015): 131-151.
-    """
-    return hysteretic(
-        stiffness, restitution, lambda e: 1.5 * (1.0 - e) / e, tension, slowest_impact
-    )
-
+Hu, S., and X. Guo. "A Dissipative Contact Force Model for Impact Analysis in Multibody Dynamics."
+Multibody Syst. Dyn. 35 (2015): 131-151.
+"""
 
 DAMPING_LAWS: dict[str, Callable[..., NormalContact]] = {
     "step": step_damping,

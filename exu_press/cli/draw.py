@@ -32,6 +32,7 @@ from exu_press.mechanism import (
 )
 from exu_press.mechanism.drawing_warnings import drawing_warnings
 from exu_press.mechanism.examine import Examination, examine
+from exu_press.mechanism.stroke import units_of_output
 from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.scene.file import parse_assignment
 from exu_press.schema.checks import demand_known
@@ -102,7 +103,8 @@ def execute(options: argparse.Namespace) -> int:
         save_figure(drawing_figure(examined, "\n".join(lines), speed), target)
         if not options.quiet:
             print(f"written: {target}")
-    stroke = math.inf if examined.stroke is None else examined.stroke.length
+    is_length = examined.stroke is not None and not mechanism.output.rotation
+    stroke = examined.stroke.length if examined.stroke and is_length else math.inf
     show_warnings(drawing_warnings(mechanism, stroke))
     for fault in examined.faults:
         print(f"exu-press: {fault}", file=sys.stderr)
@@ -213,16 +215,20 @@ def _summary(examined: Examination) -> list[tuple[str, str]]:
     stroke = examined.stroke
     if stroke is None:
         return rows
-    rows.append((f"stroke of {examined.mechanism.slider}", f"{1e3 * stroke.length:.3f} mm"))
+    units = units_of_output(examined.mechanism)
+    length = f"{units.position_scale * stroke.length:.3f} {units.position}"
+    rows.append((f"stroke of {examined.mechanism.slider}", length))
     for centre in stroke.dead_centres:
-        position = f"position {1e3 * centre.position:.3f} mm"
+        position = f"position {units.position_scale * centre.position:.3f} {units.position}"
         which = "top" if centre.top else "bottom"
         rows.append((f"{which} dead centre", f"{math.degrees(centre.angle):.3f} deg, {position}"))
     fastest = int(np.abs(stroke.velocity).argmax())
     most = float(np.abs(stroke.velocity[fastest]))
     if most > 0.0:
-        rows.append(("velocity, max", f"{1e3 * most:.3f} mm/rad at {fastest} deg"))
-        rows.append(("mechanical advantage, min", f"{1 / most:.3f} N per N m at {fastest} deg"))
+        velocity = f"{units.velocity_scale * most:.3f} {units.velocity}"
+        rows.append(("velocity, max", f"{velocity} at {fastest} deg"))
+        advantage = f"{1 / most:.3f} {units.advantage} at {fastest} deg"
+        rows.append(("mechanical advantage, min", advantage))
     for name, values in group_equal_angles(examined.transmission):
         degrees = np.degrees(values)
         low = f"{degrees.min():.2f} deg at {degrees.argmin()} deg"
@@ -234,14 +240,15 @@ def _table(examined: Examination, speed: float | None) -> list[str]:
     """Return position, velocity, mechanical advantage and least transmission angle in rows."""
     stroke = examined.stroke
     assert stroke is not None
-    unit, scale = ("mm/rad", 1e3) if speed is None else ("m/s", speed)
+    units = units_of_output(examined.mechanism)
+    unit, scale = (units.velocity, units.velocity_scale) if speed is None else (units.speed, speed)
     least = [np.degrees(values) for values in examined.transmission.values()]
     rows = [
         (
             "crank angle, deg",
-            "position, mm",
+            f"position, {units.position}",
             f"velocity, {unit}",
-            "force per torque, 1/m",
+            units.ratio,
             "least transmission angle, deg",
         )
     ]
@@ -250,7 +257,7 @@ def _table(examined: Examination, speed: float | None) -> list[str]:
         rows.append(
             (
                 f"{angle}",
-                f"{1e3 * stroke.position[angle]:.3f}",
+                f"{units.position_scale * stroke.position[angle]:.3f}",
                 f"{round(scale * float(stroke.velocity[angle]), 4) + 0.0:.4f}",
                 f"{advantage:.2f}" if math.isfinite(advantage) else "infinite",
                 f"{min(values[angle] for values in least):.2f}" if least else "-",

@@ -135,8 +135,15 @@ def check_drawing(
     _check_known("crank", crank, names)
     _check_known("output.body", output.body, names)
     _check_direction("output.direction", output.direction)
+    if not isinstance(output.rotation, bool):
+        raise InputError(f"output.rotation = {output.rotation!r}: allowed is true or false")
     _check_point("output.origin", output.origin)
     for guide in guides:
+        if guide.body == output.body and guide.on_frame and output.rotation:
+            raise InputError(
+                f"output.rotation = true: {guide.key} holds the angle of {output.body}; allowed is "
+                "a body that turns"
+            )
         if (
             guide.body == output.body
             and guide.on_frame

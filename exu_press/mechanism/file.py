@@ -65,7 +65,7 @@ SECTIONS: dict[str, tuple[type, tuple[str, ...], tuple[str, ...]]] = {
 UNITS = {"mass": "kg", "inertia": "kg m^2", "angle": "rad", "at": "m", "centre_of_mass": "m"}
 COORDINATES = "x", "y"
 
-OUTPUT = ("body",), ("direction", "origin")
+OUTPUT = ("body",), ("direction", "origin", "rotation")
 TOP = (
     ("name", "crank", "output", "bodies", "joints"),
     ("guides", "gears", "groups", "counterweight", "defaults"),
@@ -239,5 +239,5 @@ def _plain(item: Any, required: tuple[str, ...], optional: tuple[str, ...]) -> d
     return {
         key: [*value] if isinstance(value, tuple) else value
         for key, value in values.items()
-        if key in required or value not in (None, implied.get(key))
+        if key in required or value not in (None, False, implied.get(key))
     }

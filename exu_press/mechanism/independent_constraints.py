@@ -223,7 +223,7 @@ class _Selection:
         self._rigid = {f"joints.{joint.name}": [0, 1] for joint in joints}
         for guide in mechanism.guides:
             is_rigid = guide.holds_across, guide.holds_angle
-            self._rigid[f"guides.{guide.body}"] = [*np.flatnonzero(is_rigid)]
+            self._rigid[guide.key] = [*np.flatnonzero(is_rigid)]
         self._rigid |= {f"gears.{gear.name}": [0] for gear in mechanism.gears}
 
     def stressed_by_gears(self) -> frozenset[str]:

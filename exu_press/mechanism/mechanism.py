@@ -187,7 +187,7 @@ class Mechanism:
         return {body.name: motions[body.name] for body in self.bodies}
 
     def ideal_slider(self, angle: Array, speed: float) -> tuple[Array, Array, Array]:
-        """Return position (m), velocity and acceleration of the slider with ideal joints."""
+        """Return position (m, or rad), velocity and acceleration of the slider, ideal joints."""
         slider = self.motion(angle, speed)[self.slider]
         return (
             self.output_position(slider.position),
@@ -199,9 +199,9 @@ class Mechanism:
     def dead_centres(self) -> tuple[float, float] | None:
         """Crank angles of the ideal slider's top and bottom dead centre, rad, to 1e-4.
 
-        None where there are none: the output is in no guide, or reverses more than twice.
+        None where there are none: the output is in no guide, or does not reverse twice.
         """
-        if self.frame_guide(self.slider) is None:
+        if self.frame_guide(self.slider) is None and not self.output.rotation:
             return None
         angle = np.linspace(0.0, 2.0 * np.pi, 721)[:-1]
         position, velocity, _ = self.ideal_slider(angle, 1.0)
@@ -213,7 +213,7 @@ class Mechanism:
 
     @cached_property
     def bottom(self) -> float:
-        """Lowest position of the ideal output, m: heights count from there."""
+        """Lowest position of the ideal output, m or rad: heights count from there."""
         angle = np.linspace(0.0, 2.0 * np.pi, 721)[:-1]
         lowest = angle[self.ideal_slider(angle, 1.0)[0].argmin()]
         return float(self.ideal_slider(np.array([self._reversal(lowest)]), 1.0)[0][0])
@@ -226,8 +226,16 @@ class Mechanism:
                 angle -= rate / slope
         return round(float(angle), 12) % (2.0 * math.pi)
 
+    @property
+    def output_reverses(self) -> bool:
+        """Whether the ideal output returns in a revolution, instead of turning around."""
+        begin, end = self.ideal_slider(np.array([0.0, 2.0 * np.pi]), 1.0)[0]
+        return abs(float(end - begin)) < 1.0 or not self.output.rotation
+
     def output_position(self, position: Array) -> Array:
-        """Return the output's position (n,), m, for its body's positions (n, 2 or 3)."""
+        """Return the output's position (n,), m, or its angle, rad, for its body's poses (n, 3)."""
+        if self.output.rotation:
+            return np.asarray(position[:, 2] - self.body(self.slider).angle)
         return self.output_component(position) - float(
             np.dot(self.output.origin, self.output.direction)
         )
@@ -238,7 +246,9 @@ class Mechanism:
         return np.asarray((position[:, :2] - np.array(drawn)) @ np.array(self.output.normal))
 
     def output_component(self, vectors: Array) -> Array:
-        """Return the components (n,) of vectors (n, 2 or 3) in the output's direction."""
+        """Return the components (n,) of vectors (n, 3) in the output's direction, or about it."""
+        if self.output.rotation:
+            return np.asarray(vectors[:, 2])
         return np.asarray(vectors[:, :2] @ np.array(self.output.direction))
 
     @cached_property

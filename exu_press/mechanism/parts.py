@@ -190,11 +190,18 @@ class Output:
         body: its centre of mass is meant.
         direction: in which the position counts; `Mechanism` makes it a unit vector.
         origin: where the position is zero, in the drawing, m.
+        rotation: whether its angle from the drawing counts instead, counter-clockwise.
     """
 
     body: str
     direction: Point = (0.0, 1.0)
     origin: Point = (0.0, 0.0)
+    rotation: bool = False
+
+    @property
+    def unit(self) -> str:
+        """SI unit of its position."""
+        return "rad" if self.rotation else "m"
 
     @property
     def normal(self) -> Point:

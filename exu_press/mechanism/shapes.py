@@ -208,7 +208,7 @@ class FrontView:
     def dead_centres(self) -> list[Mark]:
         """Return the marks of the slider's ideal dead centres, none where it has none."""
         mechanism = self._mechanism
-        if mechanism.dead_centres is None:
+        if mechanism.dead_centres is None or mechanism.output.rotation:
             return []
         motion = mechanism.motion(np.linspace(0.0, 2.0 * np.pi, 721), 1.0)[mechanism.slider]
         outline, along = self.swept[mechanism.slider], np.array(mechanism.output.direction)

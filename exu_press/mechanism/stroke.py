@@ -1,5 +1,6 @@
 """The output over one revolution: stroke, dead centres, velocity, mechanical advantage."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.numerics.arrays import Array
 
-__all__ = ["DeadCentre", "Stroke", "stroke_of"]
+__all__ = ["DeadCentre", "OutputUnits", "Stroke", "stroke_of", "units_of_output"]
 
 STEPS = 1440
 """Crank angles of a revolution; dead centres are searched between two of them."""
@@ -17,12 +18,46 @@ REST = 1e-9
 
 
 @dataclass(frozen=True)
+class OutputUnits:
+    """Units in which drawings show an output, and factors from those of SI.
+
+    Attributes:
+        position: name of its unit.
+        position_scale: from m or rad.
+        velocity: of its velocity per angular velocity of the crank.
+        velocity_scale: from m/rad or rad/rad.
+        speed: of its velocity, SI.
+        advantage: of the mechanical advantage.
+        ratio: what the mechanical advantage is.
+    """
+
+    position: str
+    position_scale: float
+    velocity: str
+    velocity_scale: float
+    speed: str
+    advantage: str
+    ratio: str
+
+
+DISPLACEMENT = OutputUnits("mm", 1e3, "mm/rad", 1e3, "m/s", "N per N m", "force per torque, 1/m")
+ROTATION = OutputUnits(
+    "deg", math.degrees(1.0), "rad/rad", 1.0, "rad/s", "N m per N m", "torque per torque"
+)
+
+
+def units_of_output(mechanism: Mechanism) -> OutputUnits:
+    """Return the units of a mechanism's output."""
+    return ROTATION if mechanism.output.rotation else DISPLACEMENT
+
+
+@dataclass(frozen=True)
 class DeadCentre:
     """A position in which the output reverses.
 
     Attributes:
         angle: of the crank from the drawing, rad, to rounding.
-        position: of the output, m.
+        position: of the output, m or rad.
         top: whether it is a largest position, else a smallest one.
     """
 
@@ -37,8 +72,8 @@ class Stroke:
 
     Attributes:
         angle: of the crank from the drawing, (n,), rad.
-        position: of the output, (n,), m.
-        velocity: per angular velocity of the crank, (n,), m/rad.
+        position: of the output, (n,), m or rad.
+        velocity: per angular velocity of the crank, (n,), m/rad or rad/rad.
         dead_centres: in the order of their crank angles.
     """
 
@@ -83,6 +118,8 @@ def _dead_centres(mechanism: Mechanism) -> tuple[DeadCentre, ...]:
         return ()
     signs = np.sign(velocity[moving])
     change = np.flatnonzero(signs[1:] != signs[:-1])
+    if not len(change):
+        return ()
     low, high, sign = angle[moving[change]], angle[moving[change + 1]], signs[change]
     for _ in range(50):
         middle = 0.5 * (low + high)
@@ -90,8 +127,6 @@ def _dead_centres(mechanism: Mechanism) -> tuple[DeadCentre, ...]:
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     roots = 0.5 * (low + high)
     roots = np.where(np.abs(np.sin(0.5 * roots)) < 1e-12, 0.0, roots % (2.0 * np.pi))
-    if not len(roots):
-        return ()
     position = mechanism.ideal_slider(roots, 1.0)[0]
     centres = [
         DeadCentre(float(a), float(p), bool(up > 0.0))

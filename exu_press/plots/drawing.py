@@ -14,6 +14,7 @@ from exu_press.mechanism.examine import Examination
 from exu_press.mechanism.parts import GROUND
 from exu_press.mechanism.pitch_circles import pitch_circles
 from exu_press.mechanism.shapes import shapes_of
+from exu_press.mechanism.stroke import units_of_output
 from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
@@ -191,20 +192,24 @@ def _curves(panels: Sequence[Axes], examined: Examination, speed: float | None) 
     angle = np.degrees(stroke.angle)
     output = plain(examined.mechanism.slider)
     position, velocity, advantage, transmission = panels
-    position.plot(angle, 1e3 * stroke.position, color=RUN)
-    position.set(title=f"Position of {output}", ylabel="mm")
+    units = units_of_output(examined.mechanism)
+    position.plot(angle, units.position_scale * stroke.position, color=RUN)
+    position.set(title=f"Position of {output}", ylabel=units.position)
     for centre in stroke.dead_centres:
         at = float(np.degrees(centre.angle))
-        position.plot(at, 1e3 * centre.position, "o", color=RUN, markersize=4)
+        position.plot(at, units.position_scale * centre.position, "o", color=RUN, markersize=4)
     if speed is None:
-        velocity.plot(angle, 1e3 * stroke.velocity, color=RUN)
-        velocity.set(title="Velocity per radian of the crank", ylabel="mm/rad")
+        velocity.plot(angle, units.velocity_scale * stroke.velocity, color=RUN)
+        velocity.set(title="Velocity per radian of the crank", ylabel=units.velocity)
     else:
         velocity.plot(angle, speed * stroke.velocity, color=RUN)
-        velocity.set(title=f"Velocity at {speed * 30.0 / np.pi:g} rpm", ylabel="m/s")
+        velocity.set(title=f"Velocity at {speed * 30.0 / np.pi:g} rpm", ylabel=units.speed)
     least = float(stroke.mechanical_advantage.min())
     advantage.plot(angle, stroke.mechanical_advantage, color=RUN)
-    advantage.set(title="Mechanical advantage: force per torque of the crank", ylabel="N per N m")
+    kind = units.ratio.partition(" ")[0]
+    advantage.set(
+        title=f"Mechanical advantage: {kind} per torque of the crank", ylabel=units.advantage
+    )
     if np.isfinite(least):
         advantage.set(yscale="log", ylim=(0.7 * least, HIGHEST * least))
         advantage.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))

@@ -30,6 +30,7 @@ from exu_press.quantities.catalogue import (
     PEAK_TORQUE,
     SHAKING_MEANS,
 )
+from exu_press.quantities.slider import of_output
 from exu_press.quantities.uncertain import significant
 from exu_press.quantities.value import value_of
 from exu_press.result import Result
@@ -168,6 +169,7 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     """Draw every stroke about its bottom dead centre, and the ideal one."""
     mean = float(np.mean([centre.position for centre in centres]))
     mechanism = mechanism_of(result.scene)
+    unit = mechanism.output.unit
     bottom = np.degrees(ideal_bottom_angle(mechanism))
     about = _about(mechanism, bottom)
     from_centre = np.linspace(-about, about, 200)
@@ -196,12 +198,14 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
         axes.plot(*lowest_point, "o", color=colour, markersize=4)
     axes.set(xlim=(-about, about), title="Bottom dead centre")
     axes.set(
-        xlabel="crank angle from bottom dead centre, deg", ylabel="slider above its lowest, µm"
+        xlabel="crank angle from bottom dead centre, deg",
+        ylabel=f"slider above its lowest, µ{unit}",
     )
     axes.margins(y=0.3)
     axes.legend(loc="upper center", ncols=3)
-    lowest = with_error(value_of(result, DEAD_CENTRE_MEAN.name), 1e3, 6)
-    note(axes, f"lowest, mm: {lowest}{_scatter(result, centres)}")
+    mean_of_lowest = of_output(DEAD_CENTRE_MEAN, mechanism.output)
+    lowest = with_error(value_of(result, mean_of_lowest), 1e3, 6)
+    note(axes, f"lowest, m{unit}: {lowest}{_scatter(result, centres)}")
 
 
 def _about(mechanism: Mechanism, bottom: float) -> float:
@@ -219,8 +223,9 @@ def _scatter(result: Result, centres: list[DeadCentre]) -> str:
     spread = float(np.ptp([centre.position for centre in centres]))
     if spread < 1e-11:
         return ", all strokes alike"
-    scatter = with_error(value_of(result, DEAD_CENTRE_RANGE.name), 1e9, 2)
-    return f", strokes differ by {scatter} nm"
+    output = mechanism_of(result.scene).output
+    scatter = with_error(value_of(result, of_output(DEAD_CENTRE_RANGE, output)), 1e9, 2)
+    return f", strokes differ by {scatter} n{output.unit}"
 
 
 def _at_dead_centres(

@@ -15,6 +15,7 @@ from exu_press.plots.scales import impact_scale, note, widen
 from exu_press.plots.style import IDEAL, colour_of, with_style
 from exu_press.plots.typesetting import plain
 from exu_press.quantities.catalogue import MEAN_ACCELERATION, PEAK_ACCELERATION
+from exu_press.quantities.slider import of_output
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
 
@@ -32,12 +33,12 @@ MOST_OF_IDEAL = 8.0
 IDEAL_NAME = "ideal mechanism"
 
 TITLES = (
-    ("Position", "position, mm"),
-    ("Position, deviation from ideal", "deviation, µm"),
-    ("Velocity", "velocity, m/s"),
-    ("Velocity, deviation from ideal", "deviation, mm/s"),
-    ("Acceleration, mean over 1 ms", "acceleration, m/s²"),
-    ("Acceleration, resolved", "acceleration, m/s²"),
+    ("Position", "position, m{unit}"),
+    ("Position, deviation from ideal", "deviation, µ{unit}"),
+    ("Velocity", "velocity, {unit}/s"),
+    ("Velocity, deviation from ideal", "deviation, m{unit}/s"),
+    ("Acceleration, mean over 1 ms", "acceleration, {unit}/s²"),
+    ("Acceleration, resolved", "acceleration, {unit}/s²"),
 )
 
 
@@ -50,19 +51,20 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     """
     figure = new_figure("Slider motion against the ideal mechanism", results, (13.0, 8.6))
     panels = figure.subplots(3, 2, sharex=True)
+    output = mechanism_of(next(iter(results.values())).scene).output
     ideals = {label: _ideal(result) for label, result in results.items()}
     for index, (label, result) in enumerate(results.items()):
         _draw_run(panels, result, ideals[label], label, colour_of(index))
     _draw_ideals(panels, results, ideals)
     for axes, (title, unit) in zip(panels.flat, TITLES, strict=True):
-        axes.set(title=title, ylabel=unit)
+        axes.set(title=title, ylabel=unit.format(unit=output.unit))
     for axes in panels[:2, 1]:
         widen(axes, 1.0)
     _scale_averaged(panels[2, 0], results, ideals)
     resolved = [(crank_degrees(r), r["slider_acceleration"]) for r in results.values()]
     scale = impact_scale(panels[2, 1], resolved, signed=True)
     peaks = {label: (r, r["slider_acceleration"]) for label, r in results.items()}
-    note(panels[2, 1], mark_peaks(panels[2, 1], peaks, PEAK_ACCELERATION.name), scale)
+    note(panels[2, 1], mark_peaks(panels[2, 1], peaks, of_output(PEAK_ACCELERATION, output)), scale)
     angle_axis(panels.flat, results, panels[2])
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
@@ -129,12 +131,13 @@ def _scale_averaged(
         label: (result, sliding_mean(result.time, result["slider_velocity"]))
         for label, result in results.items()
     }
-    peak_words = mark_peaks(axes, means, MEAN_ACCELERATION.name)
+    output = mechanism_of(next(iter(results.values())).scene).output
+    peak_words = mark_peaks(axes, means, of_output(MEAN_ACCELERATION, output))
     ordinary = max(float(np.abs(ideal[2]).max()) for ideal in ideals.values())
     peak = max(float(np.abs(values).max()) for _, values in means.values())
     limit = MOST_OF_IDEAL * ordinary
     if peak > limit:
         axes.set_ylim(-limit, limit)
-        note(axes, peak_words or f"peaks reach {peak:.0f} m/s²", "clipped")
+        note(axes, peak_words or f"peaks reach {peak:.0f} {output.unit}/s²", "clipped")
     else:
         note(axes, peak_words)

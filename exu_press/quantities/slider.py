@@ -1,9 +1,11 @@
 """Quantities of the slider's motion."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
+from exu_press.mechanism import Output
 from exu_press.quantities.acceleration import differentiated_peak, mean_peak, peak
 from exu_press.quantities.dead_centre import (
     behind_cut_centre,
@@ -16,7 +18,21 @@ from exu_press.quantities.quantity import Extreme, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.scene import Scene, mechanism_of
 
-__all__ = ["SLIDER", "STROKES"]
+__all__ = ["SLIDER", "STROKES", "of_output"]
+
+
+def _is_displacement(scene: Scene, _: str) -> bool:
+    return not mechanism_of(scene).output.rotation
+
+
+def _rotates(scene: Scene, _: str) -> bool:
+    return mechanism_of(scene).output.rotation
+
+
+def _swings(scene: Scene, _: str) -> bool:
+    """Return whether the output is a rotation to and fro."""
+    mechanism = mechanism_of(scene)
+    return mechanism.output.rotation and mechanism.output_reverses
 
 
 def _has_soft_guide(scene: Scene, _: str) -> bool:
@@ -50,7 +66,7 @@ def _ends(run: Reading) -> tuple[float, float]:
     return ends[0], ends[1]
 
 
-SLIDER = (
+_SLIDER = (
     Quantity("stroke", "m", "distance between the slider's highest and lowest position",
              MOTION, lambda run, _: run.once(_ends)[1] - run.once(_ends)[0],
              title="stroke", display_unit="mm", digits=5, extreme=Extreme.LARGEST, headline=True),
@@ -79,7 +95,7 @@ SLIDER = (
              upper_bound="peak_acceleration.mean_1ms"),  # the mean over 1 ms of such means
 )  # fmt: skip
 
-STROKES = (
+_STROKES = (
     Quantity("strokes.mean", "m", "mean of the strokes' bottom dead centres",
              MOTION, _of_strokes(np.mean, 1),
              signed=True),
@@ -90,6 +106,9 @@ STROKES = (
     Quantity("strokes.standard_deviation", "m",
              "standard deviation of the strokes' bottom dead centres",
              DIFFERENCE, _of_strokes(lambda positions: positions.std(ddof=1), 2)),
+)  # fmt: skip
+
+_BESIDE = (
     Quantity("slider_tilt", "rad", "largest tilt of the slider in its guide",
              DIFFERENCE, lambda run, _: peak(run["slider_tilt"]),
              available=_has_soft_guide, title="slider tilt, max", display_unit="urad",
@@ -98,3 +117,63 @@ STROKES = (
              DIFFERENCE, lambda run, _: peak(run["slider_lateral"]),
              available=_has_soft_guide, extreme=Extreme.LARGEST, curve="slider_lateral"),
 )  # fmt: skip
+
+AS_ROTATION = {
+    "stroke": ("swing", "angle between the output's ends"),
+    "bottom_dead_centre": ("least_angle", "least angle of the output"),
+    "peak_velocity": ("peak_angular_velocity", "largest angular velocity of the output"),
+    "peak_acceleration.resolved": (
+        "peak_angular_acceleration.resolved",
+        "largest angular acceleration of the output, as the integrator resolves it",
+    ),
+    "peak_acceleration.mean_1ms": (
+        "peak_angular_acceleration.mean_1ms",
+        "largest angular acceleration of the output, averaged over 1 ms",
+    ),
+    "peak_acceleration.differentiated_1khz": (
+        "peak_angular_acceleration.differentiated_1khz",
+        "largest second difference of the output's angle, sampled at 1 kHz",
+    ),
+    "strokes.mean": ("swings.mean", "mean of the swings' least angles"),
+    "strokes.range": (
+        "swings.range",
+        "difference between the largest and the smallest of the swings' least angles",
+    ),
+    "strokes.standard_deviation": (
+        "swings.standard_deviation",
+        "standard deviation of the swings' least angles",
+    ),
+}
+"""Quantity of a displacement -> name and meaning of that of a rotation."""
+
+
+def of_output(quantity: Quantity, output: Output) -> str:
+    """Return the name that a quantity of the output has: where that is a rotation, another one."""
+    return AS_ROTATION[quantity.name][0] if output.rotation else quantity.name
+
+
+def _as_rotation(quantity: Quantity) -> Quantity:
+    """Return the quantity of a rotation that corresponds to one of a displacement."""
+    name, meaning = AS_ROTATION[quantity.name]
+    swings = "velocity" not in name and "acceleration" not in name
+    display = quantity.display_unit.removesuffix(quantity.unit)
+    unit = quantity.unit.replace("m", "rad", 1)
+    title = quantity.title and name.partition(".")[0].replace("_", " ")
+    return replace(
+        quantity,
+        name=name,
+        meaning=meaning,
+        unit=unit,
+        display_unit=f"{display}{unit}",
+        title=quantity.title if quantity.is_detail else title,
+        upper_bound=AS_ROTATION.get(quantity.upper_bound, ("",))[0],
+        available=_swings if swings else _rotates,
+    )
+
+
+SLIDER, STROKES = (
+    tuple(replace(quantity, available=_is_displacement) for quantity in quantities)
+    + tuple(map(_as_rotation, quantities))
+    for quantities in (_SLIDER, _STROKES)
+)
+STROKES += _BESIDE

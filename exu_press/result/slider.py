@@ -1,6 +1,7 @@
 """Channels of time, crank, slider and all bodies, and the energy of the rigid ones."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -39,13 +40,18 @@ def record(run: Recording) -> Record:
         slider_tilt=slider.position[:, 2] - mechanism.body(mechanism.slider).angle,
         body_position=_poses(run.motions),
     )
-    channels |= CHANNELS.record(
-        positive=direction_text(output.direction),
+    motion = CHANNELS.record(
+        positive="counter-clockwise" if output.rotation else direction_text(output.direction),
         slider_position=mechanism.output_position(slider.position),
         slider_velocity=mechanism.output_component(slider.velocity),
         slider_acceleration=mechanism.output_component(slider.acceleration),
     )
-    channels |= CHANNELS.record(
+    if output.rotation:
+        motion = {
+            name: replace(channel, unit=channel.unit.replace("m", output.unit, 1))
+            for name, channel in motion.items()
+        }
+    channels |= motion | CHANNELS.record(
         positive=direction_text(output.normal),
         slider_lateral=mechanism.lateral_displacement(slider.position),
     )

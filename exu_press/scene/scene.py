@@ -311,7 +311,14 @@ class Scene(Table):
             return
         from exu_press.scene.loads import loads_of
 
-        loads = loads_of(self.load, mechanism_of(self), self.bodies, self.speed_rpm)
+        mechanism = mechanism_of(self)
+        loads = loads_of(self.load, mechanism, self.bodies, self.speed_rpm)
+        for name, load in loads.items():
+            if mechanism.output.rotation and load.over in ("height", "penetration"):
+                raise InputError(
+                    f"load.{name}: acts over the output's height, a rotation here; allowed are "
+                    "loads over time and crank angle"
+                )
         object.__setattr__(self, "load", loads)
 
     @classmethod

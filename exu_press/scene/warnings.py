@@ -66,7 +66,8 @@ def _drawing(scene: Scene) -> Iterator[str]:
     mechanism = mechanism_of(scene)
     size = mechanism.size
     position = mechanism.ideal_slider(np.linspace(0.0, 2.0 * math.pi, 181), 1.0)[0]
-    yield from drawing_warnings(mechanism, float(np.ptp(position)))
+    stroke = math.inf if mechanism.output.rotation else float(np.ptp(position))
+    yield from drawing_warnings(mechanism, stroke)
     for name, joint in scene.joints.by_group.items():
         if isinstance(joint, TouchingJoint) and joint.radius > size:
             yield (

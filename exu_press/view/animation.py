@@ -21,6 +21,7 @@ from exu_press.plots.style import GREY, look
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe, early_stops
 from exu_press.result import Result
+from exu_press.scene import mechanism_of
 from exu_press.view.flexible_panel import FlexiblePanel, Look
 from exu_press.view.instants import Instants
 from exu_press.view.joint_panel import JointPanel
@@ -36,9 +37,9 @@ MOST_JOINTS = 2
 """Joints that are magnified, the busiest ones; the rest stand in a table."""
 
 CURVES = (
-    ("slider_position", "Slider position", "mm", 1e3),
-    ("slider_velocity", "Slider velocity", "m/s", 1.0),
-    ("slider_acceleration", "Slider acceleration", "m/s²", 1.0),
+    ("slider_position", "Slider position", "m{unit}", 1e3),
+    ("slider_velocity", "Slider velocity", "{unit}/s", 1.0),
+    ("slider_acceleration", "Slider acceleration", "{unit}/s²", 1.0),
 )
 
 
@@ -127,13 +128,14 @@ class Animation:
         heights = (1.0, 1.0, 1.0) if len(curves) == 3 else (0.6, 1.0)
         rows = cell.subgridspec(len(curves), 1, hspace=0.33, height_ratios=heights)
         degrees = np.degrees(result["crank_angle"])
+        output_unit = mechanism_of(result.scene).output.unit
         steps_in_view = slice(int(step[0]), int(step[-1]) + 1)
         panels = []
         for index, (channel, title, unit, scale) in enumerate(curves):
             axes = self.figure.add_subplot(rows[index])
             values = scale * result[channel]
             self.panels.append(CurvePanel(axes, result, values, self.instants))
-            axes.set(title=title, ylabel=unit)
+            axes.set(title=title, ylabel=unit.format(unit=output_unit))
             if channel == "slider_acceleration":
                 note(
                     axes,

@@ -18,6 +18,7 @@ JOINTS = {
     "drag_link": {"wrist_pin": PINS},
     "eccentric_press": {"crank_pin": {}, "wrist_pin": {}},
     "four_bar": {"crank_pin": PINS, "knuckle": PINS, "pivot": PINS},
+    "inverted_slider_crank": {"crank_pin": PINS},
     "oldham": {"driven_shaft": PINS},
     "oscillating_cylinder": {"crank_pin": PINS},
     "six_bar": {"crank_pin": PINS, "coupler_pin": PINS, "pivot": PINS, "rod_pins": PINS},
@@ -33,7 +34,15 @@ LAWS = {
     "cycloidal_press": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
     "drag_link": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
     **dict.fromkeys(
-        ("crank_shaper", "four_bar", "oldham", "oscillating_cylinder", "whitworth"), BARS
+        (
+            "crank_shaper",
+            "four_bar",
+            "inverted_slider_crank",
+            "oldham",
+            "oscillating_cylinder",
+            "whitworth",
+        ),
+        BARS,
     ),
     "six_bar": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
     "two_point_press": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},

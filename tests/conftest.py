@@ -7,6 +7,7 @@ import sys
 
 import pytest
 from browser import launched
+from comparisons import Compare
 from in_process import InProcess
 
 for library in ("OMP", "OPENBLAS", "MKL"):  # threads of the workers would wait for each other
@@ -45,6 +46,12 @@ def processes(monkeypatch):
     from exu_press.parallel.workers import Workers
 
     monkeypatch.setattr("exu_press.parallel.run.Workers", Workers)
+
+
+@pytest.fixture
+def compare(request):
+    """Check numbers of ours against others', of which the test's mark `validation` says whose."""
+    return Compare(request.node)
 
 
 def pytest_configure(config):

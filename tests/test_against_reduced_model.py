@@ -72,11 +72,24 @@ def test_reference_is_converged_where_lubricated(pin):
     assert radau(pin, 1e-10) == pytest.approx(radau(pin, 1e-9), abs=1e-9)
 
 
+REDUCED = pytest.mark.validation(
+    "independent",
+    "slider-crank with a clearance of 0.1 mm in its crank pin",
+    "two reduced coordinates, own laws, SciPy's Radau (`tests/independent/`)",
+    "this package's",
+)
+
+
+@REDUCED
 @pytest.mark.parametrize("pin", FILMS)
-def test_slider_position_where_lubricated(pin):
+def test_slider_position_where_lubricated(pin, compare):
     """Within 1e-7 m after one revolution; measured 6.5e-8 m."""
-    error = exudyn(pin, 1e-4) - radau(pin, 1e-10)
-    assert np.abs(error).max() < 1e-7
+    name, theirs, ours = (
+        f"slider, {pin} film, steps of 0.1 ms",
+        radau(pin, 1e-10),
+        exudyn(pin, 1e-4),
+    )
+    compare(name, theirs, ours, error=None, abs=1e-7, unit="um", show=1e6)
 
 
 @pytest.mark.parametrize("pin", FILMS)
@@ -87,17 +100,22 @@ def test_second_order_where_lubricated(pin):
     assert orders == pytest.approx(2.0, abs=0.05), errors
 
 
+@REDUCED
 @pytest.mark.long
 @pytest.mark.parametrize("law", ["none", "lugre_steady", "lugre"])
-def test_slider_position_where_dry(law):
+def test_slider_position_where_dry(law, compare):
     """Within 5e-6 m; 1e-6 m is attained throughout (1e-7 .. 3e-7).
 
     With the table's bristle (6e-8 s) `lugre` differs from `lugre_steady` by less than 1e-9 m, so
     that the same bound holds for it: the error is the contact's, friction alone shifts the slider
     by 2e-5 m.
     """
-    error = exudyn(law, 1e-5) - radau(law, 1e-8)
-    assert np.abs(error).max() < 1e-6
+    name, theirs, ours = (
+        f"slider, dry, friction {law}, steps of 10 us",
+        radau(law, 1e-8),
+        exudyn(law, 1e-5),
+    )
+    compare(name, theirs, ours, error=None, abs=1e-6, unit="um", show=1e6)
 
 
 @pytest.mark.long

@@ -22,7 +22,7 @@ PAGES = [
 ]
 
 FENCE = re.compile(
-    r"(?P<notes>(?:^<!--.*?-->\n)*)^```(?P<language>\w+)\n(?P<text>.*?)^```$",
+    r"(?P<notes>(?:^<!--.*?-->\n)*)^```(?P<language>\w+|\{container\})\n(?P<text>.*?)^```$",
     re.MULTILINE | re.DOTALL,
 )
 

@@ -17,10 +17,17 @@ from exu_press.laws.contact import (
 )
 
 
+@pytest.mark.validation(
+    "closed form",
+    "restitution that five contact laws deliver",
+    "roots of ln((1 + chi) / (1 - chi e)) = chi (1 + e), chi of each law's paper",
+    "equation",
+)
 @pytest.mark.parametrize(("law", "wanted", "delivered"), CASES)
-def test_restitution_table_by_a_bounce(law: str, wanted: float, delivered: float) -> None:
+def test_restitution_table_by_a_bounce(law, wanted, delivered, compare) -> None:
     contact = DAMPING_LAWS[law](hertz(1e8), wanted)
-    assert delivered_restitution(contact, mass=2.0, speed=0.3) == pytest.approx(delivered, abs=6e-5)
+    bounce = delivered_restitution(contact, mass=2.0, speed=0.3)
+    compare("restitution of a bounce", delivered, bounce, error=None, abs=6e-5)
 
 
 @pytest.mark.parametrize("stiffness", STIFFNESSES.values(), ids=STIFFNESSES)
@@ -57,7 +64,13 @@ def test_default_press_contact_is_a_dashpot(mass: float, speed: float, delivered
     assert delivered_restitution(contact, mass, speed) == pytest.approx(delivered, rel=1e-3)
 
 
-def test_undamped_hertz_depth_and_duration() -> None:
+@pytest.mark.validation(
+    "closed form",
+    "impact of a sphere without damping",
+    "K. L. Johnson, Contact Mechanics (1985), section 11.4",
+    "equation",
+)
+def test_undamped_hertz_depth_and_duration(compare) -> None:
     """delta_max = (5 m v^2 / 4 K)^0.4, T = 3.218 (m^2 / (K^2 v))^0.2 (Johnson 1985, section 11.4).
 
     The exact factor, 2 sqrt(pi) Gamma(1.4) / Gamma(0.9) 1.25^0.4, is 3.21806.
@@ -79,8 +92,8 @@ def test_undamped_hertz_depth_and_duration() -> None:
         (0.0, 2.0 * duration), (0.0, speed), "DOP853", events=released, rtol=1e-11, atol=1e-15,
         max_step=duration / 500,
     )  # fmt: skip
-    assert bounce.t[-1] == pytest.approx(duration, rel=1e-8)
-    assert max(bounce.y[0]) == pytest.approx(depth, rel=1e-4)
+    compare("duration", duration, bounce.t[-1], error=None, rel=1e-8, unit="ms", show=1e3)
+    compare("depth", depth, max(bounce.y[0]), error=None, rel=1e-4, unit="um", show=1e6)
     assert delivered_restitution(contact, mass, speed) == pytest.approx(1.0, abs=1e-6)
 
 

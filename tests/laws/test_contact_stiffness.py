@@ -21,14 +21,21 @@ def test_elastic_energy_is_the_integral_of_the_force(stiffness) -> None:
         assert stiffness.force(penetration)[1] == pytest.approx(slope, rel=1e-8)
 
 
-def test_cylindrical_slope_is_the_stiffness_of_bai_zhao_chen_2013() -> None:
+@pytest.mark.validation(
+    "closed form",
+    "stiffness of a pin in a bore",
+    "Z. F. Bai, Y. Zhao, J. Chen, Tribology International 64 (2013) 85-95",
+    "equation",
+)
+def test_cylindrical_slope_is_the_stiffness_of_bai_zhao_chen_2013(compare) -> None:
     """K = 1/8 pi E L sqrt(2 delta (3 c + 2 delta)^2 / (c + delta)^3)."""
     modulus, length, c = 113.7e9, 0.1, 50e-6
     for d in (1e-7, 1e-5, 1e-3):
         published = (
             math.pi / 8 * modulus * length * math.sqrt(2 * d * (3 * c + 2 * d) ** 2 / (c + d) ** 3)
         )
-        assert cylindrical(modulus, length, c).force(d)[1] == pytest.approx(published, rel=1e-12)
+        slope = cylindrical(modulus, length, c).force(d)[1]
+        compare("stiffness", published, slope, error=0.0, rel=1e-12, unit="kN/um", show=1e-9)
 
 
 def test_cylindrical_limits() -> None:

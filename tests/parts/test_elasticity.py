@@ -59,7 +59,13 @@ def timoshenko_free_free(length, side, material, count):
     return [scipy.optimize.brentq(determinant, grid[i], grid[i + 1]) for i in brackets]
 
 
-def test_free_timoshenko_beam():
+@pytest.mark.validation(
+    "closed form",
+    "bending frequencies of a free bar",
+    "S. M. Han, H. Benaroya, T. Wei, J. Sound and Vibration 225 (1999) 935-988: Timoshenko",
+    "equation",
+)
+def test_free_timoshenko_beam(compare):
     length, side = 1.0, 0.04
     bar = Box(Pnt(0, 0, 0), Pnt(length, side, side))
     bar.faces.Min(X).name = "end"
@@ -67,8 +73,8 @@ def test_free_timoshenko_beam():
     found = reduce_part(part, Reduction(modes=6, method="free", stress=False)).frequencies
     exact = timoshenko_free_free(length, side, STEEL, 2)
     # bending modes come in pairs; Timoshenko's theory itself is good to about 0.02 % here
-    assert found[:2] == pytest.approx(exact[0], rel=1e-3)
-    assert found[2:4] == pytest.approx(exact[1], rel=1e-3)
+    theory = np.repeat(exact, 2)
+    compare("first four frequencies", theory, found[:4], error=None, rel=1e-3, unit="Hz")
 
 
 def lamb_spheroidal(degree, poissons_ratio):
@@ -105,8 +111,14 @@ def test_lambs_roots():
     assert lamb_torsional() == pytest.approx(2.5011, rel=1e-4)
 
 
+@pytest.mark.validation(
+    "closed form",
+    "frequencies of a free sphere",
+    "H. Lamb, Proc. London Math. Soc. 13 (1882) 189-212",
+    "equation",
+)
 @pytest.mark.parametrize("mesh_size", [0.24, pytest.param(0.12, marks=pytest.mark.long)])
-def test_free_sphere(mesh_size):
+def test_free_sphere(mesh_size, compare):
     """Five torsional and five spheroidal modes of degree 2, within 0.1 % once converged."""
     radius = 1.0
     shape = Sphere(Pnt(0, 0, 0), radius)
@@ -116,5 +128,6 @@ def test_free_sphere(mesh_size):
     shear_speed = np.sqrt(STEEL.youngs_modulus / (2.0 * 1.3) / STEEL.density)
     eta = 2.0 * np.pi * reduced.frequencies * radius / shear_speed
     print(eta, reduced.meta)
-    assert eta[:5] == pytest.approx(lamb_torsional(), rel=1e-3)
-    assert eta[5:] == pytest.approx(lamb_spheroidal(2, 0.3), rel=1e-3)
+    compare("five torsional, omega R / c_s", lamb_torsional(), eta[:5], error=None, rel=1e-3)
+    spheroidal = lamb_spheroidal(2, 0.3)
+    compare("five spheroidal, omega R / c_s", spheroidal, eta[5:], error=None, rel=1e-3)

@@ -22,12 +22,18 @@ def rectangle(ratio):
     return 1.0 - 192.0 * ratio / math.pi**5 * (np.tanh(0.5 * math.pi * odd / ratio) / odd**5).sum()
 
 
+@pytest.mark.validation(
+    "closed form",
+    "squeeze film of a rectangular pad, width over length 0.01 to 100",
+    "series of the torsion of a rectangle (S. Timoshenko, J. N. Goodier, Theory of Elasticity)",
+    "equation",
+)
 @pytest.mark.parametrize("ratio", [0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0])
-def test_a_parallel_pad_squeezes_as_the_series_of_a_rectangle_says(ratio):
+def test_a_parallel_pad_squeezes_as_the_series_of_a_rectangle_says(ratio, compare):
     width = ratio * LENGTH
     f_1, f_2, f_t, *_ = plane_pad(LENGTH, width)(GAP, GAP, -SPEED, -SPEED, 0.0)
     expected = width**3 * LENGTH * SPEED / GAP**3 * rectangle(ratio)
-    assert f_1 + f_2 == pytest.approx(expected, rel=7e-3)
+    compare("force over mu", expected, f_1 + f_2, error=None, rel=7e-3, unit="m^2/s")
     assert f_1 == pytest.approx(f_2, rel=1e-12)
     assert f_t == 0.0
 
@@ -39,8 +45,14 @@ def test_the_limits_of_width_are_closed_forms():
     assert sum(narrow[:2]) == pytest.approx(0.003**3 * LENGTH * SPEED / GAP**3, rel=1e-2)
 
 
+@pytest.mark.validation(
+    "closed form",
+    "wide tilted slider",
+    "B. J. Hamrock, S. R. Schmid, B. O. Jacobson, Fluid Film Lubrication (2004), 9.1",
+    "equation",
+)
 @pytest.mark.parametrize("excess", [0.2, 1.0, 1.189, 4.0])
-def test_a_wide_tilted_slider_bears_and_drags_as_its_closed_form_says(excess):
+def test_a_wide_tilted_slider_bears_and_drags_as_its_closed_form_says(excess, compare):
     """Hamrock, Schmid and Jacobson 2004, 9.1: load and friction over the inlet's excess K."""
     width, speed = 30.0, 0.5
     inlet = GAP * (1.0 + excess)
@@ -49,8 +61,12 @@ def test_a_wide_tilted_slider_bears_and_drags_as_its_closed_form_says(excess):
     log = math.log1p(excess)
     load = 6.0 * (log - 2.0 * excess / (2.0 + excess)) / excess**2
     friction = 4.0 * log / excess - 6.0 / (2.0 + excess)
-    assert f_1 + f_2 == pytest.approx(load * speed * LENGTH**2 * width / GAP**2, rel=1.2e-2)
-    assert -f_t == pytest.approx(friction * speed * LENGTH * width / GAP, rel=5e-3)
+    load, friction = (
+        load * speed * LENGTH**2 * width / GAP**2,
+        friction * speed * LENGTH * width / GAP,
+    )
+    compare("load over mu", load, f_1 + f_2, error=None, rel=1.2e-2, unit="m^2/s")
+    compare("friction over mu", friction, -f_t, error=None, rel=5e-3, unit="m^2/s")
     backwards = plane_pad(LENGTH, width)(GAP, inlet, 0.0, 0.0, -speed)
     assert backwards[:2] == (0.0, 0.0)  # nothing but cavitation
     assert backwards[2] == pytest.approx(log / excess * speed * LENGTH * width / GAP)

@@ -21,12 +21,18 @@ def test_short_is_the_half_film_under_rotation_and_squeeze():
     assert worst < 1e-5
 
 
+@pytest.mark.validation(
+    "closed form",
+    "short bearing under a steady load",
+    "F. W. Ocvirk, NACA TN 2808 (1952)",
+    "equation, public domain",
+)
 @pytest.mark.parametrize("eps", [0.01, 0.3, 0.6, 0.95])
-def test_ocvirk_1952_steady_load(eps):
+def test_ocvirk_1952_steady_load(eps, compare):
     f_r, f_t, *_ = short(0.25)(eps, 0.0, eps)
     s2 = 1.0 - eps**2
-    assert f_r == pytest.approx(-4 * 0.25**2 * eps**2 / s2**2)
-    assert f_t == pytest.approx(4 * 0.25**2 * math.pi * eps / (4 * s2**1.5))
+    closed = -4 * 0.25**2 * eps**2 / s2**2, 4 * 0.25**2 * math.pi * eps / (4 * s2**1.5)
+    compare("force along and across the eccentricity", closed, (f_r, f_t), error=0.0, rel=1e-12)
 
 
 @pytest.mark.parametrize("eps", [0.0, 0.4, 0.9])

@@ -1,4 +1,4 @@
-"""Side flow and temperature rise against published tables, limits and Reynolds' equation."""
+"""Side flow against limits and Reynolds' equation; tests/literature has published tables."""
 
 import math
 
@@ -6,54 +6,12 @@ import numpy as np
 import pytest
 
 from exu_press.laws.catalogue import FILM_LAWS
-from exu_press.laws.film import finite
 from exu_press.laws.film.reynolds import solve_reynolds, supply_line
 from exu_press.laws.film.side_flow import finite_flow, no_flow, short_flow
-
-RAIMONDI_AND_BOYD = {
-    1.0: {
-        0.1: (26.4, 3.37, 0.150),
-        0.2: (12.8, 3.59, 0.280),
-        0.4: (5.79, 3.99, 0.497),
-        0.6: (3.22, 4.33, 0.680),
-        0.8: (1.70, 4.62, 0.842),
-        0.9: (1.05, 4.74, 0.919),
-    },
-    0.5: {
-        0.1: (85.6, 3.43, 0.173),
-        0.2: (40.9, 3.72, 0.318),
-        0.4: (17.0, 4.29, 0.552),
-        0.6: (8.10, 4.85, 0.730),
-        0.8: (3.26, 5.41, 0.874),
-        0.9: (1.60, 5.69, 0.939),
-    },
-}
-"""L/D -> eps -> (R/c) f, Q / (R c N L) and Q_s / Q (1958, full bearing)."""
 
 
 def at(flow, eps, eps_dot, eps_w):
     return float(flow(*(np.array([value]) for value in (eps, eps_dot, eps_w)))[0])
-
-
-@pytest.mark.parametrize("ratio", RAIMONDI_AND_BOYD)
-def test_raimondi_and_boyd_1958_side_flow(ratio):
-    flow = finite_flow(ratio)
-    for eps, (_, through, share) in RAIMONDI_AND_BOYD[ratio].items():
-        found = 2.0 * math.pi * at(flow, eps, 0.0, eps)  # omega = 1 is N = 1 / (2 pi)
-        assert found == pytest.approx(through * share, rel=7e-3)
-
-
-@pytest.mark.parametrize("ratio", RAIMONDI_AND_BOYD)
-def test_raimondi_and_boyd_1958_temperature_rise(ratio):
-    """rho c dT / p of oil that the side flow takes: 4 pi (R/c) f / (Q / (R c N L) Q_s / Q)."""
-    law, flow = finite(ratio), finite_flow(ratio)
-    for eps, (friction, through, share) in RAIMONDI_AND_BOYD[ratio].items():
-        f_r, f_t, *_, drag, _ = law(eps, 0.0, eps)
-        heat = 0.5 * f_t * eps + drag  # over P c, where P is mu L R^3 / c^2 and omega is 1
-        pressure = math.hypot(f_r, f_t) / 2.0  # over P / (L R)
-        rise = heat / (at(flow, eps, 0.0, eps) * pressure)
-        published = 4.0 * math.pi * friction / (through * share)
-        assert rise == pytest.approx(published, rel=1.5e-2)
 
 
 def test_all_that_a_short_bearing_displaces_leaves_it():

@@ -35,11 +35,18 @@ def by_the_reduced_press(clearance):
     return np.array([[e.real / clearance, e.imag / clearance, ball / BALLS] for e, ball in found])
 
 
+@pytest.mark.validation(
+    "independent",
+    "dry press after 14 revolutions, period one",
+    "reduced coordinates, own laws, SciPy's LSODA (`tests/independent/symmetric_press.py`)",
+    "this package's",
+)
 @pytest.mark.long
 @pytest.mark.parametrize(("clearance", "error"), [(2e-4, 6.7e-4), (2.5e-4, 2.0e-4), (3e-4, 1.0e-4)])
-def test_both_have_the_same_period_and_points(clearance, error):
+def test_both_have_the_same_period_and_points(clearance, error, compare):
     """Within the error that the diagram states, or what is left of the transient."""
     points, expected = by_the_press(clearance), by_the_reduced_press(clearance)
-    assert np.abs(points[-1] - expected[-1]).max() < error
+    name = f"eccentricity ratios at top dead centre, clearance {1e6 * clearance:g} um"
+    compare(name, expected[-1], points[-1], error=error, abs=error)
     for each in (points, expected):
         assert period_of(each[-6:], error, 2).revolutions == 1

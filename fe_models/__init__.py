@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from fe_models.exudyn_body import FlexibleBody, add_flexible_body
     from fe_models.geometry import Axis, CrankShape, LinkageShape, OwnShape, Patch, Sides, StepFile
     from fe_models.material import CRANK_STEEL, LINKAGE_IRON, Material
+    from fe_models.matrices import MatrixPart, write_matrices
     from fe_models.part import Interface, Part, shipped_faces, shipped_part
     from fe_models.pictures import draw_mode_shapes
     from fe_models.reduced import ReducedInterface, ReducedPart
@@ -30,6 +31,7 @@ __all__ = [
     "Interface",
     "LinkageShape",
     "Material",
+    "MatrixPart",
     "OwnShape",
     "Part",
     "Patch",
@@ -46,6 +48,7 @@ __all__ = [
     "reduced_part",
     "shipped_faces",
     "shipped_part",
+    "write_matrices",
 ]
 
 __getattr__ = lazy_names(__name__)

@@ -22,10 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_models.errors import InputError
-from fe_models.geometry import OpenedStepFile, StepFile
-from fe_models.part import Part
 from fe_models.reduced import ReducedInterface, ReducedPart
-from fe_models.reduction import Reduction, Report, reduce_part
+from fe_models.reduction import Reduction, Report, Solid, reduce_part
 from fe_models.temporary import TemporaryFolder, remove_partial_files, replacing
 
 __all__ = ["cache_file", "default_folder", "load", "reduced_part", "save"]
@@ -36,6 +34,8 @@ SOURCES = (
     "patches",
     "flexibility",
     "elasticity",
+    "matrices",
+    "matrix_model",
     "saddle",
     "reduction",
     "stress",
@@ -53,7 +53,7 @@ PER_INTERFACE = ("centre", "axis", "translation", "rotation")
 
 
 def reduced_part(
-    solid: Part,
+    solid: Solid,
     reduction: Reduction | None = None,
     *,
     folder: str | Path | None = None,
@@ -76,11 +76,11 @@ def reduced_part(
     stored = load(file)
     if stored is not None:
         return stored
-    if isinstance(solid.geometry, StepFile):
+    if (reader := solid.reader) is not None:
         with TemporaryFolder() as spare:
             arguments = solid, reduction, file, spare / file.name
             here = f"{__name__}:{reduce_here.__name__}"
-            written, reason = solid.geometry.in_child(here, *arguments, report=report)
+            written, reason = reader.in_child(here, *arguments, report=report)
             stored = load(written)
         if reason:
             _warn_of_cache(file, reason, solid)
@@ -96,9 +96,9 @@ def reduced_part(
 
 
 def reduce_here(
-    solid: Part, reduction: Reduction, file: Path, spare: Path, report: Report | None = None
+    solid: Solid, reduction: Reduction, file: Path, spare: Path, report: Report | None = None
 ) -> tuple[Path, str]:
-    """Read, mesh and reduce a STEP file's part in this process, a child.
+    """Read and reduce a body of a STEP file or of matrices in this process, a child.
 
     Args:
         solid: to be reduced.
@@ -110,8 +110,7 @@ def reduce_here(
     Returns:
         the file it is in; why that is not the cache's, or nothing.
     """
-    assert isinstance(solid.geometry, StepFile)
-    reduced = reduce_part(solid.replace(geometry=OpenedStepFile(solid.geometry)), reduction, report)
+    reduced = reduce_part(solid.open_here(), reduction, report)
     try:
         save(reduced, file)
     except OSError as error:  # the cache is optional
@@ -120,7 +119,7 @@ def reduce_here(
     return file, ""
 
 
-def _warn_of_cache(file: Path, reason: str, solid: Part) -> None:
+def _warn_of_cache(file: Path, reason: str, solid: Solid) -> None:
     """Warn of a cache's file that cannot be written, as on a full disk."""
     warnings.warn(
         f"{file}: cannot be written ({reason}); {solid.name} is reduced again whenever it "
@@ -138,7 +137,7 @@ def default_folder() -> Path:
     return (Path(base) if base else Path.home() / ".cache") / "exu_press" / "fe_models"
 
 
-def cache_file(solid: Part, reduction: Reduction, folder: Path) -> Path:
+def cache_file(solid: Solid, reduction: Reduction, folder: Path) -> Path:
     """Return the file of a reduced part in a cache's folder."""
     determined_by = {
         "name": solid.name,

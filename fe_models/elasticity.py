@@ -22,7 +22,7 @@ from fe_models.arrays import Array
 from fe_models.errors import InputError
 from fe_models.part import Part
 
-__all__ = ["FaceMotion", "FullModel", "full_model", "generate_mesh", "rigid_motions"]
+__all__ = ["FaceMotion", "FullModel", "full_model", "generate_mesh", "mean_motion", "rigid_motions"]
 
 
 @dataclass(frozen=True)
@@ -128,11 +128,21 @@ def _face_motion(mesh: Any, space: Any, nodes: Array, name: str) -> FaceMotion:
     face = mesh.Boundaries(_literal(name))
     weights = _assemble(space, u * v * ngs.ds(definedon=face))  # (n, n), m^2
     weights.eliminate_zeros()
+    return mean_motion(weights, nodes, np.unique(weights.indices))
+
+
+def mean_motion(weights: sp.csr_matrix, nodes: Array, on_face: NDArray[Any]) -> FaceMotion:
+    """Return the mean motion of a face from the weights (n, n) of its nodes, m^2 or without unit.
+
+    Args:
+        weights: integrals over products of shape functions, or a diagonal.
+        nodes: positions (n, 3), m.
+        on_face: numbers of the nodes of the face.
+    """
     per_node = np.asarray(weights.sum(axis=0)).ravel()
     area = float(per_node.sum())
     centre = per_node @ nodes / area
     arm = nodes - centre
-    on_face = np.unique(weights.indices)
     moment = np.einsum("ni,nj->ij", arm[on_face], (weights @ arm)[on_face]) / area
     gyration = np.trace(moment) * np.eye(3) - moment  # W of the docstring
     turn = rigid_motions(nodes, centre)[:, 3:].reshape(-1, 3, 3)  # e_axis x arm, per node

@@ -114,10 +114,19 @@ class StepFile:
         self, function: str, *arguments: Any, report: Callable[..., None] | None = None
     ) -> Any:
         """Return what a function that opens this file returns; arguments as of `read_in_child`."""
-        from fe_models.step_reader import read_in_child
+        from fe_models.file_reader import read_in_child
+        from fe_models.step_text import faulty_entity
 
-        limits = {"time_limit": self.time_limit, "memory_limit": self.memory_limit}
-        return read_in_child(function, *arguments, path=Path(self.path), report=report, **limits)
+        return read_in_child(
+            function,
+            *arguments,
+            file=f"STEP file {self.path}",
+            smaller="a larger mesh_size, or another file",
+            damage=lambda: faulty_entity(Path(self.path)),
+            time_limit=self.time_limit,
+            memory_limit=self.memory_limit,
+            report=report,
+        )
 
     def content(self) -> bytes:
         """Return the bytes of the file.

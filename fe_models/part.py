@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from fe_models.errors import InputError
-from fe_models.geometry import CrankShape, Geometry, LinkageShape
+from fe_models.geometry import CrankShape, Geometry, LinkageShape, OpenedStepFile, StepFile
 from fe_models.material import CRANK_STEEL, LINKAGE_IRON, Material
 
 __all__ = ["MOTIONS", "Interface", "Part", "shipped_faces", "shipped_names", "shipped_part"]
@@ -76,6 +76,16 @@ class Part:
     def bearings(self) -> tuple[str, ...]:
         """Return the faces held in all six motions: what the published modes are clamped at."""
         return tuple(i.face for i in self.interfaces if len(i.motions) == len(MOTIONS))
+
+    @property
+    def reader(self) -> StepFile | None:
+        """Return what opens a file of the solid in a child, or None."""
+        return self.geometry if isinstance(self.geometry, StepFile) else None
+
+    def open_here(self) -> "Part":
+        """Return the solid whose STEP file this process, a child, reads itself."""
+        assert isinstance(self.geometry, StepFile)
+        return self.replace(geometry=OpenedStepFile(self.geometry))
 
     def key(self) -> dict[str, Any]:
         """Return everything that determines the finite-element model, as plain data."""

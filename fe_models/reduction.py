@@ -18,10 +18,11 @@ import scipy.sparse as sp
 
 from fe_models.arrays import Array
 from fe_models.errors import InputError
+from fe_models.matrices import MatrixPart
 from fe_models.part import MOTIONS, Part
 from fe_models.reduced import ReducedInterface, ReducedPart
 
-__all__ = ["METHODS", "Reduction", "reduce_model", "reduce_part"]
+__all__ = ["METHODS", "Reduction", "Solid", "reduce_model", "reduce_part"]
 
 METHODS = ("craig_bampton", "free")
 PLANE = {"x", "y", "rz"}
@@ -31,6 +32,8 @@ MOST_MODES = 80
 
 ROUND = 1e-4
 """Largest distance of nodes from a circle over the face's size, for a round face."""
+
+Solid = Part | MatrixPart
 
 Report = Callable[[str, float], None]  # (text about the progress, share done)
 
@@ -85,8 +88,8 @@ class Reduction:
         return asdict(self)
 
 
-def reduce_part(solid: Part, reduction: Reduction, report: Report | None = None) -> ReducedPart:
-    """Mesh, assemble and reduce a solid, whatever the cache holds.
+def reduce_part(solid: Solid, reduction: Reduction, report: Report | None = None) -> ReducedPart:
+    """Mesh and assemble, or read, and reduce a body, whatever the cache holds.
 
     Args:
         solid: to be reduced.
@@ -97,17 +100,18 @@ def reduce_part(solid: Part, reduction: Reduction, report: Report | None = None)
         InputError: the solid cannot be meshed or lacks a face, or the reduction does not fit it.
     """
     from fe_models.elasticity import full_model
+    from fe_models.matrix_model import matrix_model
 
     report = report or (lambda what, share: None)
     report(f"{solid.name}: mesh and matrices", 0.0)
-    model = full_model(solid)
+    model = matrix_model(solid) if isinstance(solid, MatrixPart) else full_model(solid)
     report(f"{solid.name}: modes of {model.unknowns} unknowns", 0.5)
     reduced = reduce_model(solid, model, reduction)
     report(f"{solid.name}: reduced", 1.0)
     return reduced
 
 
-def reduce_model(solid: Part, model: Any, reduction: Reduction) -> ReducedPart:
+def reduce_model(solid: Solid, model: Any, reduction: Reduction) -> ReducedPart:
     """Reduce a `FullModel`."""
     from fe_models.flexibility import Statics, moved_in_plane
 
@@ -138,7 +142,7 @@ def reduce_model(solid: Part, model: Any, reduction: Reduction) -> ReducedPart:
     return _package(solid, model, reduction, frequencies, modes, fixed, exact, remaining_error)
 
 
-def interface_rows(solid: Part, model: Any) -> sp.csr_matrix:
+def interface_rows(solid: Solid, model: Any) -> sp.csr_matrix:
     """Return C (m, 3n): the loaded mean motions of all interfaces."""
     rows = [
         model.faces[interface.face].rows[[MOTIONS.index(motion)]]
@@ -148,7 +152,7 @@ def interface_rows(solid: Part, model: Any) -> sp.csr_matrix:
     return sp.csr_matrix(sp.vstack(rows) if rows else (0, model.unknowns))
 
 
-def _most_modes(solid: Part, model: Any, reduction: Reduction) -> int:
+def _most_modes(solid: Solid, model: Any, reduction: Reduction) -> int:
     """Return the number of modes to compute; refuse more than the mesh has, and a loose body."""
     rows = sum(len(interface.motions) for interface in solid.interfaces)
     most = int(model.unknowns - max(rows, 6) - 1)
@@ -179,7 +183,7 @@ def _free_basis(model: Any, count: int) -> tuple[Array, Any]:
     return modes, solver.cholesky
 
 
-def _craig_bampton_basis(solid: Part, model: Any, count: int | None) -> tuple[Array, Array, Any]:
+def _craig_bampton_basis(solid: Solid, model: Any, count: int | None) -> tuple[Array, Array, Any]:
     """Return the static and the lowest fixed-interface modes, and the latter's frequencies [Hz].
 
     Without a count, deformations by accelerations of the body between fixed interfaces replace the
@@ -238,7 +242,7 @@ def _signs(modes: Array) -> Array:
 
 
 def _package(
-    solid: Part,
+    solid: Solid,
     model: Any,
     reduction: Reduction,
     frequencies: Array,
@@ -274,7 +278,7 @@ def _package(
             )
         )
     stress = np.zeros((0, count))
-    if reduction.stress:
+    if reduction.stress and isinstance(solid, Part):
         stress = nodal_stress(model, solid.material, by_node)[surface]
         stress = stress.reshape(6 * len(surface), count)
     return ReducedPart(

@@ -18,7 +18,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from fe_models.arrays import Array
 from fe_models.elasticity import FullModel, rigid_motions
 
-__all__ = ["Cholesky", "SaddleSolver", "lowest_modes"]
+__all__ = ["SEED", "Cholesky", "SaddleSolver", "held_unknowns", "lowest_modes"]
 
 SEED = 20  # of the eigensolver's start vector: any, but always the same
 
@@ -65,7 +65,7 @@ class SaddleSolver:
         """
         self._rows = rows
         self._rigid = rigid_motions(model.nodes, model.nodes.mean(axis=0))
-        self.cholesky = cholesky or Cholesky(model.stiffness, _three_nodes(model.nodes))
+        self.cholesky = cholesky or Cholesky(model.stiffness, held_unknowns(model.nodes))
         spread = np.asarray(rows.T @ np.eye(rows.shape[0]))  # C^T, dense
         self._answers = np.column_stack([self.cholesky.solve(column) for column in spread.T])
         self._spread = spread
@@ -122,7 +122,7 @@ def lowest_modes(model: FullModel, inverse: Any, count: int) -> tuple[Array, Arr
     return values[order], modes[:, order]
 
 
-def _three_nodes(nodes: Array) -> NDArray[np.int64]:
+def held_unknowns(nodes: Array) -> NDArray[np.int64]:
     """Return six unknowns at three far nodes that hold a body statically determinate."""
     first = int(np.argmax(((nodes - nodes.mean(axis=0)) ** 2).sum(axis=1)))
     arm = nodes - nodes[first]

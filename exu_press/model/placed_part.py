@@ -18,7 +18,13 @@ from exu_press.mechanism import Body, Mechanism, Motion, Point
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.threads import one_thread
 from exu_press.scene import Face, Flexible, Scene, mechanism_of
-from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, faces_given, require_rainflow
+from exu_press.scene.bodies import (
+    DRIVE_FACE,
+    GUIDE_FACE,
+    USUAL_MESH_SIZE,
+    faces_given,
+    require_rainflow,
+)
 from exu_press.scene.load import Load
 from exu_press.terminal.progress import Progress
 from fe_models import (
@@ -26,6 +32,7 @@ from fe_models import (
     Axis,
     Interface,
     Material,
+    MatrixPart,
     Part,
     Patch,
     ReducedPart,
@@ -141,20 +148,30 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
                 for load_name, load in scene.load.items()
                 if (load.body or mechanism.slider) == name
             }
-            parts[name] = _place_part(mechanism, mechanism.body(name), table, loads, quiet)
+            radii = {n: getattr(joint, "radius", None) for n, joint in scene.joints.items()}
+            body = mechanism.body(name)
+            parts[name] = _place_part(mechanism, body, table, loads, radii, quiet)
     return parts
 
 
 def _place_part(
-    mechanism: Mechanism, body: Body, table: Flexible, loads: Mapping[str, Load], quiet: bool
+    mechanism: Mechanism,
+    body: Body,
+    table: Flexible,
+    loads: Mapping[str, Load],
+    radii: Mapping[str, float | None],
+    quiet: bool,
 ) -> PlacedPart:
-    """Return one body's part."""
+    """Return one body's part; a joint without clearance has no radius."""
     joints = mechanism.joints_of(body.name)
     is_driven = body.name == mechanism.crank
     named_faces = dict(table.faces)
-    if not table.from_file:
-        shipped_part(table.flexible)  # refuses an unknown name
-        named_faces = {**faces_given(shipped_faces(table.flexible)), **named_faces}
+    if table.matrices is not None:
+        sets = [*(joint.name for joint in joints), GUIDE_FACE]
+        named_faces = {**{name: (Face(name),) for name in sets}, **named_faces}
+    elif not table.from_file:
+        shipped_part(table.source)  # refuses an unknown name
+        named_faces = {**faces_given(shipped_faces(table.source)), **named_faces}
     faces = {joint.name: named_faces.get(joint.name, (Face(),)) for joint in joints}
     _refuse_shared(faces)
     drive = named_faces.get(DRIVE_FACE, ()) if is_driven else ()
@@ -209,20 +226,25 @@ def _place_part(
     for joint, face, interface in holding:
         x, y = _rotate((joint.at[0] - origin[0], joint.at[1] - origin[1]), -turn)
         distance = hypot(x - axis_of[interface][0], y - axis_of[interface][1])
-        if distance > NEAR and not face.eccentric:
+        allowed, reason = NEAR, ""
+        if table.matrices is not None:  # a set of nodes need not be all around the pin
+            allowed = radii.get(joint.name) or reduced.interface(interface).arm
+            reason = ", the radius of its pin" if radii.get(joint.name) else ", the set's own size"
+        if distance > allowed and not face.eccentric:
             best = ", where it fits best" if is_fitted else ""
             raise InputError(
-                f"face {face.name or joint.name!r} of {table.flexible!r} lies "
+                f"{'face' if table.matrices is None else 'the centre of node set'} "
+                f"{face.name or joint.name!r} of {table.source!r} lies "
                 f"{1e3 * distance:.4g} mm from joints.{joint.name}, with origin = "
                 f"[{origin[0]:.6g}, {origin[1]:.6g}], angle_deg = {degrees(turn):.6g}{best}; "
-                f"allowed is {1e3 * NEAR:g} mm"
+                f"allowed is {1e3 * allowed:.4g} mm{reason}"
             )
     for joint in joints:
         height = float(axis_of[interfaces[joint.name][0]][2])
         if joint.spherical and abs(height) > NEAR:
             raise InputError(
                 f"the sphere of joints.{joint.name} has its centre at z = {height:.6g} m of "
-                f"{table.flexible!r}; allowed is z = 0, the plane of the mechanism"
+                f"{table.source!r}; allowed is z = 0, the plane of the mechanism"
             )
     x, y = body.centre_of_mass
     placed = PlacedPart(
@@ -260,7 +282,7 @@ def _shipped_part(
     patches: Mapping[str, tuple[Face, ...]],
 ) -> tuple[Part, dict[str, str]]:
     """Return a shipped part in the scene's material, and patch -> the interface that carries it."""
-    shipped = shipped_part(table.flexible, table.mesh_size)
+    shipped = shipped_part(table.source, table.mesh_size or USUAL_MESH_SIZE)
     known = [interface.face for interface in shipped.interfaces]
     for name, group in {**faces, **patches}.items():
         wrong = [face.name for face in group if face.name not in known]
@@ -271,7 +293,7 @@ def _shipped_part(
             is_load = name in patches and name != GUIDE_FACE
             key = f"{name.replace(' ', '.')}.face" if is_load else f"faces.{name}"
             raise InputError(
-                f"{table.flexible!r} has no face{unknown} for {name}; allowed as "
+                f"{table.source!r} has no face{unknown} for {name}; allowed as "
                 f"{key} is one of {', '.join(map(repr, known))}"
             )
     material = _material(table, shipped.material)
@@ -287,8 +309,8 @@ def _part_from_file(
     drive: tuple[Face, ...],
     patches: Mapping[str, tuple[Face, ...]],
     normal: Point,
-) -> tuple[Part, dict[str, str]]:
-    """Return a STEP file's part, and name of a patch -> the interface that carries it.
+) -> tuple[Part | MatrixPart, dict[str, str]]:
+    """Return the part of a STEP file or matrices, and patch -> the interface that carries it.
 
     Args:
         table: of the flexible body.
@@ -312,6 +334,14 @@ def _part_from_file(
         "time_limit": table.time_limit,
         "memory_limit": table.memory_limit_gb and 1e9 * table.memory_limit_gb,
     }
+    limits = {name: limit for name, limit in limits.items() if limit is not None}
+    if table.matrices is not None:
+        if axes or any(len(group) != 1 or not group[0].name for group in patches.values()):
+            raise InputError(
+                f"faces on {table.source!r}: allowed is the name of a node set for each joint, "
+                "guide and load, without radius or ranges"
+            )
+        return MatrixPart(table.path, tuple(interfaces), **limits), carriers
     solid = StepFile(
         table.path,
         MILLIMETRES,
@@ -321,10 +351,11 @@ def _part_from_file(
             for name, group in patches.items()
             if carriers[name] == name
         },
-        **{name: limit for name, limit in limits.items() if limit is not None},
+        **limits,
     )
     material = _material(table, CRANK_STEEL)
-    return Part(solid.path.stem, solid, material, tuple(interfaces), table.mesh_size), carriers
+    size = table.mesh_size or USUAL_MESH_SIZE
+    return Part(solid.path.stem, solid, material, tuple(interfaces), size), carriers
 
 
 def _patch(face: Face) -> Patch:

@@ -85,12 +85,13 @@ def _refuse_too_compliant(scene: Scene, name: str, body: "FlexibleBody", modes: 
     shift = np.linalg.norm((body.reduced.modes @ modes).reshape(-1, 3), axis=1).max(initial=0.0)
     share = shift / float(np.ptp(body.reduced.nodes, axis=0).max())
     if not share <= SMALL:
-        modulus = scene.bodies[name].youngs_modulus
-        than = "" if modulus is None else f" than {modulus:g} Pa"
+        table = scene.bodies[name]
+        than = "" if table.youngs_modulus is None else f" than {table.youngs_modulus:g} Pa"
+        stiffer = f"larger youngs_modulus{than}" if table.matrices is None else "stiffer matrix"
         size = f"{share:.2g} of its size" if share < 1.0 else "more than its size"
         raise InputError(
             f"bodies.{name}: its ideal motion would bend it by {size}; allowed is {SMALL:g}, of a "
-            f"larger youngs_modulus{than} or at a lower speed_rpm"
+            f"{stiffer} or at a lower speed_rpm"
         )
 
 

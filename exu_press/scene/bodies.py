@@ -7,14 +7,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError, UnusedKeyError, error_prefix, required_package
+from exu_press.errors import InputError, error_prefix, required_package
 from exu_press.schema.checks import demand_known, key, refuse_unknown
-from exu_press.schema.table import Table, changed_table, plain, table_from
+from exu_press.schema.table import Table, changed_table, given_keys, plain, table_from
 
 __all__ = [
     "DRIVE_FACE",
     "GUIDE_FACE",
     "STEP_FILES",
+    "USUAL_MESH_SIZE",
     "Face",
     "Flexible",
     "bodies_of",
@@ -32,9 +33,16 @@ GUIDE_FACE = "guide"
 """Among the faces of a body in a guide: those that the guide holds."""
 
 STEP_FILES = (".step", ".stp")
+DESCRIPTION = ".toml"
 
-OF_STEP_FILES = ("time_limit", "memory_limit_gb")
-"""Keys of a body whose solid is a STEP file's."""
+USUAL_MESH_SIZE = 0.03
+"""m."""
+
+OF_FILES = ("time_limit", "memory_limit_gb")
+"""Keys of a body from a STEP file or matrices."""
+
+OF_SOLIDS = ("mesh_size", "youngs_modulus", "poissons_ratio", "density", "sn_stress")
+"""Keys of a body that is meshed here, and so has stresses."""
 
 USUAL_MODES = 20
 
@@ -91,14 +99,18 @@ OF_A_PATCH = ("name", "x", "y", "z")
 
 @dataclass(frozen=True)
 class Flexible(Table):
-    """A flexible body: a shipped part or a STEP file, its material, mesh and modes."""
+    """A flexible body: a shipped part or STEP file with material and mesh, or matrices; modes."""
 
-    required: ClassVar[tuple[str, ...]] = ("flexible",)
     exclusive_with: ClassVar[Mapping[str, str]] = {
+        "flexible": "matrices",
+        "matrices": "flexible",
         "flexibility_error": "modes",
         "modes": "flexibility_error",
     }
-    flexible: str = key(None, "a shipped part, or the path of a STEP file")
+    flexible: str | None = key(None, "a shipped part, or the path of a STEP file")
+    matrices: str | None = key(
+        None, "instead of flexible: path of the description (.toml) of another code's matrices"
+    )
     modes: int | None = key(
         None, "number of modal coordinates, 20 unless given", at_least=0, at_most=500
     )
@@ -110,7 +122,9 @@ class Flexible(Table):
     )
     method: str = key("craig_bampton", "reduction", choices=("craig_bampton", "free"))
     damping_ratio: float = key(0.02, "damping ratio of every mode", at_least=0, at_most=0.9)
-    mesh_size: float = key(0.03, "size of the tetrahedra", "m", at_least=0.001, at_most=0.1)
+    mesh_size: float | None = key(
+        None, "size of the tetrahedra, 0.03 unless given", "m", at_least=0.001, at_most=0.1
+    )
     youngs_modulus: float | None = key(
         None, "the shipped part's, or steel's 2.1e11, unless given", "Pa", above=0
     )
@@ -130,7 +144,7 @@ class Flexible(Table):
         None, "direction of the solid's x axis in the drawing; 0, or fitted likewise", "deg"
     )
     time_limit: float | None = key(
-        None, "for reading, meshing and reducing a STEP file; 600 unless given", "s", above=0
+        None, "for reading and reducing a STEP file or matrices; 600 unless given", "s", above=0
     )
     memory_limit_gb: float | None = key(
         None, "memory for that, in 1e9 bytes; 8 unless given", at_least=1, at_most=1e6
@@ -150,20 +164,34 @@ class Flexible(Table):
         if self.flexibility_error is None and self.modes is None:
             object.__setattr__(self, "modes", USUAL_MODES)
         object.__setattr__(self, "faces", faces_given(self.faces))
-        for name in OF_STEP_FILES if not self.from_file else ():
-            if (value := getattr(self, name)) is not None:
-                reason = f"{self.flexible!r} is no STEP file"
-                raise UnusedKeyError(name, f"{name} = {value!r}", reason)
+        if self.flexible is None and self.matrices is None:
+            raise InputError(
+                "flexible: missing; allowed is a shipped part or the path of a STEP file; or "
+                "matrices, the path of a description"
+            )
+        if not self.from_file:
+            self.refuse_unused(OF_FILES, f"{self.flexible!r} is no STEP file")
+        if self.matrices is not None:
+            self.refuse_unused(OF_SOLIDS, f"{self.matrices!r} has matrices in place of a solid")
+        if self.matrices is not None and not self.matrices.lower().endswith(DESCRIPTION):
+            raise InputError(
+                f"matrices = {self.matrices!r}: allowed is the path of a description, {DESCRIPTION}"
+            )
+
+    @property
+    def source(self) -> str:
+        """Return the shipped part or the file that the body comes from."""
+        return self.flexible or self.matrices or ""
 
     @property
     def from_file(self) -> bool:
-        """Return whether the solid is a STEP file's."""
-        return self.flexible.lower().endswith(STEP_FILES)
+        """Return whether the body is that of a STEP file or of matrices."""
+        return self.matrices is not None or self.source.lower().endswith(STEP_FILES)
 
     @property
     def path(self) -> Path:
-        """Return the path of the STEP file."""
-        return Path(self.flexible)
+        """Return the path of the file."""
+        return Path(self.source)
 
 
 def bodies_of(
@@ -236,7 +264,9 @@ def changed_bodies(
         else:
             changed[name] = value
     for name, keys in inner.items():
-        changed[name] = changed_table(Flexible, _keys(changed.get(name, {})), keys)
+        unused = OF_SOLIDS if keys.get("matrices") is not None else ()
+        body = {k: v for k, v in given_keys(_keys(changed.get(name))).items() if k not in unused}
+        changed[name] = changed_table(Flexible, body, keys)
     return changed
 
 

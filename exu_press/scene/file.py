@@ -36,7 +36,9 @@ def scene_tables(path: Path) -> dict[str, Any]:
 
 
 def _keys_beside(scene: Path, body: Any) -> Any:
-    """Return a flexible body with its STEP file's path taken from the scene file's directory."""
+    """Return a flexible body with its file's path taken from the scene file's directory."""
+    if isinstance(body, dict) and isinstance(body.get("matrices"), str):
+        return {**body, "matrices": str(scene.parent / body["matrices"])}
     if isinstance(body, dict) and "flexible" in body:
         return {**body, "flexible": _keys_beside(scene, body["flexible"])}
     is_file = isinstance(body, str) and body.lower().endswith(STEP_FILES)

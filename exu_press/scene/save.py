@@ -63,8 +63,9 @@ def save_scene(
         elif field.name == "bodies":
             for name, body in table.items():
                 if body.from_file:  # a scene file has it relative to itself
-                    beside = os.path.relpath(body.flexible, path.parent)
-                    body = dataclasses.replace(body, flexible=beside)
+                    file = "flexible" if body.matrices is None else "matrices"
+                    beside = os.path.relpath(body.path, path.parent)
+                    body = dataclasses.replace(body, **{file: beside})
                 lines += ["", f"[bodies.{name}]", *body_lines(body, comments)]
         elif field.name in laws and table is not None:
             lines += law_lines(field.name, table, comments)

@@ -1,4 +1,4 @@
-"""STEP files that these tests write are sound: they are read in the process of the tests."""
+"""STEP files and matrices that these tests write are sound: the process of the tests reads them."""
 
 import pytest
 
@@ -14,5 +14,6 @@ def sound_files():
         return named_object(function)(*arguments, *reports)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("fe_models.geometry.StepFile.in_child", here)
+        for reader in ("geometry.StepFile", "matrices.MatrixPart"):
+            patch.setattr(f"fe_models.{reader}.in_child", here)
         yield

@@ -1,16 +1,14 @@
-"""Reading of STEP files in a child process, as a damaged file may crash or block its reader.
+"""Reading of others' files in a child process, as a damaged one may crash or block its reader.
 
 `reduced_part` reads, meshes and reduces there in one go, and the result is a file of plain arrays.
 The geometry kernel of this process never opens a STEP file.
 """
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 from fe_models.errors import InputError
 from fe_models.processes import Child, ChildError, TimeLimitError
-from fe_models.step_text import faulty_entity
 
 __all__ = ["read_in_child"]
 
@@ -21,17 +19,21 @@ NO_MEMORY = ("MemoryError", "bad_alloc", "failed to map segment", "allocation fa
 def read_in_child(
     function: str,
     *arguments: Any,
-    path: Path,
+    file: str,
+    smaller: str,
+    damage: Callable[[], str] = str,
     time_limit: float,
     memory_limit: float,
     report: Callable[..., None] | None = None,
 ) -> Any:
-    """Return the value of a function that reads a STEP file in a child.
+    """Return the value of a function that reads a file in a child.
 
     Args:
         function: "module:name".
         arguments: of it.
-        path: of the STEP file, for messages.
+        file: its kind and path, for messages.
+        smaller: what needs less of the limits, in words.
+        damage: text about where the file is damaged, which may be empty.
         time_limit: of the child, s.
         memory_limit: of the child, bytes.
         report: called with (text about the progress, share done) by the function's last argument.
@@ -45,18 +47,15 @@ def read_in_child(
         try:
             return child.answer(time_limit)
         except TimeLimitError:
-            why = (
-                f"takes more than {time_limit:g} s; allowed is a larger time_limit, a larger "
-                "mesh_size, or another file"
-            )
+            why = f"takes more than {time_limit:g} s; allowed is a larger time_limit, {smaller}"
         except ChildError as error:
             how, *_ = str(error).partition(": ")
             if any(word in str(error) for word in NO_MEMORY):
                 why = (
                     f"needs more than {memory_limit / 1e9:g} GB; allowed is a larger "
-                    "memory_limit_gb, a larger mesh_size, or another file"
+                    f"memory_limit_gb, {smaller}"
                 )
             else:
                 how = how if how.startswith(("killed", "exit")) else str(error)
-                why = f"cannot be read and meshed, it may be damaged ({how})"
-    raise InputError(f"STEP file {path}: {why}{faulty_entity(path)}")
+                why = f"cannot be read and reduced, it may be damaged ({how})"
+    raise InputError(f"{file}: {why}{damage()}")

@@ -1,0 +1,108 @@
+"""A flexible body from matrices in its mechanism: the run of its STEP file, and what is refused."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import exu_press
+from exu_press import InputError, Scene, simulate
+from exu_press.model.placed_part import placed_parts
+from fe_models import CRANK_STEEL, Axis, Interface, Part, StepFile, write_matrices
+from fe_models.geometry import OpenedStepFile
+
+pytest.importorskip("ngsolve")
+
+from fe_models.elasticity import full_model
+
+pytestmark = pytest.mark.usefixtures("sound_files")
+
+ROD = Path(exu_press.__file__).parent / "scenes" / "six_bar_rod.step"
+PINS = {"rod_pin": (0.015, 0.232), "wrist_pin": (0.043, -0.595)}
+MESH = 0.1
+
+
+def scene(body, **keys):
+    wrist = {"kind": "lubricated", "clearance": 5e-5, "radius": 0.035}
+    return Scene(
+        mechanism="six_bar",
+        speed_rpm=60.0,
+        joints={"wrist_pin": wrist},
+        film={"length": 0.1, "viscosity": 0.4},
+        bodies={"rod": {"modes": 6, **body}},
+        revolutions=0.01,
+        **keys,
+    )
+
+
+@pytest.fixture(scope="module")
+def matrices(tmp_path_factory):
+    """Write the matrices of the six-bar press's rod, in mm, with its bores as node sets."""
+    path = tmp_path_factory.mktemp("matrices") / "rod.toml"
+    axes = {name: Axis(position, hole=True) for name, position in PINS.items()}
+    step = OpenedStepFile(StepFile(ROD, 1e-3, axes=axes))
+    model = full_model(Part("rod", step, CRANK_STEEL, tuple(map(Interface, PINS)), MESH))
+    sets = {
+        name: (face.nodes, face.rows[[0]].toarray()[0, 0::3][face.nodes].clip(0.0))
+        for name, face in model.faces.items()
+    }
+    units = {"length": "mm", "mass": "t", "force": "N"}
+    stiffness, mass = 1e-3 * model.stiffness, 1e-3 * model.mass
+    write_matrices(path, 1e3 * model.nodes, stiffness, mass, sets, units=units)
+    return str(path)
+
+
+def test_matrices_of_ngsolve_give_the_run_of_the_step_file(matrices):
+    from_step = simulate(scene({"flexible": str(ROD), "mesh_size": MESH}))
+    result = simulate(scene({"matrices": matrices}))
+    for channel in ("slider_position", "slider_acceleration", "rod_elongation"):
+        expected = np.interp(result.time, from_step.time, from_step[channel])
+        np.testing.assert_allclose(
+            result[channel], expected, rtol=0.0, atol=1e-4 * abs(expected).max()
+        )
+    for name in ("joints.wrist_pin.peak_force", "joints.rod_pin.peak_force"):
+        expected = from_step.quantity(name).value
+        assert result.quantity(name).value == pytest.approx(expected, rel=1e-4)
+    assert not [name for name in result.channels if "stress" in name]
+
+
+def test_a_set_lies_within_its_pin(matrices):
+    body = {"matrices": matrices, "origin": (0.03, 0.0), "angle_deg": 0.0}
+    placed = placed_parts(scene(body))["rod"]
+    assert placed.reduced.interface("wrist_pin").centre[:2] == pytest.approx(
+        PINS["wrist_pin"], rel=1e-4
+    )
+    message = (
+        r"bodies.rod: the centre of node set 'wrist_pin' of '.*rod.toml' lies 30 mm from "
+        r"joints.wrist_pin.* allowed is 25 mm, the radius of its pin"
+    )
+    with pytest.raises(InputError, match=message):
+        placed_parts(scene(body).replace({"joints.wrist_pin.radius": 0.025}))
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"faces": {"wrist_pin": "top"}}, "no node set 'top'; interfaces are 'rod_pin', 'wrist_p"),
+        ({"faces": {"wrist_pin": {"radius": 0.035}}}, "allowed is the name of a node set for each"),
+        ({"mesh_size": 0.1}, r"bodies.rod.mesh_size = 0.1: .* has matrices in place of a solid"),
+        ({"flexible": "rod.step"}, "allowed is one of the two"),
+        ({"matrices": "rod.mtx"}, "matrices = 'rod.mtx': allowed is the path of a description"),
+    ],
+)
+def test_other_keys_are_refused(matrices, keys, message):
+    with pytest.raises(InputError, match=message):
+        placed_parts(scene({"matrices": matrices, **keys}))
+
+
+def test_matrices_take_the_place_of_a_solid_and_its_keys():
+    solid = {"flexible": "rod.step", "mesh_size": 0.05, "density": 7000.0, "modes": 3}
+    body = scene(solid).replace({"bodies.rod.matrices": "rod.toml"}).bodies["rod"]
+    assert (body.flexible, body.mesh_size, body.density, body.modes) == (None, None, None, 3)
+
+
+def test_a_scene_file_has_the_path_from_its_own_folder(matrices, tmp_path):
+    saved = tmp_path / "scene.toml"
+    scene({"matrices": matrices}).save(saved)
+    assert Path(Scene.load(saved).bodies["rod"].matrices).resolve() == Path(matrices).resolve()
+    assert 'matrices = "..' in saved.read_text()

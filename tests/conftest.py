@@ -34,9 +34,11 @@ def few_new_processes():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("exu_press.parallel.run.Workers", InProcess)
         if sys.platform == "linux":
-            patch.setattr(
-                "exu_press.verification.refinement.may_copy", lambda: "ngsolve" not in sys.modules
-            )
+            for module in ("refinement", "side_by_side"):
+                patch.setattr(
+                    f"exu_press.verification.{module}.may_copy",
+                    lambda: "ngsolve" not in sys.modules,
+                )
         yield
 
 

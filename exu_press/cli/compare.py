@@ -1,4 +1,4 @@
-"""Compare scenes, finished runs and measured curves; one scene alone: ideal, dry, lubricated."""
+"""Compare scenes, runs and measured curves; one scene alone: rigid, flexible, dry, lubricated."""
 
 import argparse
 import itertools
@@ -24,11 +24,11 @@ from exu_press.files.output_directory import (
     subdirectory,
     write_json,
 )
-from exu_press.integrate import SolverStatus
-from exu_press.quantities.table import comparison_lines, difference_lines
 from exu_press.result import Result
 from exu_press.scene import Scene
-from exu_press.studies.compare import different_keys, variants
+from exu_press.schema.csv_table import write_csv
+from exu_press.studies.compare import variants
+from exu_press.studies.comparison import Comparison
 from exu_press.studies.curve_comparison import (
     MEASURED,
     MEASURED_PICTURE,
@@ -38,7 +38,7 @@ from exu_press.studies.curve_comparison import (
 )
 from exu_press.studies.curve_file import CurveFile, read_curve
 from exu_press.terminal.columns import columns
-from exu_press.verification.simulate import simulate
+from exu_press.verification.side_by_side import simulate_side_by_side
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
@@ -47,8 +47,6 @@ EXAMPLE = "exu-press compare press my_press.toml out/first/run.nc --out out/comp
 RESULT = "run.nc"
 
 COMPARISON = "comparison.json"
-
-INTERRUPTED = SolverStatus.INTERRUPTED.value
 
 CURVES = ".csv"
 """Ending of the files of measured curves."""
@@ -63,7 +61,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a scene file, the name of a shipped scene ("
         f"{', '.join(shipped_names())}), a {RESULT} or the directory of one, or a CSV file of a "
         "measurement with a head as time (s),slider_acceleration (m/s^2); one scene alone is "
-        "compared with ideal, with dry and, where it has a film, with lubricated joints",
+        "compared with ideal, dry and lubricated joints, with rigid and with flexible bodies",
+    )
+    parser.add_argument("--wide", action="store_true", help="print all digits, in wider columns")
+    parser.add_argument(
+        "--csv",
+        metavar="FILE",
+        type=Path,
+        help="write every quantity of every run, in SI, with its error and bounds",
     )
     add_run_arguments(parser)
     add_error_argument(parser)
@@ -87,6 +92,9 @@ def execute(options: argparse.Namespace) -> int:
     target = directory_of(options, options.given[0] if len(options.given) == 1 else "compare")
     with lock_directory(output_directory(target)) as directory:
         results, summaries = _run_all(compared, directory, options)
+        comparison = Comparison(results)
+        if options.csv is not None:
+            write_csv(options.csv, comparison.columns())
         measured = _compare_curves(curves, results, measured)
         differences = {
             name: {run: comparison.plain() for run, comparison in runs.items()}
@@ -101,10 +109,7 @@ def execute(options: argparse.Namespace) -> int:
                 figures[MEASURED_PICTURE] = measured_figure(measured)
             save_figures(figures, directory)
     if not options.quiet:
-        scenes = {label: result.scene for label, result in results.items()}
-        if len(scenes) > 1:
-            print("\n".join([*columns(different_keys(scenes)), ""]))
-        print("\n".join([*comparison_lines(results), *difference_lines(results)]))
+        print("\n".join(comparison.lines(wide=options.wide)))
         for name, runs_beside in differences.items():
             print("\n".join([*columns(comparison_rows(name, runs_beside)), ""]))
         show_warnings(f"{label}: {w}" for label, s in summaries.items() for w in s["warnings"])
@@ -125,21 +130,17 @@ def _run_all(
     (directory / MEASURED).unlink(missing_ok=True)
     results: dict[str, Result] = {}
     summaries: dict[str, dict[str, Any]] = {}
-    for label, compared_item in compared.items():
-        if isinstance(compared_item, Scene):
-            if not options.quiet:
-                print(f"{label} ...", file=sys.stderr)
-            result = simulate(compared_item, errors=not options.no_error, quiet=options.quiet)
-        else:
-            result = compared_item
+    scenes = {label: item for label, item in compared.items() if isinstance(item, Scene)}
+    stored = ((label, item) for label, item in compared.items() if isinstance(item, Result))
+    runs = simulate_side_by_side(scenes, errors=not options.no_error, quiet=options.quiet)
+    for label, result in itertools.chain(stored, runs):
         results[label], summaries[label] = result, result.summary()
         remove_pictures(folders[label], "run")
         result.save(folders[label] / RESULT)
         write_json(folders[label] / "summary.json", summaries[label])
-        write_json(directory / COMPARISON, summaries)
-        if isinstance(compared_item, Scene) and result.info["status"] == INTERRUPTED:
-            break  # Ctrl-C means all of them
-    return results, summaries
+        in_order = {name: summaries[name] for name in compared if name in summaries}
+        write_json(directory / COMPARISON, in_order)
+    return {label: results[label] for label in compared}, in_order
 
 
 def _label(name: str, labels: Iterable[str]) -> str:
@@ -204,7 +205,7 @@ def _load_items(
         return items
     if not scenes:
         raise InputError(f"{names[0]}: a result alone; allowed are two or more, or a scene alone")
-    scenes_by_label = variants(scenes[0])
-    if not any(label.endswith("lubricated") for label in scenes_by_label):
-        print("lubricated: left out, as the scene has no film", file=sys.stderr)
+    scenes_by_label, left_out = variants(scenes[0])
+    for line in left_out:
+        print(f"exu-press: {line}", file=sys.stderr)
     return scenes_by_label

@@ -27,7 +27,7 @@ DEFAULTS = {
     "settle": (int, float),
     "start": (str,),
     **dict.fromkeys(("clearance", "radius"), (int, float)),
-    **dict.fromkeys(("joints", "contact", "friction", "film"), (Mapping,)),
+    **dict.fromkeys(("joints", "bodies", "contact", "friction", "film"), (Mapping,)),
 }
 """Defaults that a mechanism may have for its scenes, and their types."""
 

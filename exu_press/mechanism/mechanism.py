@@ -46,7 +46,8 @@ class Mechanism:
         groups: name -> joints that a scene can address together.
         counterweight: names of balancing bodies; the shaking force is recorded without them, too.
         defaults: keys of its scenes: "start", "settle", "clearance" and "radius" of a joint,
-            "joints" with their kinds where a scene names none, "contact", "friction" and "film".
+            "joints" with their kinds where a scene names none, "contact", "friction" and "film";
+            "bodies" with their shipped parts or STEP files, which comparisons take as flexible.
 
     Raises:
         InputError: names are used twice or unknown, a body has no mass, or the like.

@@ -39,6 +39,7 @@ TABLE_2: dict[str, Any] = {
     "clearance": 1e-4,
     "radius": 0.07,
     "joints": {"crank_pin": "lubricated", "balls": "dry"},
+    "bodies": {"crank": "crank", "linkage": "linkage"},  # if they are flexible
     "contact": {**PAPER_LAWS["contact"], "modulus": 1.1538e11, "length": 0.1, "restitution": 0.5},
     "friction": {**PAPER_LAWS["friction"], "sigma_0": 1e5, "sigma_1": 400.0},
     "film": {"viscosity": 0.4, "length": 0.1},

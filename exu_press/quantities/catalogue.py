@@ -26,6 +26,7 @@ from exu_press.schema.checks import demand_known, demand_name
 
 __all__ = [
     "CATALOGUE",
+    "GROUPS",
     "QuantityAt",
     "add",
     "find_quantity",
@@ -34,6 +35,7 @@ __all__ = [
     "quantity_of",
 ]
 
+<<<<<<< HEAD
 CATALOGUE: list[Quantity] = [
     *SLIDER,
     *JOINTS,
@@ -51,6 +53,19 @@ CATALOGUE: list[Quantity] = [
     *BALANCE,
     *COSTS,
 ]
+=======
+GROUPS: dict[str, tuple[Quantity, ...]] = {
+    "motion": (*SLIDER, *STROKES),
+    "joints": (*JOINTS, *OIL, *WEAR),
+    "forces": (*SHAKING, *LOADS, *SHEETS, *GUIDES),
+    "drive and energy": (*DRIVE, *START_STOP, *BALANCE),
+    "bodies": BODIES,
+    "the run itself": COSTS,
+}
+"""Headings of tables, and the quantities below them."""
+
+CATALOGUE: list[Quantity] = [quantity for group in GROUPS.values() for quantity in group]
+>>>>>>> 82b37378 (Compare five variants beside each other, in a table of 100 columns)
 """In the order of tables."""
 
 _DECLARED_IN: dict[Quantity, str | None] = {}

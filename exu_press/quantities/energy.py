@@ -68,10 +68,19 @@ def _end(kind: str) -> Callable[[Reading, str], float | None]:
     return lambda run, _: float(run[f"energy_{kind}"][-1]) if has_balance(run.result) else None
 
 
+def _per_stroke(kind: str) -> Callable[[Reading, str], float | None]:
+    """Return a reader of the mean change of a balance's channel in a revolution, likewise."""
+    return lambda run, _: run.per_stroke(run[f"energy_{kind}"]) if has_balance(run.result) else None
+
+
 BALANCE = (
     Quantity("energy.input", "J", "energy that drive and loads put in",
              FLOW, _end("input"),
              title="energy put in", signed=True, cumulative=True),
+    Quantity("energy.input_per_stroke", "J",
+             "energy that drive and loads put in per revolution, over whole revolutions",
+             FLOW, _per_stroke("input"),
+             title="per stroke", is_detail=True, signed=True),
     Quantity("energy.stored", "J", "change of the stored energy",
              ENERGY, _end("stored"),
              signed=True, cumulative=True),
@@ -79,6 +88,11 @@ BALANCE = (
              ENERGY, _end("dissipated"),
              title="energy dissipated", headline=True, cumulative=True,
              law_error=dissipation_error),
+    Quantity("energy.dissipated_per_stroke", "J",
+             "energy that joints, guides and flexible bodies dissipate per revolution, over whole "
+             "revolutions",
+             ENERGY, _per_stroke("dissipated"),
+             title="per stroke", is_detail=True, law_error=dissipation_error),
     Quantity("energy.residual", "",
              "largest misfit of the energy balance, over the largest energy in it",
              MEASURE, lambda run, _: energy_residual(run.result),

@@ -85,7 +85,7 @@ START = Quantity(
     "largest joint force before quantities are read, over the largest one after it",
     MEASURE, _start,
     available=lambda scene, _: scene.settle_revolutions > 0.0,
-    title="largest joint force of the start, over that", is_detail=True, digits=3,
+    title="joint forces, start over later", digits=3,
 )  # fmt: skip
 
 IMPACTS = Quantity(
@@ -126,7 +126,11 @@ JOINTS = (
              title="share in contact"),
     Quantity("dissipated", "J", "energy that contact, friction and film have dissipated",
              ENERGY, lambda run, joint: float(run[f"{joint}_loss"][-1]), Owner.JOINT,
-             _has_clearance, cumulative=True, law_error=film_error),
+             _has_clearance, title="energy dissipated", cumulative=True, law_error=film_error),
+    Quantity("dissipated_per_stroke", "J",
+             "energy that the joint dissipates per revolution, over whole revolutions",
+             ENERGY, lambda run, joint: run.per_stroke(run[f"{joint}_loss"]), Owner.JOINT,
+             _has_clearance, title="per stroke", is_detail=True, signed=True, law_error=film_error),
     Quantity("mean_power", "W", "mean power that the joint dissipates, over whole revolutions",
              LOAD, lambda run, joint: run.rate(run[f"{joint}_loss"]), Owner.JOINT, _has_clearance,
              signed=True, law_error=film_error),

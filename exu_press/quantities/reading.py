@@ -125,7 +125,16 @@ class Reading:
 
         None without one: over a fraction of a revolution the stored energy would count.
         """
+        return None if self.whole is None else self._change_over(self.time, amount)
+
+    def per_stroke(self, amount: Array) -> float | None:
+        """Return the mean change of a channel (n,) in a revolution, over the last whole ones."""
         if self.whole is None:
             return None
-        change = amount[-1] - np.interp(self.whole, self.time, amount)
-        return float(change / (self.time[-1] - self.whole))
+        return self._change_over(self["crank_angle"] / (2.0 * np.pi), amount)
+
+    def _change_over(self, across: Array, amount: Array) -> float:
+        """Return the change of one channel (n,) over that of another, in the whole revolutions."""
+        assert self.whole is not None
+        first, begin = (np.interp(self.whole, self.time, values) for values in (amount, across))
+        return float((amount[-1] - first) / (across[-1] - begin))

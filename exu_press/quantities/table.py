@@ -1,144 +1,220 @@
-"""Quantities of runs as a table, for a terminal or a report, and their differences."""
+"""Quantities of runs beside each other: a line for each quantity and owner, a column a run."""
 
 import textwrap
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
-from exu_press.quantities.catalogue import CATALOGUE
+from exu_press.quantities.catalogue import CATALOGUE, GROUPS
 from exu_press.quantities.kind import LOAD
 from exu_press.quantities.quantity import Owner, Quantity
 from exu_press.quantities.reading import Reading
-from exu_press.quantities.uncertain import uncertain
+from exu_press.quantities.uncertain import BRACKETS, bracket_text, uncertain
 from exu_press.quantities.value import Value, values_of
 from exu_press.result import Result
 from exu_press.result.info import Error
 from exu_press.scene import mechanism_of
 from exu_press.terminal.columns import columns
 
-__all__ = ["comparison_cells", "comparison_lines", "difference_lines", "run_lines", "shown_value"]
-
-MOST_OWNERS = 3
-"""Joints, guides or bodies that a line names: those with the largest loads."""
+__all__ = [
+    "WIDTH",
+    "QuantityLine",
+    "difference_lines",
+    "lines_by_heading",
+    "narrow_cell",
+    "quantity_cells",
+    "run_lines",
+    "shown_value",
+    "span_text",
+    "with_headings",
+]
 
 ALIKE = 1e-2
-"""Members of a group that differ by less, relatively, are shown as one."""
+"""Members of a group that differ by less, relatively, are shown as one, with the larger values."""
+
+OWN, RUN_ITSELF = "further quantities", "the run itself"
+"""Headings of quantities of the user's own, and of costs."""
+
+SINGULAR = {
+    Owner.JOINT: "joint",
+    Owner.GUIDE: "guide of",
+    Owner.LOAD: "load",
+    Owner.BODY: "body",
+}
 
 HORIZON = "predictability horizon, ms"
 
-Row = tuple[str, list[str]]
-
 WIDTH = 100
+"""Letters of a line."""
+
+Cell = Callable[[Quantity, Value], str]
+
+
+@dataclass(frozen=True)
+class QuantityLine:
+    """A quantity of one owner in every run.
+
+    Attributes:
+        quantity: in the unit that is shown.
+        title: with its unit, unless the line above has the same.
+        values: one a run, None where a run has no such quantity.
+    """
+
+    quantity: Quantity
+    title: str
+    values: tuple[Value | None, ...]
+
+    def cells(self, cell: Cell) -> list[str]:
+        """Return title and values as texts."""
+        values = ("-" if value is None else cell(self.quantity, value) for value in self.values)
+        return [self.title, *values]
 
 
 def shown_value(quantity: Quantity, value: Value) -> str:
     """Return a value in the unit that tables show, with its error where that is known."""
-    stated: Any = None if value.error is None else value.to_dict()
-    return uncertain(value.value, stated, quantity.scale, quantity.digits)
+    return uncertain(value.value, _error_entry(value), quantity.scale, quantity.digits)
 
 
-def comparison_cells(results: Mapping[str, Result]) -> list[list[str]]:
-    """Return the lines of a table as texts: the head, then a quantity a line, one column a run."""
-    readings = {label: Reading(result) for label, result in results.items()}
-    runs = {label: values_of(result, readings[label]) for label, result in results.items()}
-    cells = [
-        ["", *results],
-        ["status", *(str(result.info["status"]) for result in results.values())],
-        ["read from revolutions", *map(_span, readings.values())],
-        [HORIZON, *(uncertain(r.info.get("horizon"), None, 1e3) for r in results.values())],
-    ]
-    unit = ""
-    for declared in CATALOGUE:
-        if declared.title:
-            quantity = declared.in_scaled_unit(_sizes(declared, runs.values()))
-            cell = _cell_of_run if quantity.owner is Owner.RUN else _cell_of_owners
-            texts = [cell(quantity, results[label], values) for label, values in runs.items()]
-            cells.append([_head(quantity, unit), *texts])
-            unit = quantity.display_unit
-    return [line for line in cells if set(line[1:]) != {"-"}]
+def narrow_cell(quantity: Quantity, value: Value) -> str:
+    """Return a value in the unit that tables show, with its error in brackets."""
+    return bracket_text(value.value, _error_entry(value), quantity.scale, quantity.digits)
 
 
-def _sizes(quantity: Quantity, runs: Iterable[Mapping[str, Value]]) -> Iterator[float]:
-    """Yield the magnitudes of a quantity with its error, of all owners in all runs, SI."""
-    for values in runs:
-        owners = [""] if quantity.owner is Owner.RUN else _owner_names(values, quantity.owner)
-        declared = (values.get(quantity.full_name(owner)) for owner in owners)
-        yield from (abs(v.value) + (v.error or 0.0) for v in declared if v and v.value is not None)
+def _error_entry(value: Value) -> Mapping[str, Any] | None:
+    return None if value.error is None else value.to_dict()
 
 
-def comparison_lines(results: Mapping[str, Result]) -> list[str]:
-    """Return a table, one column a run."""
-    return columns(comparison_cells(results))
+def lines_by_heading(results: Mapping[str, Result]) -> dict[str, list[QuantityLine]]:
+    """Return the lines of runs by label under their headings: groups of quantities, then owners.
+
+    A joint has lines where it has clearance in one of the runs; where none has, the most loaded one
+    does. Members of a group whose values are alike have one heading and the larger values.
+    """
+    runs = [values_of(result) for result in results.values()]
+    in_group = {quantity for quantities in GROUPS.values() for quantity in quantities}
+    own = [quantity for quantity in CATALOGUE if quantity not in in_group]
+    lines: dict[str, list[QuantityLine]] = {}
+    for heading, quantities in {**GROUPS, OWN: own}.items():
+        titled = [quantity for quantity in quantities if quantity.title]
+        of_run = [quantity for quantity in titled if quantity.owner is Owner.RUN]
+        lines[heading] = _lines(of_run, runs, [""])
+        for kind in dict.fromkeys(q.owner for q in titled if q.owner is not Owner.RUN):
+            of_kind = [quantity for quantity in titled if quantity.owner is kind]
+            for name, owners in _shown_owners(kind, of_kind, results, runs).items():
+                lines.setdefault(name, []).extend(_lines(of_kind, runs, owners))
+    return {heading: rows for heading, rows in lines.items() if rows}
+
+
+def quantity_cells(
+    results: Mapping[str, Result], cell: Cell = shown_value
+) -> dict[str, list[list[str]]]:
+    """Return rows of texts by heading, the title first, then a cell for each run."""
+    cells = {
+        heading: [line.cells(cell) for line in lines]
+        for heading, lines in lines_by_heading(results).items()
+    }
+    horizons = [uncertain(r.info.get("horizon"), None, 1e3) for r in results.values()]
+    if set(horizons) != {"-"}:
+        cells.setdefault(RUN_ITSELF, []).insert(0, [HORIZON, *horizons])
+    return cells
+
+
+def with_headings(cells: Mapping[str, Sequence[Sequence[str]]]) -> list[list[str]]:
+    """Return rows in one table, below their headings."""
+    table: list[list[str]] = []
+    for heading, rows in cells.items():
+        table.append([heading, *[""] * (len(rows[0]) - 1)])
+        table += [[f"  {row[0]}", *row[1:]] for row in rows]
+    return table
 
 
 def run_lines(result: Result) -> list[str]:
-    """Return one run's quantities, a line each."""
-    return comparison_lines({"": result})[1:]
+    """Return one run's quantities, a line each, below its status and its window."""
+    head = f"{result.info['status']}; read from revolutions {span_text(Reading(result))}"
+    table = with_headings(quantity_cells({"": result}, narrow_cell))
+    return [head, *columns(table), *textwrap.wrap(BRACKETS, WIDTH)]
 
 
-def _span(run: Reading) -> str:
-    begin, end = run.span
-    start = "" if begin > 1e-3 else ", with the start"
-    return f"{begin:.3g} to {end:.3g}{start}"
+def span_text(run: Reading) -> str:
+    """Return the revolutions from which quantities are read."""
+    begin, end = (f"{round(turn, 4):g}" for turn in run.span)
+    return f"{begin} to {end}{'' if run.span[0] > 1e-3 else ', with the start'}"
 
 
-def _head(quantity: Quantity, unit: str) -> str:
-    """Return the head of a line; a detail has its unit where the line above has another."""
-    own = quantity.display_unit
-    text = quantity.title + f", {own}" * bool(own and not (quantity.is_detail and own == unit))
-    return f"  {text}" if quantity.is_detail else text
+def _lines(
+    quantities: Iterable[Quantity], runs: Sequence[Mapping[str, Value]], owners: Sequence[str]
+) -> list[QuantityLine]:
+    """Return the lines of quantities that some runs have, of the owner with the larger values."""
+    lines: list[QuantityLine] = []
+    unit = ""
+    for declared in quantities:
+        values = tuple(_largest(declared, run, owners) for run in runs)
+        known = [v for v in values if v is not None and v.value is not None]
+        if known:
+            sizes = (abs(v.value or 0.0) + (v.error or 0.0) for v in known)
+            quantity = declared.in_scaled_unit(sizes)
+            own = quantity.display_unit
+            says_unit = own and not (quantity.is_detail and own == unit)
+            title = f"{'  ' * quantity.is_detail}{quantity.title}{f', {own}' * bool(says_unit)}"
+            lines.append(QuantityLine(quantity, title, values))
+            unit = own
+    return lines
 
 
-def _cell_of_run(quantity: Quantity, _: Result, values: Mapping[str, Value]) -> str:
-    value = values.get(quantity.name)
-    return "-" if value is None else shown_value(quantity, value)
+def _largest(quantity: Quantity, run: Mapping[str, Value], owners: Sequence[str]) -> Value | None:
+    values = [run[name] for owner in owners if (name := quantity.full_name(owner)) in run]
+    return max(values, key=lambda value: abs(value.value or 0.0), default=None)
 
 
-def _cell_of_owners(quantity: Quantity, result: Result, values: Mapping[str, Value]) -> str:
-    """Return a quantity of its owners; alike members of a group as one, the most loaded only."""
-    owners = _owner_names(values, quantity.owner)
-    value_of = {
-        owner: values[name] for owner in owners if (name := quantity.full_name(owner)) in values
-    }
-    value_of = {owner: value for owner, value in value_of.items() if value.value is not None}
-    labels = {owner: owner.replace("_", " ") for owner in value_of}
-    groups = mechanism_of(result.scene).groups if quantity.owner is Owner.JOINT else {}
-    for group, members in groups.items():
-        if value_of.keys() >= set(members) and _are_alike([value_of[member] for member in members]):
-            largest = max(members, key=lambda member: abs(value_of[member].value or 0.0))
-            labels[largest] = group.replace("_", " ")
-            for member in set(members) - {largest}:
-                labels.pop(member, None)
-    listed, most = list(labels), MOST_OWNERS
-    if quantity.owner is Owner.JOINT:  # those with clearance, or the most loaded ideal one
-        listed = [owner for owner in listed if owner in result.clearance_joints] or listed
-        most = MOST_OWNERS if result.clearance_joints else 1
-    loaded = sorted(listed, key=lambda owner: -_load(values, quantity.owner, owner))[:most]
-    texts = [
-        f"{labels[owner]} {shown_value(quantity, value_of[owner])}"
-        for owner in listed
-        if owner in loaded
-    ]
-    rest = len(listed) - len(texts)
-    return ", ".join([*texts, *[f"{rest} more"] * (rest > 0)]) or "-"
-
-
-def _owner_names(values: Mapping[str, Value], kind: Owner) -> list[str]:
+def _shown_owners(
+    kind: Owner,
+    quantities: Sequence[Quantity],
+    results: Mapping[str, Result],
+    runs: Sequence[Mapping[str, Value]],
+) -> dict[str, tuple[str, ...]]:
+    """Return owners by their heading; members of a group that are alike under one."""
     begin = f"{kind.value}."
-    names = (name.removeprefix(begin) for name in values if name.startswith(begin))
-    return list(dict.fromkeys(name.split(".")[0] for name in names))
+    names = (name.removeprefix(begin) for run in runs for name in run if name.startswith(begin))
+    owners = list(dict.fromkeys(name.split(".")[0] for name in names))
+    owners_of: dict[str, tuple[str, ...]] = {owner: (owner,) for owner in owners}
+    if kind is Owner.JOINT:
+        loose = {name for result in results.values() for name in result.clearance_joints}
+        loaded = sorted(owners, key=lambda owner: max(_loads(runs, owner), default=0.0))
+        owners_of = {owner: (owner,) for owner in owners if owner in (loose or loaded[-1:])}
+        for mechanism in (mechanism_of(result.scene) for result in results.values()):
+            for group, members in mechanism.groups.items():
+                if set(members) <= owners_of.keys() and _are_alike(members, quantities, runs):
+                    first = {members[0]: (f"{group} (alike to 1 %)", members)}
+                    owners_of = dict(
+                        first.get(owner, (owner, names))
+                        for owner, names in owners_of.items()
+                        if owner not in members[1:]
+                    )
+    return {
+        f"{SINGULAR[kind]} {name.replace('_', ' ')}": names for name, names in owners_of.items()
+    }
 
 
-def _load(values: Mapping[str, Value], kind: Owner, owner: str) -> float:
-    names = (q.full_name(owner) for q in CATALOGUE if q.owner is kind and q.kind is LOAD)
-    loads = (values[name].value for name in names if name in values)
-    return next((abs(load) for load in loads if load is not None), 0.0)
+def _loads(runs: Iterable[Mapping[str, Value]], joint: str) -> Iterator[float]:
+    forces = [q.full_name(joint) for q in CATALOGUE if q.owner is Owner.JOINT and q.kind is LOAD]
+    for run in runs:
+        loads = (run[name].value for name in forces if name in run)
+        yield next((abs(load) for load in loads if load is not None), 0.0)
 
 
-def _are_alike(values: Sequence[Value]) -> bool:
-    """Return whether values are the same to a hundredth."""
-    numbers = [value.value or 0.0 for value in values]
-    return max(numbers) - min(numbers) <= ALIKE * max(map(abs, numbers), default=0.0)
+def _are_alike(
+    members: Sequence[str], quantities: Iterable[Quantity], runs: Iterable[Mapping[str, Value]]
+) -> bool:
+    """Return whether the members of a group have the same values in all runs, to ALIKE."""
+    names = [[quantity.full_name(member) for member in members] for quantity in quantities]
+    for run in runs:
+        for of_members in names:
+            values = [run[name].value or 0.0 for name in of_members if name in run]
+            sizes = [abs(value) for value in values]
+            if values and max(values) - min(values) > ALIKE * max(sizes):
+                return False
+    return True
 
 
 def difference_lines(results: Mapping[str, Result]) -> list[str]:

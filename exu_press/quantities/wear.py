@@ -332,7 +332,7 @@ WEAR = (
     Quantity("wear.bearing_depth", "m",
              "largest depth that a revolution wears off the bearing, mean over 5 degrees",
              FLOW, partial(_per_revolution, partial(_depth, 1)), Owner.JOINT, _wears,
-             title="worn off the bearing per revolution, max", display_unit="um"),
+             title="worn per revolution, max", display_unit="um"),
     Quantity("wear.journal_depth", "m",
              "largest depth that a revolution wears off the journal, mean over 5 degrees",
              FLOW, partial(_per_revolution, partial(_depth, 0)), Owner.JOINT, _wears),

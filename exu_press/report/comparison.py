@@ -8,18 +8,18 @@ from exu_press.errors import InputError
 from exu_press.files.output_directory import folder_name
 from exu_press.plots import save_comparison
 from exu_press.plots.words import ONE_LINE, describe
-from exu_press.quantities.table import comparison_cells
-from exu_press.report.html import page, picture, stills, table, warnings
+from exu_press.quantities.table import with_headings
+from exu_press.report.html import page, paragraph, picture, stills, table, warnings
 from exu_press.report.page_file import ALL, Span
 from exu_press.report.run import live_part, scene_parts, warnings_of
 from exu_press.report.study import reading
 from exu_press.result import Result
 from exu_press.schema.stored import from_json, short_text
-from exu_press.studies.compare import different_keys
+from exu_press.studies.comparison import Comparison
 from exu_press.studies.curve_comparison import MEASURED, MEASURED_PICTURE, comparison_rows
 from fe_models.temporary import TemporaryFolder
 
-__all__ = ["comparison_page", "comparison_report"]
+__all__ = ["comparison_page", "comparison_report", "comparison_tables"]
 
 CAPTIONS = {
     "compare_slider": "Slider motion of the variants against the ideal mechanism.",
@@ -46,8 +46,6 @@ def comparison_page(
         measured: section on measured curves beside them.
     """
     summaries = {label: result.summary() for label, result in results.items()}
-    head, *rows = comparison_cells(results)
-    keys, *changed = different_keys({label: run.scene for label, run in results.items()})
     live = live_part(results, span)
     with TemporaryFolder() as folder:
         pictures = [
@@ -64,15 +62,23 @@ def comparison_page(
         f"Comparison: {describe([result.scene for result in results.values()], ONE_LINE)}",
         f"{', '.join(results)}; {source}",
         [
-            ("Differences of the scenes", table(keys, changed)),
+            ("Results", comparison_tables(Comparison(results))),
             ("In motion", live),
             ("Warnings", warnings(texts)),
-            ("Results", table(head, rows)),
             *([("Measured", measured)] if measured else []),
             ("Pictures", stills("\n".join(pictures), live)),
             *scene_parts(richest.scene),
         ],
     )
+
+
+def comparison_tables(comparison: Comparison) -> str:
+    """Return the differences of the scenes, and the quantities."""
+    shared, cut = comparison.common_facts, comparison.common_window[1]
+    texts = "".join(paragraph(text) for text in (shared, cut) if text)
+    head = ("", *comparison.results)
+    rows = with_headings(comparison.cells())
+    return texts + table(head, comparison.differences) + table(head, rows)
 
 
 def _measured_section(directory: Path) -> str:

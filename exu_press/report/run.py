@@ -16,7 +16,7 @@ from exu_press.quantities.cost import COSTS
 from exu_press.quantities.energy import BALANCE, has_balance
 from exu_press.quantities.kind import LOAD
 from exu_press.quantities.quantity import Owner
-from exu_press.quantities.table import MOST_OWNERS, comparison_cells, shown_value
+from exu_press.quantities.table import quantity_cells, shown_value, with_headings
 from exu_press.quantities.value import values_of
 from exu_press.report.html import details, page, paragraph, picture, stills, table, warnings
 from exu_press.report.page_file import ALL, Span
@@ -31,9 +31,13 @@ from fe_models.temporary import TemporaryFolder
 __all__ = ["changed_keys", "joint_table", "live_part", "run_report", "scene_parts", "warnings_of"]
 
 
+FEW = 3
+"""Joints with clearance that need no table of their own."""
+
+
 def joint_table(result: Result) -> str:
     """Return a table of all joints, those with the largest forces first; nothing where few are."""
-    if len(result.clearance_joints) <= MOST_OWNERS:
+    if len(result.clearance_joints) <= FEW:
         return ""
     values, joints = values_of(result), result.scene.joints
     quantities = [q for q in CATALOGUE if q.owner is Owner.JOINT and q.title]
@@ -79,7 +83,7 @@ def run_report(result: Result, source: str, span: Span = ALL) -> str:
         span: begin and end of its curves, s; None: those of the record.
     """
     summary = result.summary()
-    numbers = comparison_cells({"": result})[1:]
+    numbers = with_headings(quantity_cells({"": result}))
     live = live_part({"": result}, span)
     return page(
         describe([result.scene], ONE_LINE),

@@ -1,7 +1,7 @@
 """The result of one run: channels over time, its end, and its scene."""
 
 import copy
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from exu_press.result.samples import Samples
 
 __all__ = ["Result"]
+
+SHOWN_CHANNELS = 5
+"""Names of channels in a run's text."""
 
 CLEARANCE_CHANNELS = "eccentricity", "moment", "power"
 """Channels of a joint with clearance, beside its force."""
@@ -166,6 +169,36 @@ class Result(Contents):
         from exu_press import value_of
 
         return value_of(self, name)
+
+    def compare(self, *results: "Result", labels: Sequence[str] = ()) -> Any:
+        """Return this run beside others, an `exu_press.studies.comparison.Comparison`.
+
+        Its text is the table of `exu-press compare`, a notebook shows it, and `view()` is its page.
+
+        Args:
+            results: of any scenes.
+            labels: of this run and those; their kinds of bodies and joints unless given.
+
+        Raises:
+            InputError: the runs have no revolutions in common, or labels are not one for each.
+        """
+        from exu_press import compare_results
+
+        return compare_results([self, *results], labels)
+
+    def __repr__(self) -> str:
+        """Return what the run is of, how it ended and what it has, in a few lines."""
+        scene, joints = self.scene, ", ".join(self.clearance_joints) or "none"
+        bodies = ", ".join(scene.bodies) or "none"
+        mechanism = scene.mechanism if isinstance(scene.mechanism, str) else scene.mechanism.name
+        names = ", ".join(list(self)[:SHOWN_CHANNELS])
+        return (
+            f"Result of {mechanism} at {scene.speed_rpm:g} rpm: {self.info['status']} at "
+            f"t = {self.info['end_time']:.6g} s, {len(self.time)} instants\n"
+            f"joints with clearance: {joints}; flexible bodies: {bodies}\n"
+            f"{len(self.channels)} channels, as result[name]: {names}, ...\n"
+            "quantities, as result.quantity(name): all in result.summary()"
+        )
 
     def view(self) -> Any:
         """Return the run's page, an `exu_press.report.Page`: a notebook shows it in the cell."""

@@ -16,6 +16,15 @@ from exu_press.schema.table import declared_keys, plain
 __all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
 
 
+INSTEAD = {
+    "file": (*COLUMNS, "force"),
+    **{column: tuple({*COLUMNS} - {column}) for column in COLUMNS},
+    "start_angle_deg": ("end_angle_deg",),
+    "end_angle_deg": ("start_angle_deg",),
+}
+"""Key of a load -> the keys instead of which it stands."""
+
+
 def loads_of(
     tables: Any, mechanism: Mechanism, flexible: Collection[str], speed_rpm: float
 ) -> dict[str, Load]:
@@ -83,9 +92,9 @@ def changed_loads(loads: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[
         keys = changed.setdefault(name, {})
         if inner == "kind" and keys.get("kind") != value:
             changed[name] = keys = {k: v for k, v in keys.items() if k in ATTACHMENT}
-        if inner == "file":
-            for column in (*COLUMNS, "force"):
-                keys.pop(column, None)
+        for key in INSTEAD.get(inner, ()):
+            if f"{name}.{key}" not in changes:
+                keys.pop(key, None)
         keys[inner] = value
     return changed
 

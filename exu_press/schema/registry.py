@@ -176,6 +176,14 @@ class Alternatives:
             if home:
                 yield name, load_object(home)
 
+    def deciding_keys(self) -> dict[type[Any], set[str]]:
+        """Return the keys that choose each dataclass; its own ones, where none decides."""
+        keys: dict[type[Any], set[str]] = {}
+        for name, kind in self.classes():
+            own = {field.name for field in dataclasses.fields(kind)}
+            keys.setdefault(kind, set()).update({name} if name else own)
+        return keys
+
     def reason(self, key: str, place_of: PlaceOf, chosen: Any, holders: list[str]) -> str:
         """Return why a key of other kinds is not used; arguments as of `Choice`."""
         order = list(self.homes)

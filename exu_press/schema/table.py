@@ -10,6 +10,7 @@ from exu_press.errors import InputError, UnusedKeyError
 from exu_press.lazy import load_object
 from exu_press.schema.checks import allowed_text, checked_value, demand_known
 from exu_press.schema.kinds import UnresolvedName
+from exu_press.schema.registry import Alternatives
 
 __all__ = [
     "RENAMED",
@@ -374,7 +375,25 @@ def changed_table(
     for first, second in kind.exclusive_with.items():
         if first in names and second not in names:
             changed.pop(second, None)
+    for key in _replaced_keys(kind, names):
+        changed.pop(key, None)
     return changed
+
+
+def _replaced_keys(kind: type[Table], names: set[str]) -> set[str]:
+    """Return the keys of alternatives of a table that give way to those that some keys choose."""
+    replaced: set[str] = set()
+    for field in _fields(kind):
+        selector = field.metadata.get("part")
+        kinds = {} if selector is None else dict(selector.classes())
+        for inner in kinds.values():
+            replaced |= _replaced_keys(inner, names)
+        if isinstance(selector, Alternatives):
+            for chosen, deciding in selector.deciding_keys().items():
+                rest = set().union(*(declared_keys(k) for k in kinds.values() if k is not chosen))
+                if deciding & names and not (rest - {*declared_keys(chosen)}) & names:
+                    replaced |= rest - {*declared_keys(chosen)}
+    return replaced
 
 
 def plain(table: Table) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """The variants of one scene, and the keys in which scenes differ."""
 
 from collections.abc import Mapping, Sequence
+from importlib.util import find_spec
 from typing import Any
 
 from exu_press.errors import InputError
@@ -12,25 +13,29 @@ __all__ = ["different_keys", "variants"]
 MOST_KEYS = 20
 """Keys that are listed one by one."""
 
+FLEXIBILITY_ERROR = 0.02
+"""Relative error of the static flexibility of bodies that are flexible in a comparison alone."""
+
 ABSENT, IDEAL = "-", "ideal"
 
 OPTIONAL = ("bodies.", "drive.", "guide.", "load.")
 """Tables that a scene has or has not, by its user's choice."""
 
 
-def variants(scene: Scene) -> dict[str, Scene]:
-    """Return the scene with ideal, with dry and with lubricated joints, by label.
+def variants(scene: Scene) -> tuple[dict[str, Scene], list[str]]:
+    """Return the variants of a scene by label, and why others are left out.
 
-    These are the scene's joints with clearance, or those that its mechanism usually has; balls are
-    dry beside lubricated pins, as in the paper, unless the scene lubricates them. A scene with
-    flexible bodies is compared with rigid ones too. Clearances, loads and whatever else a variant
-    uses are the scene's; a dry bearing is as long as its film. Dry joints are not lubricated where
-    neither scene nor mechanism has an oil.
+    Ideal; with dry and with lubricated joints, rigid and flexible. These are the scene's joints
+    with clearance, or those that its mechanism usually has; balls are dry beside lubricated pins,
+    as in the paper, unless the scene lubricates them. Flexible bodies are the scene's, or those
+    that its mechanism usually has, with modes for FLEXIBILITY_ERROR. Clearances, loads and whatever
+    else a variant uses are the scene's; a dry bearing is as long as its film.
 
     Raises:
         InputError: the scene has no joint with clearance, nor does its mechanism usually have one.
     """
-    names = list(scene.joints.by_group) or list(mechanism_of(scene).defaults.get("joints", {}))
+    usual = mechanism_of(scene).defaults
+    names = list(scene.joints.by_group) or list(usual.get("joints", {}))
     if not names:
         raise InputError(
             "joints: none has clearance, and so the scene has no variants; allowed is a scene with "
@@ -48,20 +53,40 @@ def variants(scene: Scene) -> dict[str, Scene]:
             for joint_name in scene.joints.members(name)
         )
     }
-    kinds: dict[str, Scene] = {"": scene}
-    if scene.bodies:
-        kinds = {"rigid ": scene.replace({"bodies": {}}), "flexible ": scene}
-    scenes_by_label = {}
-    for bodies, base in kinds.items():
-        for label, change in joints.items():
-            by_joint: dict[str, Any] = {f"joints.{name}": kind for name, kind in change.items()}
-            if label == "dry" and not _has_length(base, "contact"):
-                for name, joint in base.joints.by_group.items():
-                    if isinstance(joint, LubricatedJoint) and joint.film.length is not None:
-                        by_joint[f"joints.{name}.contact.length"] = joint.film.length
-            if label != "lubricated" or _has_length(base, "film") or set(names) <= set(balls):
-                scenes_by_label[bodies + label] = base.replace(by_joint)
-    return scenes_by_label
+    rigid = scene.replace({"bodies": {}}) if scene.bodies else scene
+    kinds, left_out = {"": rigid}, []
+    bodies: Mapping[str, Any] = scene.bodies or {
+        name: {"flexible": solid, "flexibility_error": FLEXIBILITY_ERROR}
+        for name, solid in usual.get("bodies", {}).items()
+    }
+    if not bodies:
+        why = f"neither scene nor {mechanism_of(scene).name} has flexible bodies"
+    elif find_spec("ngsolve") is None:
+        why = "NGSolve is not installed"
+    else:
+        why = ""
+        kinds = {"rigid ": rigid, "flexible ": scene.replace({"bodies": bodies})}
+    if why:
+        left_out.append(f"flexible: left out, as {why}")
+    scenes_by_label = {"ideal": rigid.replace(_changed_kinds(joints["ideal"]))}
+    for bodies_kind, base in kinds.items():
+        change = _changed_kinds(joints["dry"])
+        if not _has_length(base, "contact"):
+            for name, joint in base.joints.by_group.items():
+                if isinstance(joint, LubricatedJoint) and joint.film.length is not None:
+                    change[f"joints.{name}.contact.length"] = joint.film.length
+        scenes_by_label[f"{bodies_kind}dry"] = base.replace(change)
+        if _has_length(base, "film") or set(names) <= set(balls):
+            scene_with_film = base.replace(_changed_kinds(joints["lubricated"]))
+            scenes_by_label[f"{bodies_kind}lubricated"] = scene_with_film
+    if not any(label.endswith("lubricated") for label in scenes_by_label):
+        left_out.append("lubricated: left out, as the scene has no film")
+    return scenes_by_label, left_out
+
+
+def _changed_kinds(kinds: Mapping[str, str]) -> dict[str, Any]:
+    """Return the change of a scene that gives joints their kinds."""
+    return {f"joints.{name}": kind for name, kind in kinds.items()}
 
 
 def different_keys(scenes: Mapping[str, Scene]) -> list[list[str]]:

@@ -59,7 +59,7 @@ def test_a_study_whose_runs_all_fail_is_a_table(tmp_path, capsys, processes):
     shown = capsys.readouterr()
     assert "2 runs: 2 time limit" in shown.out
     assert "2 x time limit: stopped after 0.02 s" in shown.out
-    assert "no run reached an end" in shown.err
+    assert "no run reached its end" in shown.err
 
 
 @pytest.mark.parametrize(
@@ -80,6 +80,14 @@ def test_wrong_arguments_are_refused_in_one_line(arguments, named, tmp_path, cap
     message = capsys.readouterr().err
     assert named in message and message.count("\n") == 1
     assert not list((tmp_path).glob("o/table*"))
+
+
+def test_a_study_whose_runs_all_stop_early_fails(tmp_path, capsys):
+    path = study(tmp_path)
+    text = Path(path).read_text().replace("joints = {}", "joints = {}\nsolver.max_steps = 2")
+    Path(path).write_text(text)
+    assert main(["sweep", path, "--no-pictures", "--out", str(tmp_path / "o")]) == 3
+    assert "no run reached its end" in capsys.readouterr().err
 
 
 def test_a_column_that_is_not_there(tmp_path, capsys):

@@ -1,8 +1,11 @@
 """Quantities are written with as many digits as their errors leave."""
 
+import random
+import re
+
 import pytest
 
-from exu_press.quantities.uncertain import significant, uncertain
+from exu_press.quantities.uncertain import CELL, bracket_text, significant, uncertain
 
 
 @pytest.mark.parametrize(
@@ -21,7 +24,7 @@ def test_no_exponent_where_digits_do(value, digits, text):
         (0.00012345, 1.2e-6, "0.0001234 +- 0.0000012"),
         (5, 5e-9, "5 exact"),
         (0.0, 0.0, "0 exact"),
-        (26.28, 1e-9, "26.28 exact"),
+        (26.28, 1e-9, "26.2800000 +- 0.0000001"),
         (1234.56, None, "1235"),
         (167100.0, None, "167100"),
         (None, None, "-"),
@@ -46,3 +49,53 @@ def test_units_scale_value_and_error():
 def test_without_determination_there_are_bounds(value, low, high, text):
     stated = {"error": 1.0, "determined": False, "low": low, "high": high}
     assert uncertain(value, stated) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "determined", "text"),
+    [
+        (857.31, 0.83, True, "857.3(9)"),
+        (470.0, 5e-7, True, "470.000(1)"),
+        (0.02, 0.28, True, "0.0(3)"),
+        (19943.2, 21.0, True, "19940(30)"),
+        (1.2345e-7, 3e-10, True, "1.235(4)e-7"),
+        (0.0, 0.0, True, "=0"),
+        (12, 1e-8, True, "=12"),
+        (5, 2.0, False, "3..7"),
+        (1000.0, 300.0, False, "700..1300"),
+        (0.01, 0.00234, False, "76..124e-4"),
+        (857.31, None, True, "857.3"),
+        (None, None, True, "-"),
+    ],
+)
+def test_a_narrow_cell_has_one_digit_of_the_error(value, error, determined, text):
+    stated = None
+    if error is not None:
+        bounds = {"low": value - error, "high": value + error}
+        stated = {"error": error, "determined": determined, **bounds}
+    assert bracket_text(value, stated) == text
+
+
+def test_no_narrow_cell_states_less_than_the_error():
+    """Figures of all sizes fit, and their brackets and ranges hold what the error holds."""
+    draw = random.Random(1)
+    for _ in range(2000):
+        value = draw.choice([-1, 1]) * 10.0 ** draw.uniform(-9, 9)
+        error = abs(value) * 10.0 ** draw.uniform(-10, 3)
+        low, high = value - error, value + error
+        for determined in (True, False):
+            stated = {"error": error, "determined": determined, "low": low, "high": high}
+            text = bracket_text(value, stated)
+            assert len(text) <= CELL
+            if determined:
+                mantissa, last, power = re.fullmatch(r"(.+)\((\d+)\)(?:e(.+))?", text).groups()
+                places = len(mantissa.partition(".")[2])
+                scale = 10.0 ** int(power or 0)
+                middle, half = float(mantissa) * scale, int(last) * 10.0**-places * scale
+                shown = middle - half, middle + half
+            else:
+                first, last, power = re.fullmatch(r"(.+)\.\.(.+?)(?:e(.+))?", text).groups()
+                shown = (float(end) * 10.0 ** int(power or 0) for end in (first, last))
+            least, largest = shown
+            margin = 1e-6 * (high - low) + 1e-9 * abs(value)
+            assert least <= low + margin and high - margin <= largest, (stated, text)

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from exu_press import Comparison, Scene, simulate
+from exu_press import Scene, simulate
 from exu_press.scene import mechanism_of
 
 
@@ -34,7 +34,7 @@ def test_a_result_shows_its_quantities(result):
 
 def test_a_comparison_shows_what_differs(result):
     other = simulate(result.scene.replace({"joints.crank_pin.clearance": 3e-4}))
-    both = Comparison({"narrow": result, "<b>wide": other})
+    both = result.compare(other, labels=("narrow", "<b>wide"))
     shown = both._repr_html_()
     assert "joints.crank_pin.clearance" in shown and "&lt;b&gt;wide" in shown
     assert "stroke, mm" in str(both)

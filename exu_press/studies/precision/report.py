@@ -87,6 +87,13 @@ class PrecisionReport(Report):
         scenes = [case["scene"] for case in self.cases.values() if case["scene"] is not None]
         return Scene.from_dict(scenes[0]) if scenes else None
 
+    @property
+    def failures(self) -> list[str]:
+        """The reason of the first run where none reached its end."""
+        if not self.rows or any(row.status == "completed" for row in self.rows):
+            return []
+        return [f"no run reached its end: {self.rows[0].reason}"]
+
     def tables(self) -> list[Table]:
         """Return where times were taken, the runs of each case, orders, and stated errors."""
         tables = [Table("Machine", above=machine_lines(self.machine, self.quick))]

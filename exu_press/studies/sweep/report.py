@@ -14,7 +14,12 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.files.output_directory import replacing
+<<<<<<< HEAD
 from exu_press.parallel.task import FAILED, TIME_LIMIT, WORKER_DIED
+=======
+from exu_press.integrate import SolverStatus
+from exu_press.plots.words import ONE_LINE, describe
+>>>>>>> 82b37378 (Compare five variants beside each other, in a table of 100 columns)
 from exu_press.quantities import Owner, Quantity
 from exu_press.quantities.catalogue import find_quantity
 from exu_press.quantities.cost import COSTS
@@ -56,6 +61,8 @@ FORMAT = "exu_press sweep 1"
 
 COLUMN_NAME = re.compile(r"[\w.-]+", re.ASCII)
 """Name of a column that NetCDF takes."""
+
+REACHED_END = frozenset(status.value for status in SolverStatus if status.reached_end)
 
 RUN_TIMES = tuple(quantity.name for quantity in COSTS if quantity.unit == "s")
 """Columns that differ from run to run of the same scene; they stand last."""
@@ -117,8 +124,8 @@ class SweepReport(Report):
     @property
     def failures(self) -> list[str]:
         """The reason of the first run where none reached an end."""
-        failed = set(self["status"]) <= {FAILED, TIME_LIMIT, WORKER_DIED}
-        return [f"no run reached an end: {self['reason'][0]}"] if failed else []
+        reached = REACHED_END.intersection(map(str, self["status"]))
+        return [] if reached else [f"no run reached its end: {self['reason'][0]}"]
 
     def quantities(self) -> tuple[str, ...]:
         """Return the columns that are shown: the selected ones, or those that change most.

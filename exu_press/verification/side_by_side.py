@@ -1,0 +1,230 @@
+"""Runs of several scenes and their refinements, beside each other on the cores."""
+
+import gc
+import os
+import queue
+import threading
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import zip_longest
+
+from exu_press.model.placed_part import placed_parts
+from exu_press.result import Result
+from exu_press.result.run import run_once
+from exu_press.scene import Scene
+from exu_press.terminal.progress import Progress
+from exu_press.verification.refinement import plan
+from exu_press.verification.run import errors_of, simulate_with_errors
+from fe_models.processes import Child, ChildError, may_copy
+from fe_models.temporary import remove_abandoned
+
+__all__ = ["perform_run", "simulate_side_by_side"]
+
+ITSELF = 1.0
+"""Ratio of the run that is no refinement."""
+
+SECONDS_BETWEEN_UPDATES = 0.2
+
+IDEAL, DRY_PIN, FLEXIBLE, FINER = 0.1, 3.0, 3.0, -0.4
+"""Time of a run with ideal joints, with a dry pin and with flexible bodies over that of others, and
+the power of the tolerance with which it goes, as the press takes it. They order runs and tell when
+all are done; results do not depend on them."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run to be done.
+
+    Attributes:
+        label: of its scene.
+        ratio: of its tolerance to the scene's.
+        scene: with that tolerance.
+        with_errors: whether its process does the refinements, too.
+        cost: time that it takes, in an arbitrary unit.
+    """
+
+    label: str
+    ratio: float
+    scene: Scene
+    with_errors: bool
+    cost: float
+
+
+def simulate_side_by_side(
+    scenes: Mapping[str, Scene], *, errors: bool = True, quiet: bool = True
+) -> Iterator[tuple[str, Result]]:
+    """Yield label and result of each scene as soon as it and its refinements are done.
+
+    As many runs as there are cores are under way at a time; Ctrl-C ends them.
+
+    Args:
+        scenes: by label.
+        errors: whether every quantity gets its error, by refinement runs.
+        quiet: False shows what runs, and how long all will take.
+
+    Raises:
+        InputError: of a scene that cannot be run.
+        ChildError: the process of a run failed; of a refinement, there is a warning instead.
+    """
+    runs = _in_order_of_time(
+        [run for name, scene in scenes.items() for run in _runs(name, scene, errors)]
+    )
+    if not runs:
+        return
+    results: dict[str, dict[float, Result | ChildError]] = {label: {} for label in scenes}
+    expected = {label: sum(run.label == label for run in runs) for label in scenes}
+    scale = len(runs) / sum(run.cost for run in runs)
+    with (
+        _Cores(runs, min(os.cpu_count() or 1, len(runs))) as cores,
+        Progress("compare", len(runs), "runs", quiet=quiet) as progress,
+    ):
+        for _ in runs:
+            run, outcome = cores.next_outcome(lambda: _show(progress, cores, scale))
+            results[run.label][run.ratio] = outcome
+            if len(results[run.label]) == expected[run.label]:
+                yield run.label, _result_with_errors(results.pop(run.label), errors)
+
+
+def perform_run(scene: Scene, with_errors: bool, report: Callable[[float], None]) -> Result:
+    """Run a scene in a process of its own, and report the share that is done."""
+    gc.disable()  # a tenth of the time goes into it, and a few runs leave it next to nothing
+    if with_errors:
+        return simulate_with_errors(scene, beside=False)
+    if scene.bodies:  # reduced before the run's progress begins
+        placed_parts(scene)
+    with Progress("", scene.duration, whole=True, report=report):
+        return run_once(scene, quiet=False)
+
+
+class _Cores(AbstractContextManager["_Cores", None]):
+    """Processes that do runs, each looked after by a thread; a context manager that ends them.
+
+    Attributes:
+        under_way: core -> its run and the share of it that is done.
+        done: expected time of the runs that are done.
+    """
+
+    def __init__(self, runs: list[Run], count: int) -> None:
+        self.under_way: dict[int, tuple[Run, float]] = {}
+        self.done = 0.0
+        self._waiting: queue.SimpleQueue[Run] = queue.SimpleQueue()
+        for run in runs:
+            self._waiting.put(run)
+        self._outcomes: queue.SimpleQueue[tuple[Run, Result | Exception]] = queue.SimpleQueue()
+        self._children: list[Child] = []
+        self._threads: list[threading.Thread] = []
+        function = perform_run if may_copy() else f"{__name__}:{perform_run.__name__}"
+        try:
+            for core in range(count):  # before any thread: copies have none
+                progress = partial(self._report, core)
+                self._children.append(Child(function, one_thread=True, progress=progress))
+        except BaseException:
+            self.__exit__()
+            raise
+        for core, child in enumerate(self._children):
+            thread = threading.Thread(target=self._work, args=(core, child), daemon=True)
+            self._threads.append(thread)
+            thread.start()
+
+    def __exit__(self, *_: object) -> None:
+        for child in self._children:
+            child.kill()
+        for thread in self._threads:
+            thread.join()
+        for child in self._children:
+            child.end()
+        remove_abandoned()  # of children that were killed as they wrote
+
+    def next_outcome(self, show: Callable[[], None]) -> tuple[Run, Result | ChildError]:
+        """Return the next run that is done; `show` is called while none is."""
+        while True:
+            try:
+                run, outcome = self._outcomes.get(timeout=SECONDS_BETWEEN_UPDATES)
+            except queue.Empty:
+                show()
+                continue
+            self.done += run.cost
+            if isinstance(outcome, Result) or (
+                isinstance(outcome, ChildError) and run.ratio != ITSELF
+            ):
+                return run, outcome
+            raise outcome
+
+    def _report(self, core: int, share: float) -> None:
+        if core in self.under_way:
+            self.under_way[core] = self.under_way[core][0], share
+
+    def _work(self, core: int, child: Child) -> None:
+        """Do runs until none waits."""
+        while True:
+            try:
+                run = self._waiting.get_nowait()
+            except queue.Empty:
+                return
+            self.under_way[core] = run, 0.0
+            try:
+                child.request(run.scene, run.with_errors)
+                outcome: Result | Exception = child.answer()
+            except Exception as error:
+                outcome = error
+            del self.under_way[core]
+            self._outcomes.put((run, outcome))
+
+
+def _runs(label: str, scene: Scene, errors: bool) -> Iterator[Run]:
+    """Yield a scene's run and its refinements; one alone where films settle, as it decides them."""
+    if errors and scene.warms:
+        yield Run(label, ITSELF, scene, True, 3.0 * _expected_cost(scene, ITSELF))
+        return
+    for ratio, refined in {ITSELF: scene, **(plan(scene) if errors else {})}.items():
+        yield Run(label, ratio, refined, False, _expected_cost(refined, ratio))
+
+
+def _expected_cost(scene: Scene, ratio: float) -> float:
+    joints = scene.joints
+    kinds = {joint.kind for name, joint in joints.items() if name not in joints.spherical}
+    of_joints = DRY_PIN if "dry" in kinds else 1.0 if joints.by_group else IDEAL
+    return float(scene.duration * of_joints * (FLEXIBLE if scene.bodies else 1.0) * ratio**FINER)
+
+
+def _in_order_of_time(runs: list[Run]) -> list[Run]:
+    """Return runs in the order in which they begin: the longest first, flexible ones alternating.
+
+    The first flexible one reduces the bodies, which the second one reads.
+    """
+    longest = sorted(runs, key=lambda run: -run.cost)
+    flexible = [run for run in longest if run.scene.bodies]
+    rigid = [run for run in longest if not run.scene.bodies]
+    pairs = zip_longest(flexible, rigid)
+    return [run for pair in pairs for run in pair if run is not None]
+
+
+def _show(progress: Progress, cores: _Cores, scale: float) -> None:
+    under_way = list(cores.under_way.values())
+    progress.label = ", ".join(dict.fromkeys(run.label for run, _ in under_way)) or progress.label
+    done = cores.done + sum(run.cost * share for run, share in under_way)
+    progress.update(scale * done)
+
+
+def _result_with_errors(outcomes: dict[float, Result | ChildError], errors: bool) -> Result:
+    """Return a run with the errors that its refinements tell."""
+    run = outcomes.pop(ITSELF)
+    assert isinstance(run, Result)
+    if not errors or run.scene.warms:
+        return run
+    failures = [outcome for outcome in outcomes.values() if isinstance(outcome, ChildError)]
+    if failures:
+        warnings.warn(
+            f"no errors of the quantities are known: a refinement run failed ({failures[0]})",
+            stacklevel=3,
+        )
+    usable = run.completed and not failures
+    refined = [
+        (ratio, outcome)
+        for ratio in plan(run.scene)
+        if usable and isinstance(outcome := outcomes[ratio], Result)
+    ]
+    return replace(run, info={**run.info, **errors_of(run, refined)})

@@ -1,0 +1,131 @@
+"""Runs beside each other in one table."""
+
+import itertools
+from dataclasses import replace
+
+import pytest
+
+from exu_press import InputError, Scene, simulate
+from exu_press.cli import main
+from exu_press.cli.options import scene_path, shipped_names
+from exu_press.quantities.value import values_of
+from exu_press.studies.compare import variants
+from exu_press.studies.comparison import Comparison
+
+SHARES = (1e-9, 3e-6, 2e-3, 0.04, 0.7, 5.0)
+"""Errors over the figures that have them."""
+
+
+def with_made_up_errors(result, first):
+    """Return a run whose figures have errors of all sizes; every fourth is not determined."""
+    entries = {}
+    for k, (name, value) in enumerate(values_of(result).items(), start=first):
+        if value.value is not None and not name.startswith("cost."):
+            error = SHARES[k % len(SHARES)] * abs(value.value)
+            low, high = value.value - error, value.value + error
+            bounds = {"error": error, "low": low, "high": high}
+            entries[name] = {"determined": k % 4 != 0, **bounds}
+    return replace(result, info={**result.info, "errors": entries})
+
+
+@pytest.mark.parametrize("name", shipped_names())
+def test_five_variants_of_every_shipped_scene_fit_100_columns(name):
+    """With errors of all sizes; every cell is whole."""
+    scene = Scene.load(scene_path(name)).replace({"revolutions": 0.002, "settle": 0.0})
+    rigid = {k: s for k, s in variants(scene)[0].items() if not s.bodies}
+    runs = [simulate(variant) for variant in rigid.values()]
+    labels = ["ideal", "rigid dry", "rigid lubricated", "flexible dry", "flexible lubricated"]
+    results = {
+        label: with_made_up_errors(run, k)
+        for k, (label, run) in enumerate(zip(labels, itertools.cycle(runs), strict=False))
+    }
+    comparison = Comparison(results)
+    lines = comparison.lines()
+    assert max(map(len, lines)) <= 100
+    rows = [row for group in comparison.cells(wide=False).values() for row in group]
+    shown = [line.split() for line in lines]
+    for title, *cells in rows:
+        assert max(map(len, cells)) <= 11 and [*title.split(), *cells] in shown
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", shipped_names())
+def test_the_command_on_every_shipped_scene_fits_100_columns(name, tmp_path, capsys):
+    out = ["--no-pictures", "--set", "revolutions=0.2", "--out", str(tmp_path)]
+    settle = ["--set", "settle=0"] if name == "drag_link_shop" else []
+    assert main(["compare", name, *out, *settle]) in (0, 3)
+    lines = capsys.readouterr().out.splitlines()[:-1]
+    assert max(map(len, lines)) <= 100 and not any("..." in line for line in lines)
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.02)
+
+
+@pytest.fixture(scope="module")
+def result(scene):
+    return simulate(scene)
+
+
+def test_a_run_beside_its_continuation_says_which_revolutions_are_read(scene):
+    turn = scene.replace({"revolutions": 1.0, "joints.crank_pin": "ideal"})
+    first = simulate(turn)
+    second = simulate(turn, start=first.info["state"])
+    comparison = first.compare(second)
+    assert comparison.differences == [["read from revolutions", "0 to 1", "1 to 2"]]
+    assert comparison.common_window == (comparison.results, "")
+
+
+def test_windows_that_differ_are_cut_to_what_all_runs_have(scene, result):
+    longer = with_made_up_errors(simulate(scene.replace({"revolutions": 0.05})), 1)
+    comparison = longer.compare(result, labels=("long", "short"))
+    cut, remark = comparison.common_window
+    assert "from revolutions 0 to 0.02" in remark and remark in " ".join(comparison.lines())
+    assert cut["long"].time[-1] <= 0.02 / 4.0 * (1.0 + 1e-9)
+    velocity = cut["long"].quantity("peak_velocity")
+    assert velocity.error is None
+    assert velocity.value == pytest.approx(result.quantity("peak_velocity").value, rel=1e-3)
+
+
+def test_windows_without_a_common_part_are_refused(scene, result):
+    later = simulate(scene, start=result.info["state"])
+    with pytest.raises(InputError, match="no revolutions in common"):
+        str(result.compare(later))
+
+
+def test_runs_are_labelled_by_what_they_are(result):
+    comparison = result.compare(result)
+    assert list(comparison.results) == ["rigid dry 1", "rigid dry 2"]
+    with pytest.raises(InputError, match="labels"):
+        result.compare(result, labels=("a",))
+
+
+def test_a_label_that_is_too_long_is_a_note(result):
+    lines = result.compare(result, labels=("a" * 30, "my_long_press")).lines()
+    assert f"[1] {'a' * 30}" in lines
+    assert "[1]" in next(line for line in lines if line.endswith(" press"))
+
+
+def test_the_columns_of_a_csv_have_every_quantity(result):
+    stated = with_made_up_errors(result, 1)
+    columns = stated.compare(result, labels=("a", "b")).columns()
+    at = columns["quantity"].index("peak_velocity")
+    value = stated.quantity("peak_velocity")
+    assert columns["quantity"] == list(values_of(result)) and columns["unit"][at] == "m/s"
+    assert (columns["a"][at], columns["a, low"][at]) == (value.value, value.low)
+    assert columns["b, error"][at] is None
+
+
+def test_a_result_says_what_it_is_in_a_few_lines(result):
+    text = repr(result)
+    assert len(text.splitlines()) <= 10 and len(text) < 1000
+    assert "slider_crank" in text and "crank_pin" in text and "completed" in text
+
+
+def test_energies_per_stroke_are_those_of_whole_revolutions(scene):
+    lubricated = {"revolutions": 2.0, "settle": 0.0, "joints.crank_pin": "lubricated"}
+    run = simulate(scene.replace(lubricated))
+    for name in ("energy.input", "energy.dissipated", "joints.crank_pin.dissipated"):
+        total = run.quantity(name).value
+        assert 2.0 * run.quantity(f"{name}_per_stroke").value == pytest.approx(total, rel=1e-9)

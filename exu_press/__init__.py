@@ -36,11 +36,8 @@ if TYPE_CHECKING:
     from exu_press.report.cells import page_of as page_of
     from exu_press.result import Result
     from exu_press.scene import Scene
-<<<<<<< HEAD
     from exu_press.studies.bearing.coefficients import bearing_coefficients
-=======
     from exu_press.studies.comparison import compare_results as compare_results
->>>>>>> 82b37378 (Compare five variants beside each other, in a table of 100 columns)
     from exu_press.verification.simulate import simulate
 
     __version__: str
@@ -70,31 +67,7 @@ __all__ = [
     "solve_dynamic",
 ]
 
-<<<<<<< HEAD
 _load = lazy_names(__name__)
-=======
-_NAMES = {
-    "errors": "InputError",
-    "exudyn_systems": "solve_dynamic",
-    "integrate": "ErrorScales Outcome SolverStatus SolverTuning follow_modes",
-    "joints": "FlexiblePoint add_dry_revolute add_dry_spherical add_guideway_contact "
-    "add_guideway_film add_joint_sensor add_lubricated_revolute add_lubricated_spherical "
-    "add_revolute",
-    "mechanism": "Mechanism",
-    "model.graphics": "build_with_graphics",
-    "quantities.summary": "summary",
-    "quantities.value": "value_of",
-    "report.cells": "cell page_of",
-    "result": "Result",
-    "scene": "Scene",
-    "studies.comparison": "compare_results",
-    "verification.simulate": "simulate",
-}
-"""Module -> its names in the public API, and functions behind methods of `Scene`, `Result` and
-`Mechanism` in modules that know these classes."""
-
-_load = lazy_names(__name__, _NAMES)
->>>>>>> 82b37378 (Compare five variants beside each other, in a table of 100 columns)
 
 _SUBPACKAGES = ("laws", "quantities")
 """Subpackages of the public API, as `exu_press.quantities`."""

@@ -35,29 +35,10 @@ __all__ = [
     "quantity_of",
 ]
 
-<<<<<<< HEAD
-CATALOGUE: list[Quantity] = [
-    *SLIDER,
-    *JOINTS,
-    *OIL,
-    *WEAR,
-    *STROKES,
-    *DRIVE,
-    *START_STOP,
-    *SHAKING,
-    *LOADS,
-    *SHEETS,
-    *GUIDES,
-    *GEARS,
-    *BODIES,
-    *BALANCE,
-    *COSTS,
-]
-=======
 GROUPS: dict[str, tuple[Quantity, ...]] = {
     "motion": (*SLIDER, *STROKES),
     "joints": (*JOINTS, *OIL, *WEAR),
-    "forces": (*SHAKING, *LOADS, *SHEETS, *GUIDES),
+    "forces": (*SHAKING, *LOADS, *SHEETS, *GUIDES, *GEARS),
     "drive and energy": (*DRIVE, *START_STOP, *BALANCE),
     "bodies": BODIES,
     "the run itself": COSTS,
@@ -65,7 +46,6 @@ GROUPS: dict[str, tuple[Quantity, ...]] = {
 """Headings of tables, and the quantities below them."""
 
 CATALOGUE: list[Quantity] = [quantity for group in GROUPS.values() for quantity in group]
->>>>>>> 82b37378 (Compare five variants beside each other, in a table of 100 columns)
 """In the order of tables."""
 
 _DECLARED_IN: dict[Quantity, str | None] = {}

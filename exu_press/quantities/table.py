@@ -39,6 +39,7 @@ OWN, RUN_ITSELF = "further quantities", "the run itself"
 SINGULAR = {
     Owner.JOINT: "joint",
     Owner.GUIDE: "guide of",
+    Owner.GEAR: "gear",
     Owner.LOAD: "load",
     Owner.BODY: "body",
 }

@@ -14,12 +14,7 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.files.output_directory import replacing
-<<<<<<< HEAD
-from exu_press.parallel.task import FAILED, TIME_LIMIT, WORKER_DIED
-=======
 from exu_press.integrate import SolverStatus
-from exu_press.plots.words import ONE_LINE, describe
->>>>>>> 82b37378 (Compare five variants beside each other, in a table of 100 columns)
 from exu_press.quantities import Owner, Quantity
 from exu_press.quantities.catalogue import find_quantity
 from exu_press.quantities.cost import COSTS

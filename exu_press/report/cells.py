@@ -36,7 +36,7 @@ def cell(item: Any) -> str:
     if isinstance(item, Mechanism):
         return _drawing(item)
     if isinstance(item, Comparison):
-        return _frame(comparison_tables(item))
+        return _frame("".join(comparison_tables(item)))
     assert isinstance(item, Result)
     texts = warnings_of(item.summary())
     head = paragraph(describe([item.scene], ONE_LINE)) + (warnings(texts) if texts else "")

@@ -46,6 +46,7 @@ def comparison_page(
         measured: section on measured curves beside them.
     """
     summaries = {label: result.summary() for label, result in results.items()}
+    differences, quantities = comparison_tables(Comparison(results))
     live = live_part(results, span)
     with TemporaryFolder() as folder:
         pictures = [
@@ -62,9 +63,10 @@ def comparison_page(
         f"Comparison: {describe([result.scene for result in results.values()], ONE_LINE)}",
         f"{', '.join(results)}; {source}",
         [
-            ("Results", comparison_tables(Comparison(results))),
+            ("Differences of the scenes", differences),
             ("In motion", live),
             ("Warnings", warnings(texts)),
+            ("Results", quantities),
             *([("Measured", measured)] if measured else []),
             ("Pictures", stills("\n".join(pictures), live)),
             *scene_parts(richest.scene),
@@ -72,13 +74,13 @@ def comparison_page(
     )
 
 
-def comparison_tables(comparison: Comparison) -> str:
-    """Return the differences of the scenes, and the quantities."""
-    shared, cut = comparison.common_facts, comparison.common_window[1]
-    texts = "".join(paragraph(text) for text in (shared, cut) if text)
+def comparison_tables(comparison: Comparison) -> tuple[str, str]:
+    """Return the differences of the scenes, below what they have in common, and the quantities."""
+    texts = (comparison.common_facts, comparison.common_window[1])
+    common = "".join(paragraph(text) for text in texts if text)
     head = ("", *comparison.results)
-    rows = with_headings(comparison.cells())
-    return texts + table(head, comparison.differences) + table(head, rows)
+    quantities = table(head, with_headings(comparison.cells()))
+    return common + table(head, comparison.differences), quantities
 
 
 def _measured_section(directory: Path) -> str:

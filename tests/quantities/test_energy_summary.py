@@ -61,7 +61,7 @@ def test_the_user_s_own_load_leaves_no_balance(tmp_path, monkeypatch):
     summary = result.summary()
     assert summary["own_items"] == 1
     energies = [v for name, v in summary["quantities"].items() if name.startswith("energy.")]
-    assert len(energies) == 4 and all(entry["value"] is None for entry in energies)
+    assert len(energies) == 6 and all(entry["value"] is None for entry in energies)
     result.save(tmp_path / "run.nc")
     result = Result.load(tmp_path / "run.nc")
     assert not any(name.startswith("energy_") for name in result)

@@ -79,6 +79,7 @@ def test_only_methods_for_users_ask_the_face_of_the_package():
         "exu_press.mechanism.mechanism",
         "exu_press.result.result",
         "exu_press.scene.scene",
+        "exu_press.studies.comparison",
     }
 
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from exu_press import Scene
+from exu_press.files.sources import FOR_READERS
 from exu_press.joints import user_force_of
-from exu_press.parallel.task import FOR_READERS
 
 PRINTED = "\nimport sys, json; print(json.dumps(sorted(sys.modules)))\n"
 

@@ -83,7 +83,7 @@ def execute(options: argparse.Namespace) -> int:
     stored = {label: result for label, result in compared.items() if isinstance(result, Result)}
     if not options.no_pictures:
         from exu_press.plots.file import save_figures
-        from exu_press.plots.save import comparison_figures
+        from exu_press.plots.save import comparison_figures, sources_of
         from exu_press.studies.measured_figure import measured_figure
 
         # they are refused here, where their files keep too little
@@ -107,7 +107,7 @@ def execute(options: argparse.Namespace) -> int:
                 figures = comparison_figures(results)
             if measured:
                 figures[MEASURED_PICTURE] = measured_figure(measured)
-            save_figures(figures, directory)
+            save_figures(figures, directory, sources_of(results))
     if not options.quiet:
         print("\n".join(comparison.lines(wide=options.wide)))
         for name, runs_beside in differences.items():

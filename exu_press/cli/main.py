@@ -14,6 +14,8 @@ from typing import Any, TextIO
 
 import exu_press
 from exu_press.errors import InputError
+from exu_press.files.command import executing
+from exu_press.files.digests import recorded_files
 from exu_press.schema.kinds import describe_own_error
 from exu_press.studies.registry import STUDIES, study_command, study_source
 from fe_models.errors import disk_full
@@ -21,7 +23,18 @@ from fe_models.temporary import remove_abandoned
 
 __all__ = ["COMMANDS", "load_command", "main"]
 
-COMMANDS = ("new", "draw", "run", "spectrum", "compare", *STUDIES, "doctor", "view", "report")
+COMMANDS = (
+    "new",
+    "draw",
+    "run",
+    "rerun",
+    "spectrum",
+    "compare",
+    *STUDIES,
+    "doctor",
+    "view",
+    "report",
+)
 """Studies, and modules beside this one; the one that is asked for is loaded, which takes up to a
 second."""
 
@@ -150,7 +163,8 @@ def _execute(arguments: Sequence[str] | None) -> int:
     remove_abandoned()
     usual, warnings.formatwarning = warnings.formatwarning, _format_warning
     try:
-        return int(options.execute(options))
+        with executing(["exu-press", *words]), recorded_files():
+            return int(options.execute(options))
     finally:
         warnings.formatwarning = usual
 

@@ -13,6 +13,7 @@ from exu_press.scene import Scene
 from exu_press.schema.checks import demand_known
 
 __all__ = [
+    "add_code_argument",
     "add_error_argument",
     "add_format_argument",
     "add_run_arguments",

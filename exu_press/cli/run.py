@@ -3,6 +3,7 @@
 import argparse
 import sys
 import textwrap
+from dataclasses import replace
 from pathlib import Path
 
 from exu_press.cli.options import (
@@ -13,6 +14,7 @@ from exu_press.cli.options import (
     show_warnings,
 )
 from exu_press.errors import InputError
+from exu_press.files.digests import file_digest
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import output_directory, remove_pictures, write_json
 from exu_press.model.state import State
@@ -128,6 +130,19 @@ def execute(options: argparse.Namespace) -> int:
         return _run(scene, start, directory, options)
 
 
+def _with_start(result: Result, path: Path) -> Result:
+    """Return a run that went on from another one, with that in its provenance."""
+    provenance = result.info["provenance"]
+    files = sorted(path.iterdir()) if path.is_dir() else [path]
+    digests = {str(file): file_digest(file) for file in files}
+    provenance = {
+        **provenance,
+        "files": {**provenance["files"], **digests},
+        "start": str(path),
+    }
+    return replace(result, info={**result.info, "provenance": provenance})
+
+
 def _make_room(unfinished: Path, options: argparse.Namespace) -> None:
     """Remove the finished blocks of an earlier run, or set them aside where --from goes on.
 
@@ -195,6 +210,8 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
     else:
         result, interrupted, remark = _run_refined(scene, start, unfinished, quiet=options.quiet)
         remarks = [remark] if remark else []
+    if options.start is not None:
+        result = _with_start(result, _start_path(options.start))
     summary = result.summary()
     remove_pictures(directory, "run")
     result.save(directory / RESULT)

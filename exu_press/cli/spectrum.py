@@ -53,7 +53,7 @@ def execute(options: argparse.Namespace) -> int:
     if not options.no_pictures:
         from exu_press.studies.spectrum_figure import save_spectra
 
-        written = save_spectra(spectra_list, run.scene, marks, directory, options.format)
+        written = save_spectra(spectra_list, run, marks, directory)
     if not options.quiet:
         lines = [line for spectra_entry in spectra_list for line in spectra_entry.lines()]
         lines += [f"natural frequency: {mark.name}, {mark.frequency:.4g} Hz" for mark in marks]

@@ -120,7 +120,8 @@ def show_report(report: Report, directory: Path, options: argparse.Namespace) ->
         if not options.no_pictures and (figure := picture.draw(report)) is not None:
             from exu_press.plots.file import save_figure
 
-            files.append(save_figure(figure, directory / f"{picture.name}{ending}").name)
+            path = directory / f"{picture.name}{ending}"
+            files.append(save_figure(figure, path, {"": report.provenance()}).name)
     if not options.quiet:
         print("written:", ", ".join(files), f"in {directory}")
     for failure in report.failures:

@@ -4,6 +4,7 @@ import stat
 from pathlib import Path
 
 from exu_press.errors import InputError
+from exu_press.files.digests import note_content
 
 __all__ = ["MOST_BYTES", "read_bytes", "read_text"]
 
@@ -28,7 +29,9 @@ def read_bytes(path: Path) -> bytes:
             raise InputError(
                 f"{path}: has {about.st_size / 1e6:.0f} MB; allowed are {MOST_BYTES / 1e6:.0f} MB"
             )
-        return path.read_bytes()
+        content = path.read_bytes()
+        note_content(path, content)
+        return content
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror})") from None
     except ValueError as error:

@@ -1,19 +1,24 @@
 """A picture as a file."""
 
+import json
 from collections.abc import Mapping
+from datetime import datetime
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 from exu_press.errors import InputError
 from exu_press.files.output_directory import FORMATS, replacing
 from exu_press.plots.style import DPI, look
+from exu_press.scene.provenance import Provenance, provenance_of
 
-__all__ = ["check_picture", "save_figure", "save_figures"]
+__all__ = ["check_picture", "png_texts", "save_figure", "save_figures"]
 
 
 def check_picture(path: Path) -> None:
@@ -24,10 +29,17 @@ def check_picture(path: Path) -> None:
         raise InputError(f"--save {path}: there is no directory {path.parent}")
 
 
-def save_figure(figure: Figure, path: Path) -> Path:
+def save_figure(
+    figure: Figure, path: Path, sources: Mapping[str, Provenance] = MappingProxyType({})
+) -> Path:
     """Write under a temporary name, then rename.
 
     `Figure.savefig` would draw a PNG twice, the first time to find out its artists.
+
+    Args:
+        figure: to be written.
+        path: of the file.
+        sources: provenance of what it shows, by label; it goes into the file's metadata.
     """
     figure.set_layout_engine("none")  # it has been laid out; not again
     figure.set_dpi(DPI)
@@ -35,20 +47,52 @@ def save_figure(figure: Figure, path: Path) -> Path:
     with replacing(path) as partial:
         if kind != "png":
             with look():
-                figure.savefig(partial, format=kind)
+                figure.savefig(partial, format=kind, metadata=_metadata(kind, sources))
             return path
         canvas: Any = FigureCanvasAgg(figure)
         with look():
             canvas.draw()
         image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
-        image.save(partial, format="png", dpi=(DPI, DPI), compress_level=4)
+        texts = png_texts(sources)
+        image.save(partial, format="png", dpi=(DPI, DPI), compress_level=4, pnginfo=texts)
     return path
 
 
+def png_texts(sources: Mapping[str, Provenance]) -> PngInfo:
+    """Return the metadata of a PNG file."""
+    drawn, texts = provenance_of(), PngInfo()
+    texts.add_text("Software", f"exu_press {drawn['version']}")
+    texts.add_text("Creation Time", drawn["date"])
+    texts.add_text("Description", _description(drawn, sources))
+    return texts
+
+
+def _description(drawn: Provenance, sources: Mapping[str, Provenance]) -> str:
+    """Return what a picture is made of as JSON."""
+    return json.dumps({"drawn": drawn, "sources": dict(sources)})
+
+
+def _metadata(kind: str, sources: Mapping[str, Provenance]) -> dict[str, Any]:
+    """Return the metadata of an SVG or a PDF file by the names that the format has for them."""
+    drawn = provenance_of()
+    about = _description(drawn, sources)
+    software = f"exu_press {drawn['version']}"
+    if kind == "svg":
+        return {"Creator": software, "Date": drawn["date"], "Description": about}
+    return {
+        "Creator": software,
+        "CreationDate": datetime.fromisoformat(drawn["date"]),
+        "Subject": about,
+    }
+
+
 def save_figures(
-    figures: Mapping[str, Figure], directory: str | Path, ending: str = FORMATS[0]
+    figures: Mapping[str, Figure],
+    directory: str | Path,
+    sources: Mapping[str, Provenance] = MappingProxyType({}),
 ) -> list[Path]:
-    """Write each figure under its name and return the files."""
+    """Write each figure under its name and return the files; `sources` as of `save_figure`."""
     return [
-        save_figure(figure, Path(directory) / f"{name}{ending}") for name, figure in figures.items()
+        save_figure(figure, Path(directory) / f"{name}{FORMATS[0]}", sources)
+        for name, figure in figures.items()
     ]

@@ -13,8 +13,9 @@ from exu_press.plots.press import press_figure
 from exu_press.plots.slider import slider_figure
 from exu_press.quantities.energy import has_balance
 from exu_press.result import Result
+from exu_press.scene.provenance import Provenance
 
-__all__ = ["comparison_figures", "save_comparison", "save_pictures"]
+__all__ = ["comparison_figures", "save_comparison", "save_pictures", "sources_of"]
 
 
 def save_pictures(result: Result, directory: str | Path) -> list[Path]:
@@ -34,7 +35,7 @@ def save_pictures(result: Result, directory: str | Path) -> list[Path]:
     figures["press"] = press_figure(result)
     if has_balance(result):
         figures["energy"] = energy_figure(result)
-    return save_figures(figures, directory)
+    return save_figures(figures, directory, sources_of(run))
 
 
 def comparison_figures(results: Mapping[str, Result]) -> dict[str, Figure]:
@@ -52,4 +53,10 @@ def save_comparison(results: Mapping[str, Result], directory: str | Path) -> lis
     Raises:
         InputError: a file cannot be written.
     """
-    return save_figures(comparison_figures(results), directory)
+    return save_figures(comparison_figures(results), directory, sources_of(results))
+
+
+def sources_of(results: Mapping[str, Result]) -> dict[str, Provenance]:
+    """Return the provenance of runs by label; files of older versions have none."""
+    infos = {label: result.info for label, result in results.items()}
+    return {label: info["provenance"] for label, info in infos.items() if "provenance" in info}

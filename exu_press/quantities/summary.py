@@ -68,6 +68,7 @@ def summary(result: Result) -> dict[str, Any]:
         },
         "own_items": info["own_items"],
         "versions": info["versions"],
+        "provenance": info.get("provenance"),
         "scene": result.scene.to_dict(),
     }
 

@@ -11,7 +11,7 @@ from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.table import with_headings
 from exu_press.report.html import page, paragraph, picture, stills, table, warnings
 from exu_press.report.page_file import ALL, Span
-from exu_press.report.run import live_part, scene_parts, warnings_of
+from exu_press.report.run import live_part, provenance_section, scene_parts, warnings_of
 from exu_press.report.study import reading
 from exu_press.result import Result
 from exu_press.schema.stored import from_json, short_text
@@ -69,6 +69,7 @@ def comparison_page(
             ("Results", quantities),
             *([("Measured", measured)] if measured else []),
             ("Pictures", stills("\n".join(pictures), live)),
+            ("Provenance", provenance_section({n: s["provenance"] for n, s in summaries.items()})),
             *scene_parts(richest.scene),
         ],
     )

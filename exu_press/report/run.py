@@ -23,12 +23,21 @@ from exu_press.report.page_file import ALL, Span
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import engineering_values, keys_of, used_assumptions
+from exu_press.scene.provenance import Provenance, rows_of
 from exu_press.view import Animation, moment, save_picture
 from exu_press.view.animation import SIZE
 from exu_press.view.instants import interval
 from fe_models.temporary import TemporaryFolder
 
-__all__ = ["changed_keys", "joint_table", "live_part", "run_report", "scene_parts", "warnings_of"]
+__all__ = [
+    "changed_keys",
+    "joint_table",
+    "live_part",
+    "provenance_section",
+    "run_report",
+    "scene_parts",
+    "warnings_of",
+]
 
 
 FEW = 3
@@ -95,6 +104,7 @@ def run_report(result: Result, source: str, span: Span = ALL) -> str:
             ("Results", table(("quantity", "value"), numbers) + joint_table(result)),
             ("Pictures", stills(_pictures(result), live)),
             ("Energy and solver", _energy_and_solver(result)),
+            ("Provenance", provenance_section({"": result.info.get("provenance")})),
             *scene_parts(result.scene),
         ],
     )
@@ -161,6 +171,16 @@ def _pictures(result: Result) -> str:
         for path in save_pictures(result, folder):
             pictures.append(picture(path, CAPTIONS.get(path.stem, path.stem)))
     return "\n".join(pictures)
+
+
+def provenance_section(provenances: Mapping[str, Provenance | None]) -> str | None:
+    """Return tables of provenance by label; None where files of older versions have none."""
+    tables = [
+        table(("", "value"), rows_of(provenance), label)
+        for label, provenance in provenances.items()
+        if provenance is not None
+    ]
+    return "\n".join(tables) or None
 
 
 def _energy_and_solver(result: Result) -> str:

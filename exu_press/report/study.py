@@ -11,7 +11,7 @@ from exu_press.page import Live
 from exu_press.page.lines import lines_viewer
 from exu_press.page.study import study_viewer
 from exu_press.report.html import page, paragraph, picture, stills, table, warnings
-from exu_press.report.run import scene_parts
+from exu_press.report.run import provenance_section, scene_parts
 from exu_press.scene import Scene
 from exu_press.schema.csv_table import read_csv
 from exu_press.schema.stored import from_json
@@ -73,6 +73,7 @@ def _page(file: Path, report: dict[str, Any]) -> str:
             *tables,
             ("Warnings", warnings(report["warnings"])),
             ("Pictures", stills(drawn, live)),
+            ("Provenance", provenance_section({"": report.get("provenance")})),
             *about,
         ],
     )

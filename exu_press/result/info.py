@@ -3,6 +3,7 @@
 from typing import NotRequired, TypedDict
 
 from exu_press.model.state import State
+from exu_press.scene.provenance import Provenance
 
 __all__ = ["Error", "Errors", "Figures", "Info", "Solid", "Stress"]
 
@@ -109,6 +110,7 @@ class Info(TypedDict):
         connectors: of the model.
         own_items: number of objects and loads that the user added to the model.
         versions: of Python and packages, by name.
+        provenance: of the run.
         state: at the end, from which another run can go on.
         figures: in files that do not keep all channels at all steps.
         errors: as in `Errors`, in runs that were asked for them.
@@ -133,6 +135,7 @@ class Info(TypedDict):
     connectors: int
     own_items: int
     versions: dict[str, str]
+    provenance: NotRequired[Provenance]
     state: NotRequired[State]
     figures: NotRequired[Figures]
     errors: NotRequired[dict[str, Error]]

@@ -9,6 +9,7 @@ from exu_press.model.state import State, go_on_from
 from exu_press.result.record import record
 from exu_press.result.result import Result
 from exu_press.scene import Scene
+from exu_press.scene.provenance import provenance_of
 from exu_press.scene.scene import SHORTEST_RUN
 
 __all__ = ["run_once"]
@@ -41,6 +42,7 @@ def run_once(
             have settled; as many more then go before those that quantities are read from.
     """
     started = time.perf_counter()
+    provenance = provenance_of(scene)
     if scene.output is not None and not isinstance(scene.output.channels, str):
         turned = max(SHORT, 2.0 * SHORTEST_RUN * scene.speed_rpm / 60.0)
         short = run_once(scene.replace({"output": None, "revolutions": turned, "settle": 0.0}))
@@ -58,4 +60,4 @@ def run_once(
     finally:
         model.SC.Reset()  # its systems and their solvers hold each other: never freed otherwise
     total = time.perf_counter() - started
-    return replace(result, info={**result.info, "total_time": total})
+    return replace(result, info={**result.info, "total_time": total, "provenance": provenance})

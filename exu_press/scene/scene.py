@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast, overload
 
 from exu_press.errors import InputError, UnusedKeyError, error_prefix
+from exu_press.files.digests import recorded_files
 from exu_press.mechanism import (
     SHIPPED,
     Mechanism,
@@ -77,6 +78,7 @@ class Scene(Table):
 
     Attributes:
         asked: dotted names of the keys that the user gave, be it with their defaults.
+        files: sha256 of the files that were read for it, by name.
 
     Raises:
         InputError: a key is unknown, has a wrong type or a value outside its range, a table or a
@@ -85,6 +87,7 @@ class Scene(Table):
 
     table: ClassVar[str] = ""
     asked: ClassVar[frozenset[str]]
+    files: ClassVar[Mapping[str, str]]
     mechanism: str | Mechanism = key(
         "press",
         "the path of a mechanism file, .toml",
@@ -128,6 +131,12 @@ class Scene(Table):
 
     def __post_init__(self) -> None:
         """Check the keys, refuse those that the scene does not use and fill in the others."""
+        with recorded_files() as files:
+            self._complete()
+        object.__setattr__(self, "files", files)
+
+    def _complete(self) -> None:
+        """Check and complete every key."""
         object.__setattr__(self, "asked", frozenset(given_names(self.given_values)))
         object.__setattr__(self, "mechanism", asked_mechanism(self.mechanism))
         super().__post_init__()
@@ -416,7 +425,8 @@ class Scene(Table):
         data = changed_keys(data, groups, changes)
         while True:
             try:
-                return Scene.from_dict(data, asked, resolve=not self.has_unresolved_kinds)
+                scene = Scene.from_dict(data, asked, resolve=not self.has_unresolved_kinds)
+                return _with_files(scene, self.files)
             except InputError as error:
                 if not isinstance(error, UnusedKeyError) or gives_key(error.name, groups, changes):
                     raise InputError(by_group(str(error), groups, changes)) from None
@@ -534,13 +544,20 @@ def _load(path: str | Path, assignments: Iterable[str] = (), *, allow_code: bool
     from exu_press.scene.file import parse_assignment, scene_tables
 
     path = Path(path)
-    data = scene_tables(path)
+    with recorded_files() as files:
+        data = scene_tables(path)
     changes = dict(map(parse_assignment, assignments))
     with error_prefix(f"{path}: "):
         if allow_code:
             import_kinds({**data, **changes})
-        scene = Scene.from_dict(data, given_names(data))
+        scene = _with_files(Scene.from_dict(data, given_names(data)), files)
     return scene.replace(changes) if changes else scene
+
+
+def _with_files(scene: Scene, files: Mapping[str, str]) -> Scene:
+    """Return a scene for which further files were read."""
+    object.__setattr__(scene, "files", {**files, **scene.files})
+    return scene
 
 
 def _with_unresolved(data: Mapping[str, Any]) -> dict[str, Any]:

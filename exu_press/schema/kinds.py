@@ -21,6 +21,7 @@ __all__ = [
     "custom_modules",
     "describe_own_error",
     "import_kinds",
+    "kind_modules",
     "kind_name",
     "loaded_kinds",
     "refusal",
@@ -111,8 +112,8 @@ def import_kinds(data: Mapping[str, Any]) -> None:
         InputError: a module is not there, fails, or is one of Python's own.
     """
     for key, name in _kinds_in(data):
-        module, _, inside = name.partition(":")
-        if _loaded_kind(name, CustomKind) is not None:
+        module, colon, inside = name.partition(":")
+        if not colon or _loaded_kind(name, CustomKind) is not None:
             continue
         if module.partition(".")[0] in sys.stdlib_module_names or "__main__" in module.split("."):
             raise InputError(
@@ -203,6 +204,20 @@ def custom_modules(data: Mapping[str, Any]) -> tuple[str, ...]:
     return tuple(sorted(modules))
 
 
+def kind_modules(data: Mapping[str, Any]) -> set[str]:
+    """Return the modules of the kinds of users and other distributions that a scene's or a study's
+    data name; none is imported.
+    """
+    modules = set()
+    for _, name in _kinds_in(data):
+        module, colon, _ = name.partition(":")
+        if colon:
+            modules.add(module)
+        elif (kind := _loaded_kind(name, CustomKind)) is not None:  # a registered one
+            modules.add(kind.__module__)
+    return modules
+
+
 def kind_name(kind: type[CustomKind]) -> str:
     """Return the name by which a scene calls a class."""
     name: str = vars(kind).get("registered_name", "")
@@ -231,14 +246,14 @@ def subclasses_of(base: type[Kind]) -> Iterator[type[Kind]]:
 
 
 def _kinds_in(data: Any, path: str = "") -> Iterator[tuple[str, str]]:
-    """Yield key and name of classes that tables name as kinds, in lists and dotted keys, too."""
+    """Yield key and name of kinds in tables, in lists and dotted keys, too."""
     if isinstance(data, Mapping):
         for name, value in data.items():
             yield from _kinds_in(value, f"{path}.{name}" if path else str(name))
     elif isinstance(data, list | tuple):
         for value in data:
             yield from _kinds_in(value, path)
-    elif isinstance(data, str) and ":" in data and PLACES.fullmatch(path):
+    elif isinstance(data, str) and PLACES.fullmatch(path):
         yield path, data
 
 

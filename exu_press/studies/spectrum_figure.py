@@ -8,11 +8,13 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from exu_press.plots.file import save_figure
+from exu_press.plots.file import save_figures
+from exu_press.plots.save import sources_of
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, with_style
 from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain, typeset
 from exu_press.plots.words import describe
+from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.signals.spectrum import Spectrum
 from exu_press.studies.spectrum import Mark, Spectra
@@ -87,13 +89,11 @@ def spectrum_figure(spectra: Spectra, scene: Scene, marks: Sequence[Mark] = ()) 
 
 
 def save_spectra(
-    spectra_list: Sequence[Spectra], scene: Scene, marks: Sequence[Mark], directory: Path, form: str
+    spectra_list: Sequence[Spectra], run: Result, marks: Sequence[Mark], directory: Path
 ) -> list[Path]:
-    """Write a picture of each channel, spectrum_NAME and the format's ending; return the files."""
-    return [
-        save_figure(
-            spectrum_figure(spectra, scene, marks),
-            directory / f"spectrum_{spectra.name.replace('.', '_')}{form}",
-        )
+    """Write a picture of each channel of a run, spectrum_NAME; return the files."""
+    figures = {
+        f"spectrum_{spectra.name.replace('.', '_')}": spectrum_figure(spectra, run.scene, marks)
         for spectra in spectra_list
-    ]
+    }
+    return save_figures(figures, directory, sources_of({"": run}))

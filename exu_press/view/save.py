@@ -13,10 +13,13 @@ from typing import IO
 import numpy as np
 from matplotlib.colors import to_rgb
 from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 from exu_press.errors import DiskFullError, InputError
 from exu_press.files.output_directory import check_writable, replacing
 from exu_press.mechanism.shapes import COLOURS as BODIES
+from exu_press.plots.file import png_texts
+from exu_press.plots.save import sources_of
 from exu_press.plots.style import COLOURS
 from exu_press.view.animation import Animation, Painter
 from exu_press.view.flexible_panel import COLOURS as SURFACES
@@ -62,8 +65,13 @@ def save_picture(animation: Animation, frame: int, path: Path) -> Path:
     check_target(path)
     image = Painter(animation, DPI[".png"]).paint(frame)
     with replacing(path) as partial:
-        image.save(partial, format="png")
+        image.save(partial, format="png", pnginfo=_texts(animation))
     return path
+
+
+def _texts(animation: Animation) -> PngInfo:
+    """Return the metadata of a picture of a run."""
+    return png_texts(sources_of({"": animation.result}))
 
 
 def save_animation(
@@ -90,7 +98,8 @@ def save_animation(
                 report(frame + 1)
 
     if kind == ".png":
-        return [_write_png(path, number, image) for number, image in enumerate(frames())]
+        texts = _texts(animation)
+        return [_write_png(path, number, image, texts) for number, image in enumerate(frames())]
     with replacing(path) as partial:
         if kind == ".gif":
             _write_gif(partial, frames(), animation.instants.fps)
@@ -99,10 +108,10 @@ def save_animation(
     return [path]
 
 
-def _write_png(path: Path, number: int, image: Image.Image) -> Path:
+def _write_png(path: Path, number: int, image: Image.Image, texts: PngInfo) -> Path:
     numbered = path.with_name(NUMBER.sub(lambda match: match[0] % number, path.name))
     with replacing(numbered) as partial:
-        image.save(partial, format="png")
+        image.save(partial, format="png", pnginfo=texts)
     return numbered
 
 

@@ -12,7 +12,8 @@ from exu_press.files.output_directory import PICTURES
 QUICK = ["--set", "revolutions=0.02", "--no-pictures", "--no-error"]
 KEYS = {
     "status", "reason", "end_time", "warnings", "read_from", "assumed", "quantities", "horizon",
-    "lyapunov_exponent", "strokes", "stress", "solids", "cost", "own_items", "versions", "scene",
+    "lyapunov_exponent", "strokes", "stress", "solids", "cost", "own_items", "versions",
+    "provenance", "scene",
 }  # fmt: skip
 
 

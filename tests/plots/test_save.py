@@ -23,7 +23,7 @@ def assert_pictures(paths):
 def test_pictures_of_a_run(results, tmp_path, monkeypatch):
     """Of which one is written: each costs half a second."""
 
-    def save_one(figures, folder):
+    def save_one(figures, folder, _):
         return [*figures, *save_figures({"force": figures["force"]}, folder)]
 
     monkeypatch.setattr("exu_press.plots.save.save_figures", save_one)
@@ -35,7 +35,7 @@ def test_pictures_of_a_run(results, tmp_path, monkeypatch):
 
 
 def test_ideal_joints_have_no_orbits(results, tmp_path, monkeypatch):
-    monkeypatch.setattr("exu_press.plots.save.save_figures", lambda figures, _: list(figures))
+    monkeypatch.setattr("exu_press.plots.save.save_figures", lambda figures, *_: list(figures))
     wanted = [name.removesuffix(".png") for name in EVERY if name != "orbit.png"]
     assert save_pictures(results["ideal"], tmp_path) == wanted
 

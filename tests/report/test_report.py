@@ -77,6 +77,7 @@ def test_pages_are_whole_and_load_nothing(parsed, name):
                 "Results",
                 "Pictures",
                 "Energy and solver",
+                "Provenance",
                 "Scene",
                 "Assumptions",
             ],
@@ -90,12 +91,17 @@ def test_pages_are_whole_and_load_nothing(parsed, name):
                 "Warnings",
                 "Results",
                 "Pictures",
+                "Provenance",
                 "Scene",
                 "Assumptions",
             ],
             3,
         ),
-        ("sweep", ["Points", "Runs", "Warnings", "Pictures", "Scene", "Assumptions"], 1),
+        (
+            "sweep",
+            ["Points", "Runs", "Warnings", "Pictures", "Provenance", "Scene", "Assumptions"],
+            1,
+        ),
     ],
 )
 def test_what_a_report_has(parsed, name, headings, pictures):

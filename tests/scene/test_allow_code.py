@@ -78,6 +78,21 @@ def test_with_permission_it_runs_here_and_in_workers(command, hostile, processes
         assert Path("out/runs.jsonl").read_text() == rows
 
 
+def test_a_repeated_run_needs_permission_and_the_code_that_it_had(hostile, capsys):
+    more = ["--allow-code", "--no-error", "--quiet", "--no-pictures", "--out", "out"]
+    assert main(["run", "scene.toml", *more]) == 0
+    assert Result.load("out/run.nc").info["provenance"]["code"].keys() == {"own_kinds"}
+    assert main(["rerun", "out", "--allow-code", "--quiet"]) == 0
+    forget()
+    hostile.unlink()
+    assert main(["rerun", "out"]) == 2
+    assert "names code, the module 'own_kinds'" in capsys.readouterr().err
+    code = Path("own_kinds.py")
+    code.write_text(code.read_text() + "# edited\n")
+    assert main(["rerun", "out", "--allow-code"]) == 2
+    assert "own_kinds (changed)" in capsys.readouterr().err and not hostile.exists()
+
+
 def test_a_result_whose_scene_is_forged_runs_nothing(mark, monkeypatch):
     """Whatever it names, and in whatever form; no attribute of a module is asked for either."""
     result = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=0.01))

@@ -7,10 +7,12 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
+from exu_press.files.digests import files_read
 from exu_press.files.output_directory import write_json
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.units import shown_unit
 from exu_press.scene import Scene
+from exu_press.scene.provenance import Provenance, provenance_of
 from exu_press.scene.warnings import scene_warnings
 from exu_press.schema.csv_table import Value, write_csv
 from exu_press.terminal.columns import columns
@@ -274,6 +276,11 @@ class Report(ABC):
             self.scene.save(directory / self.scene_file, overwrite=True)
         write_json(directory / REPORT_FILE, {"format": FORMAT, **self.page_data()})
 
+    def provenance(self) -> Provenance:
+        """Return where it comes from: also of all files that the command read."""
+        of_scene = provenance_of(self.scene)
+        return {**of_scene, "files": {**files_read(), **of_scene["files"]}}
+
     def page_data(self) -> dict[str, Any]:
         """Return that of which a page is made."""
         points = self.points()
@@ -286,6 +293,7 @@ class Report(ABC):
             "pictures": {picture.name: picture.caption for picture in self.pictures()},
             "points": None if points is None else asdict(points),
             "panels": [asdict(panel) for panel in self.panels()],
+            "provenance": self.provenance(),
         }
 
 

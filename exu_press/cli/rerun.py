@@ -1,0 +1,131 @@
+"""Repeat a run and say whether its figures agree; changed inputs are refused unless allowed."""
+
+import argparse
+import shlex
+import textwrap
+from pathlib import Path
+
+from exu_press.cli.options import add_code_argument, scene_path
+from exu_press.errors import InputError
+from exu_press.files.digests import locate
+from exu_press.files.output_directory import check_writable
+from exu_press.report.find import Kind, find_output
+from exu_press.result import Result
+from exu_press.scene import Scene
+from exu_press.scene.provenance import Provenance, changed_inputs
+from exu_press.schema.kinds import import_kinds
+from exu_press.verification.agreement import Agreement, agreement
+from exu_press.verification.simulate import simulate
+
+__all__ = ["EXAMPLE", "add_arguments", "execute"]
+
+EXAMPLE = "exu-press rerun out/press"
+
+DIFFERENT = 1
+"""Exit status where figures do not agree."""
+
+MOST_NAMED = 20
+"""Figures that are named one by one."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.add_argument("path", metavar="DIR", help="the directory of a run, or its run.nc")
+    parser.add_argument(
+        "--changed",
+        action="store_true",
+        help="run with the inputs as they are now, where they are others than the run had",
+    )
+    add_code_argument(parser)
+    parser.add_argument("--out", metavar="FILE.nc", help="keep the repeated run")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+
+
+def execute(options: argparse.Namespace) -> int:
+    """Repeat the run; return 0, or 1 where figures do not agree."""
+    kind, file = find_output(Path(options.path), Kind.RUN)
+    if kind is not Kind.RUN:
+        raise InputError(f"{options.path}: allowed is a run.nc, or the directory that run wrote to")
+    if options.out is not None:
+        check_writable(Path(options.out))
+    run = Result.load(file)
+    provenance = run.info.get("provenance")
+    if provenance is None:
+        raise InputError(f"{file}: a version wrote it that noted no inputs; run its scene again")
+    changes = _changes(provenance, run.scene, options)
+    if options.allow_code:
+        import_kinds(run.scene.to_dict())
+    scene = _scene_of(run, provenance, options) if changes else _scene_in(run, options)
+    start = Result.load(locate(provenance["start"])) if "start" in provenance else None
+    repeated = simulate(
+        scene,
+        errors="errors" in run.info,
+        start=None if start is None else start.info["state"],
+        quiet=options.quiet,
+    )
+    if options.out is not None:
+        repeated.save(options.out)
+    compared = agreement(run, repeated)
+    if not options.quiet:
+        print("\n".join([*_change_lines(changes), *_lines(compared, run)]))
+    return 0 if compared.agrees else DIFFERENT
+
+
+def _changes(provenance: Provenance, scene: Scene, options: argparse.Namespace) -> dict[str, str]:
+    """Return the inputs that are others now; raise InputError unless --changed allows it."""
+    changes = changed_inputs(provenance, scene)
+    if changes and not options.changed:
+        raise InputError(
+            f"{_change_lines(changes)[0]}; allowed is --changed, which runs with them, or the "
+            "directory and the files that the run had"
+        )
+    return changes
+
+
+def _scene_in(run: Result, options: argparse.Namespace) -> Scene:
+    """Return the scene that a result holds, complete."""
+    if not run.scene.has_unresolved_kinds:
+        return run.scene
+    return Scene.from_dict(run.scene.to_dict(), run.scene.asked)  # refuses what is not loaded
+
+
+def _scene_of(run: Result, provenance: Provenance, options: argparse.Namespace) -> Scene:
+    """Return a run's scene from its changed files, solved as the run was."""
+    words = shlex.split(provenance["command"])
+    if words[:2] != ["exu-press", "run"]:
+        return _scene_in(run, options)  # its files are read again when it is built
+    from exu_press.cli import run as command
+
+    parser = argparse.ArgumentParser(prog="exu-press run", exit_on_error=False)
+    command.add_arguments(parser)
+    earlier = parser.parse_args(words[2:])
+    scene = Scene.load(scene_path(earlier.scene), earlier.set, allow_code=options.allow_code)
+    solver = run.scene.solver
+    assert solver is not None
+    if solver.tolerance is not None:  # --within or errors may have made it finer
+        scene = scene.replace({"solver.tolerance": solver.tolerance})
+    return scene
+
+
+def _change_lines(changes: dict[str, str]) -> list[str]:
+    """Return which inputs are others now, in a line, or nothing."""
+    texts = ", ".join(f"{name} ({how})" for name, how in changes.items())
+    return [f"inputs are others than the run had: {texts}"] if changes else []
+
+
+def _lines(compared: Agreement, run: Result) -> list[str]:
+    """Return how the figures agree, for the terminal."""
+    total = len(compared.identical) + len(compared.within) + len(compared.different)
+    if len(compared.identical) == total:
+        return [f"all {total} figures are identical in all digits"]
+    lines = [
+        f"of {total} figures {len(compared.identical)} are identical in all digits, "
+        f"{len(compared.within)} agree within both stated errors, "
+        f"{len(compared.different)} do not agree"
+    ]
+    if compared.different and "errors" not in run.info:
+        lines.append("the run has no errors (--no-error), so that only equal digits agree")
+    for name, text in list(compared.different.items())[:MOST_NAMED]:
+        lines += textwrap.wrap(f"  {name}: {text}", 100, subsequent_indent="    ")
+    more = len(compared.different) - MOST_NAMED
+    return [*lines, f"  and {more} more"] if more > 0 else lines

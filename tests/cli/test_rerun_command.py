@@ -1,0 +1,57 @@
+"""exu-press rerun: the same figures from the same inputs, and what it refuses."""
+
+import pytest
+
+from exu_press.cli import main
+from exu_press.result import Result
+from exu_press.verification.agreement import agreement
+from exu_press.verification.simulate import simulate
+
+SCENE = """
+mechanism = "slider_crank"
+revolutions = 0.05
+[joints.crank_pin]
+kind = "dry"
+clearance = 1e-4
+"""
+
+RUN = ["run", "scene.toml", "--once", "--no-pictures", "--quiet", "--out", "o"]
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    (tmp_path / "scene.toml").write_text(SCENE)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_the_same_inputs_give_the_same_digits_with_errors_and_from_another_run(capsys):
+    assert main(RUN) == 0
+    assert main(["rerun", "o"]) == 0
+    assert "figures are identical in all digits" in capsys.readouterr().out
+    assert main([*RUN[:-1], "p", "--from", "o", "--no-error"]) == 0
+    assert Result.load("p/run.nc").info["provenance"]["start"] == "o/run.nc"
+    assert main(["rerun", "p", "--out", "again.nc"]) == 0
+    assert "identical in all digits" in capsys.readouterr().out
+    first, again = Result.load("p/run.nc"), Result.load("again.nc")
+    assert (first["slider_position"] == again["slider_position"]).all()
+
+
+def test_a_changed_input_is_refused_unless_it_is_allowed(folder, capsys):
+    assert main(RUN) == 0
+    (folder / "scene.toml").write_text(SCENE.replace("0.05", "0.04"))
+    assert main(["rerun", "o"]) == 2
+    assert "scene.toml (changed); allowed is --changed" in capsys.readouterr().err
+    assert main(["rerun", "o", "--changed"]) == 1, "a shorter run"
+    said = capsys.readouterr().out
+    assert "scene.toml (changed)" in said and "do not agree" in said
+
+
+def test_figures_of_a_finer_run_agree_within_both_errors():
+    assert main([*RUN, "--set", "solver.tolerance=3e-3"]) == 0
+    coarse = Result.load("o/run.nc")
+    fine = simulate(coarse.scene.replace({"solver.tolerance": 1e-3}), errors=True)
+    compared = agreement(coarse, fine)
+    assert compared.agrees and compared.within and compared.identical
+    without = simulate(fine.scene)
+    assert set(agreement(coarse, without).different) >= {"peak_acceleration.resolved"}

@@ -12,6 +12,7 @@ from exu_press.quantities.energy import BALANCE
 from exu_press.quantities.fatigue import BODIES
 from exu_press.quantities.gears import GEARS
 from exu_press.quantities.joints import JOINTS
+from exu_press.quantities.observed import find_observed, with_observed
 from exu_press.quantities.oil import OIL
 from exu_press.quantities.press import DRIVE, GUIDES, LOADS, SHAKING
 from exu_press.quantities.quantity import PREFIXES, Owner, Quantity
@@ -169,7 +170,8 @@ def find_quantity(name: str) -> QuantityAt | None:
             return QuantityAt(quantity)
         if (quantity.owner.value, quantity.name) == (kind, inner):
             return QuantityAt(quantity, owner)
-    return None
+    observed = find_observed(CATALOGUE, name)
+    return None if observed is None else QuantityAt(observed)
 
 
 def quantities_of(scene: Scene) -> dict[str, QuantityAt]:
@@ -177,7 +179,7 @@ def quantities_of(scene: Scene) -> dict[str, QuantityAt]:
     owners = _owners(scene)
     placed = (
         QuantityAt(quantity, owner)
-        for quantity in CATALOGUE
+        for quantity in with_observed(CATALOGUE, scene)
         for owner in owners[quantity.owner]
         if quantity.available(scene, owner)
     )

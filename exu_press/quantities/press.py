@@ -115,6 +115,12 @@ def _mean_speed(run: Reading, _: str) -> float | None:
     return float(change / (run.time[-1] - run.speed_from)) * 30.0 / np.pi
 
 
+def _mean_of(channel: str, column: int | None, window: float, run: Reading, _: str) -> float | None:
+    """Return the largest mean of a channel, or of one of its columns, over a window, s."""
+    values = run[channel]
+    return mean_peak_of(run.time, values if column is None else values[:, column], window)
+
+
 DRIVE = (
     Quantity("drive.peak_torque", "N m",
              "largest torque of the drive; a motor's turns flywheel and crank",
@@ -122,8 +128,8 @@ DRIVE = (
              title="drive torque, max", display_unit="kN m", extreme=Extreme.LARGEST,
              curve="drive_torque"),
     Quantity("drive.peak_torque_mean_1ms", "N m", "largest torque of the drive, averaged over 1 ms",
-             LOAD, lambda run, _: mean_peak_of(run.time, run["drive_torque"]),
-             extreme=Extreme.LARGEST),
+             LOAD, partial(_mean_of, "drive_torque", None, 1e-3),
+             observe=partial(_mean_of, "drive_torque", None), extreme=Extreme.LARGEST),
     Quantity("drive.peak_crank_torque", "N m",
              "largest torque that turns the crank, behind a motor's flywheel",
              LOAD, lambda run, _: run.peaks("crank_torque").length,
@@ -131,8 +137,9 @@ DRIVE = (
              extreme=Extreme.LARGEST, curve="crank_torque"),
     Quantity("drive.peak_crank_torque_mean_1ms", "N m",
              "largest torque that turns the crank, behind a motor's flywheel, averaged over 1 ms",
-             LOAD, lambda run, _: mean_peak_of(run.time, run["crank_torque"]),
-             available=_motor, extreme=Extreme.LARGEST),
+             LOAD, partial(_mean_of, "crank_torque", None, 1e-3),
+             available=_motor, observe=partial(_mean_of, "crank_torque", None),
+             extreme=Extreme.LARGEST),
     Quantity("drive.mean_torque", "N m", "mean torque of the drive, over whole revolutions",
              LOAD, lambda run, _: run.mean(run["drive_torque"]),
              signed=True),
@@ -159,9 +166,7 @@ DRIVE = (
 )  # fmt: skip
 
 
-def _resultant(channel: str, column: int, ending: str, run: Reading, _: str) -> float | None:
-    if ending:
-        return mean_peak_of(run.time, run[channel][:, column])
+def _resultant(channel: str, column: int, run: Reading, _: str) -> float | None:
     return float(run.peaks(channel).columns[column])
 
 
@@ -183,11 +188,14 @@ def _resultants() -> Iterator[Quantity]:
             for ending, also in (("", ""), ("_mean_1ms", ", averaged over 1 ms")):
                 name = f"{prefix}.{direction}{ending}"
                 title, under = titles.get(name, ("", False))
+                observe = partial(_mean_of, channel, column) if ending else None
+                resolved = partial(_resultant, channel, column)
                 yield Quantity(
                     name, "N", f"largest {direction} {meaning}{also}, in either direction",
-                    RESULTANT, partial(_resultant, channel, column, ending),
+                    RESULTANT, partial(observe, 1e-3) if observe else resolved,
                     available=available, title=title, display_unit="kN", is_detail=under,
                     extreme=Extreme.LARGEST, curve="" if ending else f"{channel}:{'xy'[column]}",
+                    observe=observe,
                 )  # fmt: skip
 
 

@@ -75,6 +75,8 @@ class Quantity:
         law_error: scene, owner and value -> its error by those of tabulated laws.
         curve: whose extreme it is: a channel, CHANNEL:x of one of its columns, or the ending of a
             channel of the owner; "ratio" and "gap" follow from a joint's eccentricity.
+        observe: window of a mean (s) or rate of samples (Hz), reading and owner -> value, of one
+            that [output] readings may read with others than its own; None of all others.
     """
 
     name: str
@@ -95,6 +97,7 @@ class Quantity:
     cumulative: bool = False
     law_error: Callable[[Scene, str, float], float] = exact_laws
     curve: str = ""
+    observe: Callable[[float, Reading, str], Any] | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "display_unit", self.display_unit or self.unit)

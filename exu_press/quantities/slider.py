@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -66,6 +67,15 @@ def _ends(run: Reading) -> tuple[float, float]:
     return ends[0], ends[1]
 
 
+def _mean_acceleration(window: float, run: Reading, _: str) -> float | None:
+    return mean_peak(run.time, run["slider_velocity"], window)
+
+
+def _differentiated_acceleration(rate: float, run: Reading, _: str) -> float | None:
+    position, velocity = run["slider_position"], run["slider_velocity"]
+    return differentiated_peak(run.time, position, velocity, rate)
+
+
 _SLIDER = (
     Quantity("stroke", "m", "distance between the slider's highest and lowest position",
              MOTION, lambda run, _: run.once(_ends)[1] - run.once(_ends)[0],
@@ -84,13 +94,12 @@ _SLIDER = (
              curve="slider_acceleration"),
     Quantity("peak_acceleration.mean_1ms", "m/s^2",
              "largest acceleration of the slider, averaged over 1 ms",
-             LOAD, lambda run, _: mean_peak(run.time, run["slider_velocity"]),
+             LOAD, partial(_mean_acceleration, 1e-3), observe=_mean_acceleration,
              title="mean over 1 ms", is_detail=True, extreme=Extreme.LARGEST, headline=True),
     Quantity("peak_acceleration.differentiated_1khz", "m/s^2",
              "largest second difference of the slider's displacement, sampled at 1 kHz",
-             LOAD,
-             lambda run, _:
-                 differentiated_peak(run.time, run["slider_position"], run["slider_velocity"]),
+             LOAD, partial(_differentiated_acceleration, 1e3),
+             observe=_differentiated_acceleration,
              title="differentiated, 1 kHz", is_detail=True, extreme=Extreme.LARGEST,
              upper_bound="peak_acceleration.mean_1ms"),  # the mean over 1 ms of such means
 )  # fmt: skip

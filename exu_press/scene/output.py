@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, ClassVar
 
 from exu_press.errors import InputError
 from exu_press.schema.checks import check_increasing, key, nearest
-from exu_press.schema.table import Table
+from exu_press.schema.table import Table, nested_table
 
 if TYPE_CHECKING:
     from exu_press.mechanism.section import Section
+    from exu_press.scene.readings import Readings
 
 __all__ = ["Output"]
 
@@ -40,6 +41,7 @@ class Output(Table):
         choices=("all",),
         also=tuple,
     )
+    readings: "Readings | None" = nested_table("scene.readings:Readings")
     every: int = key(1, "of so many steps the file keeps one", at_least=1)
 
     def __post_init__(self) -> None:

@@ -165,6 +165,12 @@ class Scene(Table):
             raise InputError(
                 "output.samples: allowed with solver.tolerance, as fixed steps end on a grid"
             )
+        readings = None if self.output is None else self.output.readings
+        if readings is not None and readings.average_deg and self.drive is not None:
+            raise InputError(
+                "output.readings.average_deg: allowed at constant speed; with [drive] give "
+                "output.readings.average, in s"
+            )
         self._check_start_stop()
         self._settle_joints()
         self._settle_wear()

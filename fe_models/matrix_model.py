@@ -190,9 +190,14 @@ def _set_motion(where: str, name: str, sets: Mapping[str, NodeSet], nodes: Array
 def _surface(description: Description, nodes: Array) -> NDArray[np.int64]:
     """Return the triangles of the surface; without a file those of the nodes' convex hull."""
     if "triangles" not in description.files:
-        return np.asarray(ConvexHull(nodes).simplices, dtype=np.int64)
+        hull = ConvexHull(nodes)
+        corners = hull.simplices.astype(np.int64)
+        a, b, c = nodes[corners].transpose(1, 0, 2)
+        inwards = (np.cross(b - a, c - a) * hull.equations[:, :3]).sum(axis=1) < 0.0
+        corners[inwards] = corners[inwards, ::-1]
+        return corners
     file = description.files["triangles"]
-    corners: NDArray[np.int64] = _array(file, 3, int) - 1
+    corners = _array(file, 3, int).astype(np.int64) - 1
     if corners.min() < 0 or corners.max() >= len(nodes):
         raise InputError(f"{file}: allowed are nodes 1 to {len(nodes)}")
     return corners

@@ -87,8 +87,12 @@ def changed_inputs(provenance: Provenance, scene: Scene) -> dict[str, str]:
 
 
 def files_in(data: Any) -> Iterator[str]:
-    """Yield the texts of a scene that are names of files, as of STEP files."""
+    """Yield the texts of a scene that are names of files, as of STEP files, and files of these."""
     if isinstance(data, dict):
+        if isinstance(description := data.get("matrices"), str) and Path(description).is_file():
+            from fe_models.matrices import Description  # loads SciPy's reader
+
+            yield from map(str, Description.read(Path(description)).files.values())
         for value in data.values():
             yield from files_in(value)
     elif isinstance(data, list | tuple):

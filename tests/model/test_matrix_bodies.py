@@ -8,6 +8,7 @@ import pytest
 import exu_press
 from exu_press import InputError, Scene, simulate
 from exu_press.model.placed_part import placed_parts
+from exu_press.scene.provenance import files_in
 from fe_models import CRANK_STEEL, Axis, Interface, Part, StepFile, write_matrices
 from fe_models.geometry import OpenedStepFile
 
@@ -93,6 +94,11 @@ def test_a_set_lies_within_its_pin(matrices):
 def test_other_keys_are_refused(matrices, keys, message):
     with pytest.raises(InputError, match=message):
         placed_parts(scene({"matrices": matrices, **keys}))
+
+
+def test_every_file_that_goes_in_is_recorded(matrices):
+    files = set(files_in(scene({"matrices": matrices}).to_dict()))
+    assert files == {str(file) for file in Path(matrices).parent.glob("rod*")}
 
 
 def test_matrices_take_the_place_of_a_solid_and_its_keys():

@@ -70,6 +70,8 @@ def test_a_child_reads_and_the_cache_keeps_until_a_file_changes(bar_files, bar_m
     first = reduced_part(solid, Reduction(3), folder=cache)
     hull = first.nodes[first.triangles].reshape(-1, 3)
     assert np.ptp(hull, axis=0) == pytest.approx([0.3, 0.05, 0.03])
+    volume = np.linalg.det(first.nodes[first.triangles]).sum() / 6.0  # outwards, all of them
+    assert volume == pytest.approx(0.3 * 0.05 * 0.03)
     assert [*cache.glob("*.npz")] == [cache_file(solid, Reduction(3), cache)]
     assert reduced_part(solid, Reduction(3), folder=cache).mass == first.mass
     bar_files(mass=2.0 * bar_model.mass)

@@ -18,7 +18,7 @@ from exu_press.integrate import SolverStatus
 from exu_press.quantities import Owner, Quantity
 from exu_press.quantities.catalogue import find_quantity
 from exu_press.quantities.cost import COSTS
-from exu_press.quantities.kind import COST
+from exu_press.quantities.kind import COST, ENERGY
 from exu_press.quantities.uncertain import uncertain
 from exu_press.quantities.units import meaning_of, shown_unit, unit_of, with_unit
 from exu_press.scene import Scene
@@ -208,7 +208,8 @@ class SweepReport(Report):
     def _changing_most(self) -> tuple[str, ...]:
         """Return the quantities that change most, each of one joint, as far as tables show them.
 
-        Of joints those with clearance count, if there are any. The order is the catalogue's.
+        Of joints those with clearance count, if there are any, and no energies. The order is the
+        catalogue's.
         """
         loose = self.study.scene.joints.with_clearance
         largest: dict[Quantity, tuple[float, str]] = {}
@@ -216,7 +217,10 @@ class SweepReport(Report):
             placed = find_quantity(name)
             if placed is None or not (placed.quantity.title and placed.quantity.kind.has_error):
                 continue
-            if placed.quantity.owner is Owner.JOINT and loose and placed.owner not in loose:
+            quantity, owner = placed.quantity, placed.owner
+            if quantity.owner is Owner.JOINT and (
+                (loose and owner not in loose) or quantity.kind is ENERGY
+            ):
                 continue
             if (change := self._change(name)) > NO_CHANGE:
                 known, _ = largest.get(placed.quantity, (0.0, ""))

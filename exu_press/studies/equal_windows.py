@@ -1,6 +1,6 @@
 """Runs that are read from equally long windows."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -22,22 +22,17 @@ CURE = "compare runs of the same settle and revolutions"
 def with_equal_windows(results: Mapping[str, Result]) -> tuple[Mapping[str, Result], str]:
     """Return runs by label with equal windows, and what was done for that, or nothing.
 
-    Windows are equal where they are as long and begin whole revolutions apart. Others are cut to
-    what all runs have, where errors of figures are not known.
+    Windows are equal where they are as long and begin whole revolutions apart, as they were read or
+    as scenes ask for them: a motor turns the crank by a little less or more. Others are cut to what
+    all runs have, where errors of figures are not known.
 
     Raises:
         InputError: the runs have no revolutions in common, or one of them has kept no channels.
     """
-    windows = [_window(result) for result in results.values()]
-    first_begin, first_length = windows[0]
-    if all(
-        abs(begin - first_begin - round(begin - first_begin)) < NEARLY
-        and abs(length - first_length) < NEARLY
-        for begin, length in windows
-    ):
+    spans = [Reading(result).span for result in results.values()]
+    if _are_equal(spans) or _are_equal(list(map(_asked_span, results.values(), spans))):
         return results, ""
-    begin = max(begin for begin, _ in windows)
-    end = min(begin + length for begin, length in windows)
+    begin, end = max(begin for begin, _ in spans), min(end for _, end in spans)
     if end - begin < NEARLY:
         raise InputError(f"the runs have no revolutions in common; {CURE}")
     text = (
@@ -47,17 +42,23 @@ def with_equal_windows(results: Mapping[str, Result]) -> tuple[Mapping[str, Resu
     return {label: _restrict(label, run, begin, end) for label, run in results.items()}, text
 
 
-def _window(run: Result) -> tuple[float, float]:
-    """Return begin and length of the revolutions that quantities are read from.
+def _are_equal(spans: Sequence[tuple[float, float]]) -> bool:
+    """Return whether spans of revolutions are as long and begin whole ones apart."""
+    first, last = spans[0]
+    shifts = [begin - first for begin, _ in spans]
+    changes = [end - last for _, end in spans]
+    return all(
+        abs(shift - change) < NEARLY and abs(shift - round(shift)) < NEARLY
+        for shift, change in zip(shifts, changes, strict=True)
+    )
 
-    Of a complete run as its scene asks for them: a motor turns the crank by a little less or more.
-    """
-    begin, end = Reading(run).span
-    if not run.completed or run.scene.warms:
-        return begin, end - begin
+
+def _asked_span(run: Result, span: tuple[float, float]) -> tuple[float, float]:
+    """Return the revolutions that a run's scene asks for; those of its span where it stopped."""
+    if not run.completed:
+        return span
     first = (float(run["crank_angle"][0]) - run.scene.start_angle) / (2.0 * np.pi)
-    settle = max(run.scene.settle_revolutions - first, 0.0)
-    return round(first + settle, 9) + 0.0, run.scene.revolutions - settle
+    return max(run.scene.settle_revolutions, first), first + run.scene.revolutions
 
 
 def _restrict(label: str, run: Result, begin: float, end: float) -> Result:

@@ -80,7 +80,9 @@ def execute(options: argparse.Namespace) -> int:
     files = [Path(name) for name in options.given if Path(name).suffix.lower() == CURVES]
     curves = {file: read_curve(file) for file in files}
     runs = [name for name in options.given if Path(name) not in curves]
-    compared = _load_items(runs, options.set, options.allow_code, measured=bool(curves))
+    compared, left_out = _load_items(runs, options.set, options.allow_code, measured=bool(curves))
+    for line in left_out if not options.quiet else ():
+        print(f"exu-press: {line}", file=sys.stderr)
     stored = {label: result for label, result in compared.items() if isinstance(result, Result)}
     if not options.no_pictures:
         from exu_press.plots.file import save_figures
@@ -182,8 +184,10 @@ def _compare_curves(
 
 def _load_items(
     names: list[str], assignments: list[str], allow_code: bool, *, measured: bool
-) -> Mapping[str, Scene | Result]:
-    """Return scenes and results by label, all of them read and checked before anything is run.
+) -> tuple[Mapping[str, Scene | Result], list[str]]:
+    """Return scenes and results by label, read and checked before anything is run.
+
+    Why variants of a scene are left out stands beside them.
 
     Args:
         names: names of files.
@@ -207,10 +211,7 @@ def _load_items(
     if assignments and not scenes:
         raise InputError(f"--set {assignments[0]}: changes scenes, and none is given")
     if len(items) > 1 or measured:
-        return items
+        return items, []
     if not scenes:
         raise InputError(f"{names[0]}: a result alone; allowed are two or more, or a scene alone")
-    scenes_by_label, left_out = variants(scenes[0])
-    for line in left_out:
-        print(f"exu-press: {line}", file=sys.stderr)
-    return scenes_by_label
+    return variants(scenes[0])

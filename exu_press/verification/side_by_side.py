@@ -3,6 +3,7 @@
 import gc
 import os
 import queue
+import shlex
 import threading
 import warnings
 from collections.abc import Callable, Iterator, Mapping
@@ -11,6 +12,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import zip_longest
 
+from exu_press.files.command import command_line, executing
 from exu_press.model.placed_part import placed_parts
 from exu_press.result import Result
 from exu_press.result.run import run_once
@@ -88,9 +90,16 @@ def simulate_side_by_side(
                 yield run.label, _result_with_errors(results.pop(run.label), errors)
 
 
-def perform_run(scene: Scene, with_errors: bool, report: Callable[[float], None]) -> Result:
-    """Run a scene in a process of its own, and report the share that is done."""
+def perform_run(
+    scene: Scene, with_errors: bool, command: str, report: Callable[[float], None]
+) -> Result:
+    """Run a scene in a process of its own for a command, and report the share that is done."""
     gc.disable()  # a tenth of the time goes into it, and a few runs leave it next to nothing
+    with executing(shlex.split(command)):
+        return _reported_run(scene, with_errors, report)
+
+
+def _reported_run(scene: Scene, with_errors: bool, report: Callable[[float], None]) -> Result:
     if with_errors:
         return simulate_with_errors(scene, beside=False)
     if scene.bodies:  # reduced before the run's progress begins
@@ -110,6 +119,7 @@ class _Cores(AbstractContextManager["_Cores", None]):
     def __init__(self, runs: list[Run], count: int) -> None:
         self.under_way: dict[int, tuple[Run, float]] = {}
         self.done = 0.0
+        self._command = command_line()
         self._waiting: queue.SimpleQueue[Run] = queue.SimpleQueue()
         for run in runs:
             self._waiting.put(run)
@@ -166,7 +176,7 @@ class _Cores(AbstractContextManager["_Cores", None]):
                 return
             self.under_way[core] = run, 0.0
             try:
-                child.request(run.scene, run.with_errors)
+                child.request(run.scene, run.with_errors, self._command)
                 outcome: Result | Exception = child.answer()
             except Exception as error:
                 outcome = error

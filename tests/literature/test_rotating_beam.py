@@ -92,7 +92,7 @@ def long_beam():
     stiffness = MODULUS * SECOND_MOMENT / LENGTH**3 * stiffness
     slopes = POWERS / LENGTH * (places[:, None] / LENGTH) ** (POWERS - 1)
     ends = {"root": 0, "tip": 400}
-    return line_part(places, DENSITY * AREA, shapes, stiffness, ends, turns=slopes).reduced
+    return line_part(places, DENSITY * AREA, shapes, stiffness, ends, turns=slopes).part
 
 
 def speed_up(speed, t):

@@ -8,9 +8,7 @@ file is read.
 """
 
 import hashlib
-import io
 import json
-import os
 import warnings
 from collections.abc import Mapping
 from dataclasses import fields
@@ -21,10 +19,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fe_models.array_file import cache_folder, load_arrays, save_arrays
 from fe_models.errors import InputError
 from fe_models.reduced import ReducedInterface, ReducedPart
 from fe_models.reduction import Reduction, Report, Solid, reduce_part
-from fe_models.temporary import TemporaryFolder, remove_partial_files, replacing
+from fe_models.temporary import TemporaryFolder, remove_partial_files
 
 __all__ = ["cache_file", "default_folder", "load", "reduced_part", "save"]
 
@@ -41,13 +40,12 @@ SOURCES = (
     "stress",
     "reduced",
     "cache",
+    "array_file",
 )
 PACKAGES = ("ngsolve", "netgen-mesher", "numpy", "scipy")
 NOT_PLAIN = {"name", "method", "mass", "couplings", "interfaces", "meta"}
 PLAIN = [field.name for field in fields(ReducedPart) if field.name not in NOT_PLAIN]
 """Arrays of a reduced part, stored under their own names."""
-
-DIGEST_SIZE = hashlib.sha256().digest_size
 
 PER_INTERFACE = ("centre", "axis", "translation", "rotation")
 
@@ -130,11 +128,7 @@ def _warn_of_cache(file: Path, reason: str, solid: Solid) -> None:
 
 def default_folder() -> Path:
     """Return $EXU_PRESS_CACHE, else fe_models under $XDG_CACHE_HOME or ~/.cache."""
-    own = os.environ.get("EXU_PRESS_CACHE")
-    if own:
-        return Path(own)
-    base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "exu_press" / "fe_models"
+    return cache_folder("fe_models")
 
 
 def cache_file(solid: Solid, reduction: Reduction, folder: Path) -> Path:
@@ -165,23 +159,15 @@ def save(reduced: ReducedPart, file: Path) -> None:
         "interfaces": [[i.face, i.area, i.arm] for i in reduced.interfaces],
     }
     arrays["text"] = np.frombuffer(json.dumps(text).encode(), dtype=np.uint8)
-    content = io.BytesIO()
-    np.savez(content, allow_pickle=False, **arrays)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    with replacing(file) as stream:
-        stream.write(content.getvalue())
-        stream.write(hashlib.sha256(content.getvalue()).digest())
+    save_arrays(arrays, file)
 
 
 def load(file: Path) -> ReducedPart | None:
     """Return the part in a file of `save`, or None if it is missing, damaged or foreign."""
     try:
-        data = file.read_bytes() if file.is_file() else b""
-        content, digest = data[:-DIGEST_SIZE], data[-DIGEST_SIZE:]
-        if hashlib.sha256(content).digest() != digest:
+        arrays = load_arrays(file)
+        if arrays is None:
             return None
-        with np.load(io.BytesIO(content), allow_pickle=False) as stored:
-            arrays = {key: stored[key] for key in stored.files}
         text = json.loads(bytes(arrays["text"]))
         return _from_arrays(arrays, text) if text["file"] == file.stem else None
     except Exception:  # whatever readers of archives and arrays raise of foreign bytes

@@ -409,6 +409,7 @@ def add_revolute(
     *,
     axis: Sequence[float] = (0, 0, 1),
     worn: "WornSurfaces | None" = None,
+    bearing_turned: float = 0.0,
 ) -> ClearanceJoint:
     """Put a revolute joint of interface laws between two bodies: your own, or several in parallel.
 
@@ -422,18 +423,27 @@ def add_revolute(
         axis: of the bearing, in its body's frame.
         worn: depths worn off the surfaces of planar bodies beyond the mean, which is in the
             clearance of the interfaces.
+        bearing_turned: angle of the frame in which grooves have their angles, in that of the
+            bearing's body, rad.
 
     Returns:
         The joint; `add_joint_sensor` records it.
 
     Raises:
-        InputError: as `add_dry_revolute`, or a worn joint is not between planar bodies.
+        InputError: as `add_dry_revolute`, or a joint that is worn or has grooves is not between
+            planar bodies, or is both.
     """
     _check_laws(mbs)
     if in_plane(mbs, journal) and in_plane(mbs, bearing):
         if tuple(axis) != (0, 0, 1):
             raise InputError(f"axis = {tuple(axis)}: allowed between planar bodies is (0, 0, 1)")
         ends = planar_end(mbs, journal), planar_end(mbs, bearing)
+        if any(interface.is_oriented for interface in interfaces):
+            from exu_press.joints.oriented import OrientedJoint
+
+            if worn is not None:
+                raise InputError("worn: allowed is a bearing without grooves (film.law)")
+            return _add_joint(mbs, OrientedJoint(*ends, interfaces, bearing_turned))
         if worn is None:
             return _add_joint(mbs, PlanarJoint(*ends, interfaces))
         from exu_press.joints.worn import WornJoint
@@ -441,5 +451,7 @@ def add_revolute(
         return _add_joint(mbs, WornJoint(*ends, interfaces, worn))
     if worn is not None:
         raise InputError("worn: allowed is a joint between planar bodies")
+    if any(interface.is_oriented for interface in interfaces):
+        raise InputError("film.law = 'grooved': allowed is a joint between rigid bodies")
     in_space = spatial_end(mbs, journal), spatial_end(mbs, bearing)
     return _add_joint(mbs, SpatialRevolute(*in_space, axis, interfaces))

@@ -27,6 +27,7 @@ class JointHistory:
         stored_power: (n,), W.
         rubbing: normal force of the contact, N, and sliding velocity, m/s, (n, 2); (0, 2) unless
             asked for.
+        orientation: angle of the eccentricity in the bearing, (n, 1), rad; (n, 0) without grooves.
     """
 
     eccentricity: Array
@@ -38,6 +39,7 @@ class JointHistory:
     stored_energy: Array
     stored_power: Array
     rubbing: Array
+    orientation: Array
 
     @property
     def dissipated_power(self) -> Array:
@@ -78,9 +80,9 @@ def history(states: States, joint: ClearanceJoint, time: Array) -> JointHistory:
         table = table[np.searchsorted(table[:, 0], time)]
     ends = first + np.cumsum([0, *lengths])
     parts = [np.array(table[:, begin:end]) for begin, end in pairwise(ends.tolist())]
-    eccentricity, force, velocity, moments, turning, gap, energy, power, rubbing = parts
+    eccentricity, force, velocity, moments, turning, gap, energy, power, rubbing, *rest = parts
     gap, energy, power = (column[:, 0] for column in (gap, energy, power))
-    rubbing = rubbing if lengths[-1] else np.zeros((0, 2))
+    rubbing = rubbing if lengths[-2] else np.zeros((0, 2))
     return JointHistory(
-        eccentricity, force, velocity, moments, turning, gap, energy, power, rubbing
+        eccentricity, force, velocity, moments, turning, gap, energy, power, rubbing, *rest
     )

@@ -55,9 +55,12 @@ class InterfaceLaw:
         stateful: whether the interface remembers something from step to step.
         needs_secant: whether Newton's method converges better with a secant: with a film,
             whose force is of first degree in the speeds but has a kink at rest.
+        is_oriented: whether it depends on the angle of the eccentricity in the bearing.
         outside: eccentricity ratio where its law did not hold, if the last state was so.
         drift: correction of a penetration (`exu_press.joints.path`), m.
     """
+
+    is_oriented = False
 
     def __init__(self, clearance: float, stateful: bool, needs_secant: bool) -> None:
         self.drift = 0.0

@@ -17,7 +17,8 @@ class States:
     Attributes:
         joints: whose states are taken, in the order of the numbers.
         numbers: of each instant (s): itself, then of each joint the numbers of its `JointState`,
-            and of one whose rubbing is wanted the normal force, N, and the sliding velocity, m/s.
+            of one whose rubbing is wanted the normal force, N, and the sliding velocity, m/s, and
+            of one with grooves the angle of the eccentricity in the bearing, rad.
         lengths: of the parts of each joint's numbers.
     """
 
@@ -52,6 +53,9 @@ class States:
             rubbing: Any = getattr(joint, "rubbing", ()) if self._rubbing[i] else ()
             rubbed = len(rubbing)
             numbers += rubbing
+            orientation: Any = getattr(joint, "orientation", ())
+            numbers += orientation
             if len(self.lengths) == i:
-                self.lengths.append([*(len(vector) for vector in state.vectors), 1, 1, 1, rubbed])
+                lengths = [len(vector) for vector in state.vectors]
+                self.lengths.append([*lengths, 1, 1, 1, rubbed, len(orientation)])
         self.numbers.fromlist(numbers)

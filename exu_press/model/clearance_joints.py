@@ -26,7 +26,11 @@ def add_clearance_joint(system: System, joint: Joint, kind: SceneJoint) -> Clear
     if not joint.spherical or not isinstance(kind, TouchingJoint):
         worn = _worn_surfaces(system, joint, kind)
         interfaces = interfaces_of(kind, system.scene)
-        return add_revolute(system.mbs, journal, bearing, interfaces, worn=worn)
+        rigid = joint.bearing in system.rigid
+        turned = system.rigid[joint.bearing].frame_angle if rigid else 0.0
+        return add_revolute(
+            system.mbs, journal, bearing, interfaces, worn=worn, bearing_turned=turned
+        )
     speed = system.scene.angular_speed
     surfaces: dict[str, Any] = {
         "radius": kind.radius,
@@ -56,13 +60,27 @@ def interfaces_of(kind: SceneJoint, scene: Scene) -> list[InterfaceLaw]:
     kind = unworn(kind)
     interfaces: list[InterfaceLaw] = []
     if isinstance(kind, LubricatedJoint):
-        interfaces.append(FilmInterface(kind.film_law(), kind.film_scale, kind.clearance))
+        interfaces.append(_film_interface(kind))
     contact = kind.normal_contact(scene.angular_speed)
     if contact is not None:
         friction = no_friction() if kind.friction is None else kind.friction.friction()
         reach = kind.clearance - (kind.onset or 0.0)
         interfaces.append(DryInterface(contact, friction, kind.radius, reach))
     return interfaces
+
+
+def _film_interface(kind: LubricatedJoint) -> FilmInterface:
+    """Return the interface of a film; one with grooves has its table."""
+    law, sizes = kind.film_law(), (kind.film_scale, kind.clearance)
+    if kind.film.length is None or kind.film.law.kind != "grooved":
+        return FilmInterface(law, *sizes)
+    from exu_press.joints.oriented import GroovedInterface
+    from exu_press.laws.film.grooved_table import GroovedFilm
+    from exu_press.model.film_tables import film_table
+
+    assert isinstance(law, GroovedFilm)
+    law.set_table(film_table(law.bearing))
+    return GroovedInterface(law, *sizes)
 
 
 def _worn_surfaces(system: System, joint: Joint, kind: SceneJoint) -> "WornSurfaces | None":

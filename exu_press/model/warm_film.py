@@ -9,6 +9,7 @@ import numpy as np
 from exu_press.joints.history import JointHistory
 from exu_press.joints.interface import FilmInterface, InterfaceJoint
 from exu_press.joints.joint import ClearanceJoint
+from exu_press.joints.oriented import GroovedInterface
 from exu_press.laws.film.contract import film_scale
 from exu_press.laws.film.oil import HOTTEST, STEADY, film_temperature
 from exu_press.laws.film.side_flow import SideFlow
@@ -97,9 +98,13 @@ class WarmFilm:
         u, v = states.velocity[:, :2].T
         turning = states.turning.sum(axis=1)
         e_dot, v_t = u * x + v * y, v * x - u * y
-        rates = e / joint.clearance, e_dot / joint.clearance
         eps_w = (e * turning - 2.0 * v_t) / joint.clearance
-        return self._length * joint.radius * joint.clearance * self._flow(*rates, eps_w)
+        motion = e / joint.clearance, e_dot / joint.clearance, eps_w
+        if isinstance(self.interface, GroovedInterface):
+            flow = self.interface.law.side_flow(*motion, states.orientation[:, 0])
+        else:
+            flow = self._flow(*motion)
+        return self._length * joint.radius * joint.clearance * flow
 
     def cooling(self, flow: Array) -> Array:
         """Return the heat that side flow and frame carry off, (n,), W."""

@@ -28,6 +28,7 @@ FILMS = Registry(
         "pi_film": "scene.film:PiFilm",
         "short": "scene.film:Short",
         "finite": "scene.film:Finite",
+        "grooved": "scene.grooved:GroovedLaw",
     },
     base="scene.film:FilmLaw",
 )
@@ -62,6 +63,16 @@ class FilmLaw(CustomKind, Table, ABC):
     def side_flow(self, length_to_diameter: float) -> SideFlow:
         """Return the flow of oil out of the ends of a bearing of this L/D."""
         return no_flow(length_to_diameter)
+
+    def law_of_size(self, length: float, radius: float, gap_ratio: float | None) -> JournalLaw:
+        """Return the law of a bearing of these sizes, m.
+
+        Args:
+            length, radius: of the bearing.
+            gap_ratio: gap at which asperities touch, over the clearance; None where none do.
+        """
+        law = self.film(length / (2.0 * radius))
+        return law if gap_ratio is None else with_asperities(law, gap_ratio)
 
     def suits(self, length_to_diameter: float) -> bool:
         """Return whether L/D lies in the range that the law is meant for."""
@@ -196,9 +207,7 @@ class JournalFilm(Film):
     def film_law(self, radius: float, clearance: float) -> JournalLaw:
         """Return the law of a journal of a radius and a clearance, m, also beyond contact."""
         with error_prefix("film."):
-            law = self.law.film(self._ratio(radius))
-        gap_ratio = self.contact_gap_ratio(clearance)
-        return law if gap_ratio is None else with_asperities(law, gap_ratio)
+            return self.law.law_of_size(self.length, radius, self.contact_gap_ratio(clearance))
 
     def side_flow(self, radius: float) -> SideFlow:
         """Return the flow of oil out of its ends, of a journal of a radius, m."""

@@ -14,7 +14,7 @@ from exu_press.scene.joints import Joints
 from exu_press.scene.load import LOAD_KINDS, Load
 from exu_press.scene.loads import load_dict
 from exu_press.scene.usage import table_keys
-from exu_press.schema.table import Table, declared_keys, key_values
+from exu_press.schema.table import Table, declared_keys, key_values, plain_value
 from exu_press.schema.toml import toml_text
 
 Laws = Mapping[str, Mapping[str, Any] | None]
@@ -157,7 +157,9 @@ def _given_lines(
 ) -> list[str]:
     """Return the keys that are given, in the order of their meanings, or all of them."""
     keys = {
-        f"{name} = {toml_text(values[name])}" if name in values else f"# {name} =": meaning
+        f"{name} = {toml_text(plain_value(values[name]))}"
+        if name in values
+        else f"# {name} =": meaning
         for name, meaning in meanings.items()
         if absent or name in values
     }

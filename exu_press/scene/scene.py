@@ -31,7 +31,7 @@ from exu_press.scene.solver import RPM, Solver
 from exu_press.scene.usage import LAWS, TABLES, unused_tables
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import import_kinds, refusal, with_unresolved
-from exu_press.schema.table import Table, demand_keys, given_names, plain, table_from
+from exu_press.schema.table import Table, demand_keys, given_names, plain, plain_value, table_from
 
 __all__ = ["STARTS", "Scene", "mechanism_of"]
 
@@ -360,10 +360,7 @@ class Scene(Table):
             if isinstance(value, Joints):
                 complete[field.name] = value.to_dict(self.laws)
             elif field.name in LAWS and value is not None:
-                complete[field.name] = {
-                    name: plain(inner) if isinstance(inner, Table) else inner
-                    for name, inner in value.items()
-                }
+                complete[field.name] = {name: plain_value(inner) for name, inner in value.items()}
             elif field.name in ("load", "bodies"):
                 to_dict = _load_dict if field.name == "load" else body_dict
                 tables = {name: to_dict(table) for name, table in value.items()}

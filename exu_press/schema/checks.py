@@ -23,6 +23,7 @@ __all__ = [
     "demand_name",
     "demand_number",
     "key",
+    "list_of_tables",
     "nearest",
     "refuse_unknown",
 ]
@@ -66,9 +67,17 @@ def key(
     return dataclasses.field(default=default, metadata=metadata)
 
 
+def list_of_tables(home: str, meaning: str) -> Any:
+    """Declare a key that is a list of tables, [[TABLE.KEY]], each of "module:Class"."""
+    metadata = key(None, meaning).metadata
+    return dataclasses.field(default=None, metadata={**metadata, "list_of": home})
+
+
 def allowed_text(field: dataclasses.Field[Any]) -> str:
     """Return which values a key may have."""
     meta = field.metadata
+    if "list_of" in meta:
+        return f"a list of tables ({meta['meaning']})"
     if meta.get("choices"):
         also = f", or {meta['meaning']}" if meta.get("also") else ""
         return "one of " + ", ".join(repr(choice) for choice in meta["choices"]) + also

@@ -24,6 +24,7 @@ __all__ = [
     "key_values",
     "nested_table",
     "plain",
+    "plain_value",
     "refuse_unknown_keys",
     "resolve",
     "table_from",
@@ -107,7 +108,7 @@ class Table:
             elif "nested" in meta and value is not None:
                 value = table_from(load_object(meta["nested"]), name, value)
             elif "meaning" in meta:
-                value = checked_value(field, name, value)
+                value = _value_of_key(field, name, value)
                 if value is None and field.name in self.required:
                     raise InputError(f"{name}: missing; allowed is {allowed_text(field)}")
             object.__setattr__(self, field.name, value)
@@ -127,6 +128,20 @@ class Table:
 def nested_table(home: str) -> Any:
     """Declare a table within a table, "module:Class", loaded where it is given; None elsewhere."""
     return dataclasses.field(default=None, metadata={"nested": home})
+
+
+def _value_of_key(field: Field, name: str, value: Any) -> Any:
+    """Return the value of a key in its declared type; raise InputError for one not allowed."""
+    if value is not None and "list_of" in field.metadata:
+        return _tables_from(load_object(field.metadata["list_of"]), name, value)
+    return checked_value(field, name, value)
+
+
+def _tables_from(kind: type[Table], name: str, value: Any) -> tuple[Table, ...]:
+    """Return the tables of a list; the name of each has its number."""
+    if not isinstance(value, list | tuple) or not value:
+        raise InputError(f"{name} = {value!r:.200}: allowed is a list of tables, [[{name}]]")
+    return tuple(table_from(kind, f"{name}.{k}", entry) for k, entry in enumerate(value))
 
 
 def dotted_name(path: str, key: str) -> str:
@@ -290,7 +305,7 @@ def check_keys(
             continue
         field = next((f for k in kinds for n, f in declared_keys(k).items() if n == key), None)
         if field is not None and "meaning" in field.metadata:
-            keys[key] = checked_value(field, dotted_name(name, key), value)
+            keys[key] = _value_of_key(field, dotted_name(name, key), value)
     return keys
 
 
@@ -400,11 +415,16 @@ def plain(table: Table) -> dict[str, Any]:
     """Return the keys of a table that are not None as a nested mapping, as a file has them."""
     keys: dict[str, Any] = {}
     for name, value, _ in key_values(table):
-        if isinstance(value, Table):
-            keys[name] = plain(value)
-        elif value is not None:
-            keys[name] = list(value) if isinstance(value, tuple) else value
+        if value is not None:
+            keys[name] = plain_value(value)
     return keys
+
+
+def plain_value(value: Any) -> Any:
+    """Return the value of a key as a file has it."""
+    if isinstance(value, Table):
+        return plain(value)
+    return [plain_value(entry) for entry in value] if isinstance(value, tuple) else value
 
 
 def given_keys(table: Any) -> dict[str, Any]:

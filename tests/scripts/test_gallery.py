@@ -99,6 +99,14 @@ def check_own_friction_law(found):
     assert angles[0.0] < angles[0.1] < angles[0.3] < -math.pi / 2
 
 
+def check_bearing_coefficients(found):
+    """The more load, the stiffer; the last bearing carries any mass."""
+    stiffness = [bearing.stiffness[1, 1] for bearing in found["bearings"].values()]
+    assert stiffness == sorted(stiffness)
+    assert found["bearing"].eccentricity_ratio == pytest.approx(0.8423, rel=1e-3)
+    assert math.isinf(found["bearing"].critical_mass)
+
+
 def check_of(script):
     return globals()[f"check{script.stem[2:]}"]
 

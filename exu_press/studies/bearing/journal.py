@@ -7,6 +7,7 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.joints.interface import FilmInterface, InterfaceJoint, Load
+from exu_press.joints.oriented import GroovedInterface
 from exu_press.laws.film.contract import film_scale
 from exu_press.model.clearance_joints import interfaces_of
 from exu_press.numerics.arrays import Array
@@ -83,11 +84,14 @@ class Journal:
 
     def side_flow(self, e: Vector) -> float | None:
         """Return the oil that leaves the bearing's ends, m^3/s; None where it has none."""
-        if self._flow is None:
-            return None
         eps = np.array([math.hypot(*e) / self.clearance])
+        motion = eps, np.zeros(1), eps * self._turning
         size = self._film.length * self._radius * self.clearance
-        return size * float(self._flow(eps, np.zeros(1), eps * self._turning)[0])
+        for interface in self._interfaces:
+            if isinstance(interface, GroovedInterface):
+                angle = np.array([math.atan2(e[1], e[0])])
+                return size * float(interface.law.side_flow(*motion, angle)[0])
+        return None if self._flow is None else size * float(self._flow(*motion)[0])
 
     def matrices(self, e: Vector) -> tuple[Array, Array]:
         """Return stiffness -dF/dx, N/m, and damping -dF/dv, N s/m, (2, 2), in the drawing's axes.
@@ -96,13 +100,17 @@ class Journal:
         """
         length = math.hypot(*e)
         n_x, n_y = _unit(e)
+        motion = length, 0.0, 0.0, self._turning, 0.0
         turned = np.array([[n_x, -n_y], [n_y, n_x]])
         by_place, by_rate = np.zeros((2, 2)), np.zeros((2, 2))
         for interface, load in zip(self._interfaces, self._loads(e), strict=True):
             if load is not None:
                 f_n, f_t, _, _, response = load
                 partials = np.array(interface.partials(response, length, self._turning, 0.0))
-                by_place += np.column_stack([partials[:, 0], [-f_t / length, f_n / length]])
+                across = np.array([-f_t, f_n]) / length
+                if isinstance(interface, GroovedInterface):
+                    across += np.array(interface.turn_partials(load, motion)[:2]) / length
+                by_place += np.column_stack([partials[:, 0], across])
                 by_rate += partials[:, 1:3]
         return turned @ -by_place @ turned.T, turned @ -by_rate @ turned.T
 
@@ -151,6 +159,9 @@ class Journal:
 
     def _loads(self, e: Vector) -> list[Load | None]:
         length = math.hypot(*e)
+        for interface in self._interfaces:
+            if isinstance(interface, GroovedInterface):
+                interface.law.angle = math.atan2(e[1], e[0])
         return [i.load(length, 0.0, 0.0, self._turning, 0.0) for i in self._interfaces]
 
     def _eccentricity_at(self, x: float, angle: float) -> Vector:

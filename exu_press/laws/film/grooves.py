@@ -1,0 +1,326 @@
+"""Supply grooves of a bearing: their places, and Reynolds' equation between them."""
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solveh_banded  # type: ignore[import-untyped,unused-ignore]
+
+from exu_press.errors import InputError
+from exu_press.numerics.arrays import Array
+
+__all__ = ["Groove", "GroovedBearing", "GroovedFilmState", "solve_grooved"]
+
+TURN = 2.0 * math.pi
+
+MOST_ALIKE = 12
+"""Grooves in equal steps around a bearing, at most."""
+
+Mask = NDArray[np.bool_]
+
+ROUNDING = 1e-9
+"""Part of a cell's source by which its flow may be short before the cell counts as wet."""
+
+ITERATIONS = 100
+
+
+@dataclass(frozen=True)
+class Groove:
+    """A groove in a bearing, deep beside the clearance, middle to middle with the bearing.
+
+    Attributes:
+        angle: of its middle, in the bearing, rad.
+        width: around the bearing, rad; 2 pi of one that goes all around.
+        length: along the axis, over the bearing's, 0 to 1.
+    """
+
+    angle: float
+    width: float
+    length: float
+
+    @property
+    def is_circumferential(self) -> bool:
+        """Whether it goes all around."""
+        return self.width >= TURN
+
+
+@dataclass(frozen=True)
+class GroovedBearing:
+    """The shape of a bearing with grooves, which its film law depends on.
+
+    Attributes:
+        length_to_diameter: L/D.
+        grooves: one at least.
+    """
+
+    length_to_diameter: float
+    grooves: tuple[Groove, ...]
+
+    def __post_init__(self) -> None:
+        """Raise InputError for grooves that overlap, or that leave no bearing."""
+        around = [groove for groove in self.grooves if groove.is_circumferential]
+        if around and (len(self.grooves) > 1 or around[0].length >= 1.0):
+            raise InputError(
+                "grooves: allowed beside one that goes all around is no other, and it is shorter "
+                "than the bearing"
+            )
+        if not around:
+            self._refuse_overlaps()
+
+    def _refuse_overlaps(self) -> None:
+        by_angle = sorted(self.grooves, key=lambda groove: groove.angle % TURN)
+        for first, second in pairwise([*by_angle, by_angle[0]]):
+            apart = (second.angle - first.angle) % TURN or TURN
+            if apart <= 0.5 * (first.width + second.width):
+                at = sorted(round(math.degrees(g.angle), 6) for g in (first, second))
+                raise InputError(
+                    f"grooves at {at[0]:g} and {at[1]:g} deg overlap; allowed are grooves with "
+                    "bearing between them"
+                )
+
+    @property
+    def period(self) -> float:
+        """Angle after which the grooves repeat themselves, rad; 0 where all go around."""
+        if all(groove.is_circumferential for groove in self.grooves):
+            return 0.0
+        own = self._places(0.0)
+        return min(
+            TURN / count for count in range(1, MOST_ALIKE + 1) if self._places(TURN / count) == own
+        )
+
+    def _places(self, turned: float) -> set[tuple[int, float, float]]:
+        """Return the grooves of the turned bearing, their angles to a millionth of a turn."""
+        return {
+            (round((groove.angle + turned) / TURN * 1e6) % 1_000_000, groove.width, groove.length)
+            for groove in self.grooves
+        }
+
+    def shear_integral(self, eps: float, angle: float) -> tuple[float, float]:
+        r"""Return the integral of 1 / h around the lands, and its derivative by eps.
+
+        The oil in a groove is not sheared: from 2 pi / sqrt(1 - eps^2) the part over each groove is
+        left out, between its ends t' and t'' by Sommerfeld's substitution,
+
+        .. math:: \int \frac{dt}{1 - \varepsilon \cos t} = \frac{2}{s} \arctan
+            \left(\sqrt{\frac{1 + \varepsilon}{1 - \varepsilon}} \tan\frac{t}{2}\right)
+        """
+        s2 = (1.0 - eps) * (1.0 + eps)
+        s = math.sqrt(s2)
+        shear, slope = TURN / s, TURN * eps / (s * s2)
+        for groove in self.grooves:
+            if groove.is_circumferential:
+                shear -= groove.length * TURN / s
+                slope -= groove.length * TURN * eps / (s * s2)
+                continue
+            begin = math.remainder(groove.angle - 0.5 * groove.width - angle, TURN)
+            for sign, t in ((-1.0, begin), (1.0, begin + groove.width)):
+                integral, by_eps = _running(eps, t)
+                shear -= sign * groove.length * integral
+                slope -= sign * groove.length * by_eps
+        return shear, slope
+
+
+def _running(eps: float, t: float) -> tuple[float, float]:
+    """Return the integral of 1 / h from 0 to t, and its derivative by eps."""
+    s2 = (1.0 - eps) * (1.0 + eps)
+    s = math.sqrt(s2)
+    turns = round(t / TURN)
+    rest = t - TURN * turns
+    swept = 2.0 * math.atan2(math.sqrt((1 + eps) / (1 - eps)) * math.sin(0.5 * rest),
+                             math.cos(0.5 * rest)) + TURN * turns  # fmt: skip
+    integral = swept / s
+    by_eps = eps * integral / s2 + math.sin(t) / (s2 * (1.0 - eps * math.cos(t)))
+    return integral, by_eps
+
+
+class GroovedFilmState:
+    """A journal at a place in a grooved bearing: Reynolds' equation for any of its velocities.
+
+    The grid has the grooves' edges on its lines, and is dense at the narrow gap.
+    """
+
+    def __init__(
+        self, bearing: GroovedBearing, eps: float, angle: float, cells: tuple[int, int]
+    ) -> None:
+        """Make the matrix.
+
+        Args:
+            bearing: its shape.
+            eps: eccentricity ratio.
+            angle: of the eccentricity in the bearing, rad.
+            cells: around, and over half of the length.
+        """
+        theta, zeta = _angles(bearing, eps, angle, cells[0]), _heights(bearing, cells[1])
+        d_theta, d_zeta = np.diff(np.append(theta, theta[0] + TURN)), np.diff(zeta)
+        self._local = theta - angle
+        self._w_theta = 0.5 * (d_theta + np.roll(d_theta, 1))
+        self._w_zeta = 0.5 * np.append(d_zeta[0], d_zeta[1:] + d_zeta[:-1])
+        gap_face = 1.0 - eps * np.cos(self._local + 0.5 * d_theta)
+        gap = 1.0 - eps * np.cos(self._local)
+        ratio = bearing.length_to_diameter
+        self._around = np.outer(gap_face**3 / d_theta, self._w_zeta)  # to the next one around
+        self._along = np.outer(gap**3 * self._w_theta, 1.0 / (ratio**2 * d_zeta))
+        self._diagonal = self._around + np.roll(self._around, 1, axis=0) + self._along
+        self._diagonal[:, 1:] += self._along[:, :-1]
+        self._groove = _groove_mask(bearing, theta, zeta[:-1])
+        self._number_unknowns()
+
+    def _number_unknowns(self) -> None:
+        """Order the unknowns so that the matrix is a narrow band.
+
+        The circle is cut at a groove that is as long as the bearing, else folded.
+        """
+        n, m = self._around.shape
+        whole = np.flatnonzero(self._groove.all(axis=1))
+        column = np.empty(n, dtype=int)
+        if len(whole):
+            column[np.roll(np.arange(n), -whole[0])] = np.arange(n)
+        else:
+            column[np.arange((n + 1) // 2)] = np.arange(0, n, 2)
+            column[np.arange(n - 1, (n + 1) // 2 - 1, -1)] = np.arange(1, n, 2)
+        self._number = column[:, None] * m + np.arange(m)
+        following = np.roll(self._number, -1, axis=0)
+        apart = np.abs(self._number - following)
+        linked = ~(self._groove | np.roll(self._groove, -1, axis=0))
+        self._width = int(apart[linked].max(initial=1))
+        apart[~linked] = 0  # no link: of grooves
+        self._linked = linked
+        self._band_index = apart * (n * m) + np.minimum(self._number, following)
+
+    def solve(
+        self, eps_dot: float, half_w: float, wet: Mask | None = None
+    ) -> tuple[float, float, float, Mask]:
+        """Return f_r, f_t and side flow of a velocity, and where the film is unbroken.
+
+        Args:
+            eps_dot: d eps/dt, 1/s.
+            half_w: eps W / 2, 1/s.
+            wet: (n, m), a guess of where the film is unbroken.
+        """
+        shape = (eps_dot * np.cos(self._local) - half_w * np.sin(self._local)) * self._w_theta
+        source = np.outer(shape, self._w_zeta)
+        unbroken = (source > 0.0 if wet is None else wet) & ~self._groove
+        for _ in range(ITERATIONS):
+            p = self._pressure(source, unbroken)
+            short = self._diagonal * p - source
+            short -= self._around * np.roll(p, -1, axis=0)
+            short -= np.roll(self._around * p, 1, axis=0)
+            short[:, 1:] -= self._along[:, :-1] * p[:, :-1]
+            short[:, :-1] -= self._along[:, :-1] * p[:, 1:]
+            now = np.where(unbroken, p > 0.0, short < -ROUNDING * np.abs(source)) & ~self._groove
+            if np.array_equal(now, unbroken):
+                load = (p @ self._w_zeta) * self._w_theta
+                f_r = float(-12.0 * load @ np.cos(self._local))
+                f_t = float(-12.0 * load @ np.sin(self._local))
+                return f_r, f_t, float(self._along[:, -1] @ p[:, -1]), unbroken
+            unbroken = now
+        raise RuntimeError(f"the cavitated set did not settle in {ITERATIONS} iterations")
+
+    def _pressure(self, source: Array, wet: Mask) -> Array:
+        """Return the pressure (n, m) with that of broken places 0."""
+        n, m = source.shape
+        band = np.zeros((self._width + 1) * n * m)
+        links = self._linked & wet & np.roll(wet, -1, axis=0)
+        band[self._band_index[links]] = -self._around[links]
+        band = band.reshape(self._width + 1, n * m)
+        band[0, self._number.ravel()] = np.where(wet, self._diagonal, 1.0).ravel()
+        beside = wet[:, 1:] & wet[:, :-1]
+        band[1, self._number[:, :-1][beside]] = -self._along[:, :-1][beside]
+        right = np.empty(n * m)
+        right[self._number.ravel()] = np.where(wet, source, 0.0).ravel()
+        solved = solveh_banded(
+            band, right, lower=True, check_finite=False, overwrite_ab=True, overwrite_b=True
+        )
+        p: Array = solved[self._number]
+        return p
+
+
+def solve_grooved(
+    bearing: GroovedBearing,
+    eps: float,
+    angle: float,
+    eps_dot: float,
+    eps_w: float,
+    cells: tuple[int, int] = (144, 10),
+) -> tuple[float, float, float]:
+    r"""Return force and side flow of a bearing with grooves, by Reynolds' equation.
+
+    .. math::
+        \partial_\theta (h^3 \partial_\theta p) +
+        \frac{1}{(L/D)^2} \partial_\zeta (h^3 \partial_\zeta p)
+        = -(\dot\varepsilon \cos\theta - \tfrac12 \varepsilon W \sin\theta), \qquad
+        h = 1 - \varepsilon \cos\theta
+
+    with p = 0 at both ends and in the grooves, and Swift and Stieber's cavitation, as
+    `reynolds.solve_reynolds` has it: a complementarity problem with an M-matrix, solved exactly by
+    policy iteration.
+
+    Parameters
+    ----------
+    bearing : its shape
+    eps, eps_dot, eps_w : as for a film law
+    angle : of the eccentricity in the bearing [rad]
+    cells : cells around, and over half the length
+
+    Returns
+    -------
+    f_r and f_t [1/s], and the side flow over L R c [1/s].
+
+    References
+    ----------
+    .. [1] Someya, T. (ed.) Journal-Bearing Databook. Springer, 1989.
+    """
+    state = GroovedFilmState(bearing, eps, angle, cells)
+    return state.solve(eps_dot, 0.5 * eps_w)[:3]
+
+
+def _angles(bearing: GroovedBearing, eps: float, angle: float, cells: int) -> Array:
+    """Return angles once around, with the grooves' edges, dense at the narrow gap."""
+    edges = [
+        (groove.angle + side * groove.width) % TURN
+        for groove in bearing.grooves
+        if not groove.is_circumferential
+        for side in (-0.5, 0.5)
+    ]
+    first, *further = sorted(edges) or [0.0]
+    ring = np.array([first, *further, first + TURN])
+    theta = np.linspace(first, first + TURN, 20 * cells + 1)
+    half = 0.5 * (theta - angle)
+    turns = np.round(half / math.pi)
+    half -= math.pi * turns
+    narrow = math.sqrt((1.0 - eps) / (1.0 + eps))
+    swept = np.arctan2(np.sin(half), narrow * np.cos(half))  # Sommerfeld's substitution
+    even = half + swept + TURN * turns
+    at_edges = np.interp(ring, theta, even)
+    pieces = []
+    for i, (begin, end) in enumerate(pairwise(at_edges)):
+        count = max(2, round(cells * (end - begin) / TURN))
+        piece = np.interp(np.linspace(begin, end, count + 1)[:-1], even, theta)
+        piece[0] = ring[i]
+        pieces.append(piece)
+    return np.concatenate(pieces)
+
+
+def _heights(bearing: GroovedBearing, cells: int) -> Array:
+    """Return zeta from the middle, 0, to the end, 1, with the grooves' ends."""
+    ends = sorted({groove.length for groove in bearing.grooves if groove.length < 1.0})
+    if not ends:
+        return np.sin(0.5 * math.pi * np.linspace(0.0, 1.0, cells + 1))
+    pieces = [np.zeros(1)]
+    for begin, end in pairwise([0.0, *ends, 1.0]):
+        count = max(3, round(cells * math.sqrt(end - begin)))
+        step = np.linspace(0.0, 1.0, count + 1)[1:]
+        even = np.sin(0.5 * math.pi * step) if begin == 0.0 else np.sin(0.5 * math.pi * step) ** 2
+        pieces.append(begin + (end - begin) * even)
+    return np.concatenate(pieces)
+
+
+def _groove_mask(bearing: GroovedBearing, theta: Array, zeta: Array) -> Mask:
+    """Return where grooves are, (n, m)."""
+    mask = np.zeros((len(theta), len(zeta)), dtype=bool)
+    for groove in bearing.grooves:
+        away = np.abs(np.mod(theta - groove.angle + math.pi, TURN) - math.pi)
+        mask |= np.outer(away <= 0.5 * groove.width + 1e-9, zeta <= groove.length + 1e-9)
+    return mask

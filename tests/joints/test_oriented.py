@@ -1,0 +1,91 @@
+"""A joint whose film depends on the angle in its bearing: balance, Jacobian, rotation."""
+
+import math
+import random
+
+import numpy as np
+from differences import assert_partials, forces
+
+from exu_press.joints.oriented import GroovedInterface, OrientedJoint
+from exu_press.joints.planar import PlanarEnd
+from exu_press.laws.film.grooved_table import DIRECTIONS, LEVELS, GroovedFilm
+from exu_press.laws.film.grooves import Groove, GroovedBearing
+
+CLEARANCE, SCALE = 1e-4, 50.0
+
+
+def film():
+    """A smooth table that depends on the angle; of no bearing."""
+    law = GroovedFilm(GroovedBearing(0.5, (Groove(0.0, 0.2, 1.0),)))
+    x, angle, direction = np.meshgrid(
+        np.linspace(0.0, 1.0, LEVELS),
+        np.linspace(0.0, 2.0 * math.pi, 24, endpoint=False),
+        np.linspace(-math.pi, math.pi, DIRECTIONS, endpoint=False),
+        indexing="ij",
+    )
+    ln_e, m = 2.0 + x + np.sin(angle) * np.cos(direction), 0.5 * np.cos(angle + direction)
+    law.set_table(np.stack([ln_e, m, ln_e], axis=-1))
+    return law
+
+
+def joint_of(rng):
+    ends = [
+        PlanarEnd(
+            (index, index + 1, index + 2),
+            tuple(rng.uniform(-0.2, 0.2) for _ in range(3)),
+            (rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2)),
+        )
+        for index in (0, 3)
+    ]
+    return OrientedJoint(*ends, [GroovedInterface(film(), SCALE, CLEARANCE)], 0.3)
+
+
+def state_of(joint, rng):
+    """A state inside the clearance, q and q_t, by moving the journal's body."""
+    q = [rng.uniform(-0.1, 0.1) for _ in range(6)]
+    q_t = [rng.uniform(-1e-2, 1e-2) for _ in range(6)]
+    joint.add_force([*q, 0.0, 0.0, 0.0], [*q_t, 0.0, 0.0, 0.0], [0.0] * 9)
+    e, angle = rng.uniform(0.1, 0.8) * CLEARANCE, rng.uniform(-math.pi, math.pi)
+    for k, coordinate in enumerate((e * math.cos(angle), e * math.sin(angle))):
+        q[k] += coordinate - joint.eccentricity[k]
+    joint.add_force([*q, 0.0, 0.0, 0.0], [*q_t, 0.0, 0.0, 0.0], [0.0] * 9)
+    for k in (0, 1):
+        q_t[k] += rng.uniform(-3e-3, 3e-3) - joint.relative_velocity[k]
+    return q, q_t
+
+
+def test_jacobian_is_the_derivative():
+    rng = random.Random(5)
+    for _ in range(4):
+        joint = joint_of(rng)
+        state = q, q_t = state_of(joint, rng)
+        factors = 1.0, 1e-3
+        forces(joint, q, q_t)
+        joint._loads_before = [None]
+        jacobian = np.reshape(joint.jacobian(*factors), (6, 6))
+        assert_partials(jacobian, lambda: forces(joint, q, q_t), state, factors, 2e-3)  # noqa: B023
+
+
+def test_momentum_and_a_bearing_that_turns_with_its_journal():
+    """Forces cancel; the film is the same when both bodies and their motion are turned."""
+    rng = random.Random(6)
+    joint = joint_of(rng)
+    q, q_t = state_of(joint, rng)
+    out = forces(joint, q, q_t)
+    assert np.allclose(out[:2], -out[3:5], rtol=1e-12)
+    before = joint.interfaces[0].law.angle
+    turn = 0.7
+    c, s = math.cos(turn), math.sin(turn)
+    rotation = np.array([[c, -s], [s, c]])
+    moved, moved_t = list(q), list(q_t)
+    for end, first in ((joint.journal, 0), (joint.bearing, 3)):
+        at = np.array(end.reference[:2]) + q[first : first + 2]
+        moved[first : first + 2] = rotation @ at - end.reference[:2]
+        moved_t[first : first + 2] = rotation @ q_t[first : first + 2]
+        moved[first + 2] += turn
+    again = forces(joint, moved, moved_t)
+    assert math.isclose(
+        math.remainder(joint.interfaces[0].law.angle - before, math.tau), 0.0, abs_tol=1e-9
+    )
+    assert np.allclose(again[:2], rotation @ out[:2], rtol=1e-6)
+    assert np.allclose(again[[2, 5]], out[[2, 5]], rtol=1e-6, atol=1e-9 * np.abs(out).max())

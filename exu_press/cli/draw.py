@@ -195,7 +195,8 @@ def _parts(mechanism: Mechanism) -> list[str]:
     for kind, names in (
         ("bodies", [body.name for body in mechanism.bodies]),
         ("joints", [joint.name for joint in mechanism.joints]),
-        ("guides", [guide.name for guide in mechanism.guides]),
+        ("guides", [guide.name for guide in mechanism.guides if not guide.is_slot]),
+        ("slots", [guide.name for guide in mechanism.guides if guide.is_slot]),
         ("gears", [gear.name for gear in mechanism.gears]),
     ):
         if not names and kind not in ALWAYS_LISTED:

@@ -109,7 +109,8 @@ def check_drawing(
         raise InputError("bodies: none; allowed is at least the crank")
     _check_unique("bodies", names)
     _check_unique("joints", [joint.name for joint in joints])
-    _check_unique("guides", [guide.name for guide in guides])
+    _check_unique("guides", [guide.name for guide in guides if not guide.is_slot])
+    _check_unique("slots", [guide.name for guide in guides])
     _check_unique("gears", [gear.name for gear in gears])
     for name, what in RESERVED.items():
         if name in names:
@@ -125,13 +126,16 @@ def check_drawing(
         _check_joint(joint, names)
         _check_channels(joint.name, [*names, *(guide.name for guide in guides)])
     for guide in guides:
-        _check_known(f"{guide.key}.body", guide.body, names)
-        _check_known(f"{guide.key}.on", guide.on, [*names, GROUND])
+        pin, slot = ("pin", "slot") if guide.is_slot else ("body", "on")
+        _check_known(f"{guide.key}.{pin}", guide.body, names)
+        _check_known(f"{guide.key}.{slot}", guide.on, [*names, GROUND])
         if guide.on == guide.body:
             raise InputError(
                 f"{guide.key}: guides {guide.body!r} on itself; allowed are two bodies"
             )
-        _check_direction(f"{guide.key}.direction", guide.direction)
+        if guide.centre is None:
+            _check_direction(f"{guide.key}.direction", guide.direction)
+        _check_slot(guide)
     _check_known("crank", crank, names)
     _check_known("output.body", output.body, names)
     _check_direction("output.direction", output.direction)
@@ -139,14 +143,14 @@ def check_drawing(
         raise InputError(f"output.rotation = {output.rotation!r}: allowed is true or false")
     _check_point("output.origin", output.origin)
     for guide in guides:
-        if guide.body == output.body and guide.on_frame and output.rotation:
+        if guide.body == output.body and guide.is_rail and output.rotation:
             raise InputError(
                 f"output.rotation = true: {guide.key} holds the angle of {output.body}; allowed is "
                 "a body that turns"
             )
         if (
             guide.body == output.body
-            and guide.on_frame
+            and guide.is_rail
             and abs(_cosine(guide.direction, output.direction)) < PERPENDICULAR
         ):
             raise InputError(
@@ -171,6 +175,25 @@ def _check_joint(joint: Joint, names: Collection[str]) -> None:
     if joint.journal == joint.bearing:
         raise InputError(f"{where}: joins {joint.journal!r} to itself; allowed are two bodies")
     _check_known(f"{where}.shape", joint.shape, SHAPES)
+
+
+def _check_slot(guide: Guide) -> None:
+    """Raise InputError for the first fault of a slot's own data."""
+    if not guide.is_slot:
+        for key in ("centre", "length", "middle"):
+            if getattr(guide, key) is not None:
+                raise InputError(f"{guide.key}.{key}: is that of a slot, which has a pin's `at`")
+        return
+    for key in ("at", "centre", "middle"):
+        if key == "at" or getattr(guide, key) is not None:
+            _check_point(f"{guide.key}.{key}", getattr(guide, key))
+    if guide.centre == guide.at:
+        raise InputError(
+            f"{guide.key}.centre = {guide.centre!r}: is that of the pin; allowed is the centre of "
+            "the circle on which the pin moves"
+        )
+    if guide.length is not None:
+        _check_positive(f"{guide.key}.length", guide.length, "m")
 
 
 def _check_channels(joint: str, bodies: Sequence[str]) -> None:
@@ -203,9 +226,10 @@ def _check_connections(
     pairs = [guide.bodies for guide in guides]
     guided = {name for pair in pairs for name in pair}
     moves_guides = any(crank in pair and GROUND not in pair for pair in pairs)
-    size = drawing_size(joints)
+    size = drawing_size(joints, guides)
     for body in bodies:
-        ends = (joint.at for joint in joints if body.name in (joint.journal, joint.bearing))
+        ends = [joint.at for joint in joints if body.name in (joint.journal, joint.bearing)]
+        ends += [guide.at for guide in guides if guide.body == body.name and guide.at is not None]
         points = distinct_points(ends, size)
         if not points and body.name not in guided:
             raise InputError(f"bodies.{body.name}: no joint and no guide holds it")

@@ -58,9 +58,13 @@ SECTIONS: dict[str, tuple[type, tuple[str, ...], tuple[str, ...]]] = {
     "bodies": (Body, ("centre_of_mass", "mass"), ("inertia", "angle")),
     "joints": (Joint, ("at", "journal", "bearing"), ("shape",)),
     "guides": (Guide, ("direction",), ("body", "on")),
+    "slots": (Guide, ("body", "on", "at"), ("direction", "centre", "length", "middle")),
     "gears": (Gear, ("body", "ratio"), ("to",)),
 }
 """Section of the file -> class of its tables, their required keys, their optional keys."""
+
+IN_FILE = {"slots": {"body": "pin", "on": "slot"}}
+"""Section -> names in the file of some keys."""
 
 UNITS = {"mass": "kg", "inertia": "kg m^2", "angle": "rad", "at": "m", "centre_of_mass": "m"}
 COORDINATES = "x", "y"
@@ -68,7 +72,7 @@ COORDINATES = "x", "y"
 OUTPUT = ("body",), ("direction", "origin", "rotation")
 TOP = (
     ("name", "crank", "output", "bodies", "joints"),
-    ("guides", "gears", "groups", "counterweight", "defaults"),
+    ("guides", "slots", "gears", "groups", "counterweight", "defaults"),
 )
 """Required and optional keys of the output's table, and of the whole file."""
 
@@ -100,15 +104,32 @@ def mechanism_from_dict(data: Mapping[str, Any]) -> Mechanism:
     top = _checked_keys("", data, *TOP)
     elements: dict[str, Any] = {
         section: tuple(
-            element(name, **_checked_keys(f"{section}.{name}", table, required, optional))
+            _element(section, name, table)
             for name, table in _table(section, top.pop(section, {})).items()
         )
-        for section, (element, required, optional) in SECTIONS.items()
+        for section in SECTIONS
     }
+    elements["guides"] += elements.pop("slots")
     output = Output(**_checked_keys("output", top.pop("output"), *OUTPUT))
     groups = _table("groups", top.pop("groups", {}))
     groups = {name: _value(members) for name, members in groups.items()}
     return Mechanism(**top, **elements, output=output, groups=groups)
+
+
+def _element(section: str, name: str, table: Any) -> Any:
+    """Return a body, joint, guide, slot or gear of its table."""
+    element, *keys = SECTIONS[section]
+    in_file = IN_FILE.get(section, {})
+    values = _checked_keys(
+        f"{section}.{name}", table, *(tuple(in_file.get(key, key) for key in k) for k in keys)
+    )
+    if section == "slots" and ("direction" in values) == ("centre" in values):
+        raise InputError(
+            f"slots.{name}: allowed is a direction, of a straight slot, or a centre, of a circular "
+            "one"
+        )
+    names = {there: key for key, there in in_file.items()}
+    return element(name, **{names.get(key, key): value for key, value in values.items()})
 
 
 def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
@@ -122,9 +143,17 @@ def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
     data["output"] = _plain(mechanism.output, *OUTPUT)
     for section, (element, required, optional) in SECTIONS.items():
         name = fields(element)[0].name
+        in_file = IN_FILE.get(section, {})
+        items = getattr(mechanism, "guides" if section == "slots" else section)
+        if element is Guide:
+            items = [guide for guide in items if guide.is_slot == (section == "slots")]
         data[section] = {
-            getattr(item, name): _plain(item, required, optional)
-            for item in getattr(mechanism, section)
+            getattr(item, name): {
+                in_file.get(key, key): value
+                for key, value in _plain(item, required, optional).items()
+                if key != "direction" or getattr(item, "centre", None) is None
+            }
+            for item in items
         }
     for body in mechanism.bodies:
         if body.inertia == mechanism.rod_inertia(body):

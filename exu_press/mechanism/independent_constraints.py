@@ -107,7 +107,7 @@ def independent_constraints(mechanism: Mechanism, ideal: frozenset[str]) -> Inde
     sliding = {
         guide.name: guide.body
         for guide in mechanism.guides
-        if guide.on_frame and all(guides[guide.name]) and 0.0 in guide.direction
+        if guide.is_rail and all(guides[guide.name]) and 0.0 in guide.direction
     }
     selected = IndependentConstraints(
         pivots=pivots,
@@ -179,7 +179,7 @@ class _Selection:
         self.directions: dict[str, list[Array]] = {}
         self.guided: dict[tuple[str, str], bool] = {}
         redundant: dict[str, None] = {}
-        guides = {g.body: g for g in mechanism.guides if g.on_frame and g.holds_across}
+        guides = {g.body: g for g in mechanism.guides if g.is_rail and g.holds_across}
         joints = [joint for joint in mechanism.joints if joint.name in ideal]
         pivots = list(_pivots(mechanism, ideal).values())
         parallel = {joint.name: _common_direction(joint, guides) for joint in joints}
@@ -210,7 +210,8 @@ class _Selection:
             angle = self._rows[guide.key][1:]
             is_held = guide.holds_angle and bool(self._add_independent(angle))
             self.guided[guide.name, "angle"] = is_held
-            if guide.holds_angle and not (is_held and self.guided[guide.name, "normal"]):
+            is_across = self.guided[guide.name, "normal"]
+            if (guide.holds_angle and not is_held) or (guide.holds_across and not is_across):
                 redundant[guide.name] = None
         for joint in joints:
             along = parallel[joint.name]
@@ -269,7 +270,7 @@ class _Selection:
             elif joint.name in constraints.joints or joint in constraints.pivots.values():
                 rows += [*both]
         for guide in self._mechanism.guides:
-            is_held = np.array(guides[guide.name])
+            is_held = np.flatnonzero(guides[guide.name])
             rows += [*self._rows[guide.key][is_held]]
         rows += [row for gear in constraints.gears for row in self._rows[f"gears.{gear}"]]
         matrix = np.array(rows)

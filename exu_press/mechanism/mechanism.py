@@ -28,6 +28,10 @@ from exu_press.numerics.arrays import Array
 __all__ = ["Mechanism"]
 
 
+REVOLUTION = np.radians(np.arange(360.0))
+"""Crank angles from the drawing's, rad, at which pins are looked for at the ends of slots."""
+
+
 @dataclass(frozen=True)
 class Mechanism:
     """Bodies, joints and guides in the coordinates of one assembled drawing, y upwards.
@@ -95,7 +99,7 @@ class Mechanism:
                 replace(body, inertia=self.rod_inertia(body)) if math.isnan(body.inertia) else body
                 for body in self.bodies
             ),
-            guides=tuple(replace(g, direction=_unit(g.direction)) for g in self.guides),
+            guides=tuple(replace(g, direction=_unit(_direction(g))) for g in self.guides),
             output=replace(self.output, direction=_unit(self.output.direction)),
         )
 
@@ -111,7 +115,10 @@ class Mechanism:
 
     def rod_inertia(self, body: Body) -> float:
         """Return m l^2 / 12 of a uniform rod between a body's joints; nan unless at two points."""
-        ends = distinct_points((joint.at for joint in self.joints_of(body.name)), self.size)
+        pins = [guide.at for guide in self.guides if guide.body == body.name and guide.at]
+        ends = distinct_points(
+            [*(joint.at for joint in self.joints_of(body.name)), *pins], self.size
+        )
         return body.mass * math.dist(*ends) ** 2 / 12 if len(ends) == 2 else math.nan
 
     @property
@@ -122,7 +129,7 @@ class Mechanism:
     @property
     def size(self) -> float:
         """Largest distance of two joints along x or y in the drawing, m."""
-        return drawing_size(self.joints)
+        return drawing_size(self.joints, self.guides)
 
     @property
     def shaft(self) -> Joint:
@@ -137,8 +144,10 @@ class Mechanism:
 
     @property
     def crank_radius(self) -> float:
-        """Largest distance of the crank's joints from its shaft, m; its size where it has none."""
-        return max(self.crank_pins.values(), default=self.size)
+        """Largest distance of the crank's pins from its shaft, m; its size where it has none."""
+        slots = [g.at for g in self.guides if g.body == self.crank and g.at is not None]
+        pins = [*self.crank_pins.values(), *(math.dist(self.shaft.at, at) for at in slots)]
+        return max(pins, default=self.size)
 
     def body(self, name: str) -> Body:
         """Return a body by its name."""
@@ -150,7 +159,7 @@ class Mechanism:
 
     def frame_guide(self, body: str) -> Guide | None:
         """Return the guide of the frame that holds a body, or None."""
-        return next((g for g in self.guides if g.body == body and g.on_frame), None)
+        return next((g for g in self.guides if g.body == body and g.is_rail), None)
 
     def joints_of(self, body: str) -> list[Joint]:
         """Return the joints of a body."""
@@ -165,10 +174,15 @@ class Mechanism:
         return journal, bearing
 
     def points(self, body: str) -> list[Point]:
-        """Return the positions of a body's joints, and of its centre in a moving guide, m."""
+        """Return the positions of a body's joints, pins, and centre in a moving guide, m."""
         points = [point for j in self.joints for name, point in self.ends(j) if name == body]
-        slides = any(guide.body == body and not guide.on_frame for guide in self.guides)
-        return [*points, (0.0, 0.0)] if slides else points
+        moving = [guide for guide in self.guides if guide.body == body and not guide.is_rail]
+        return points + [self.guided_end(guide)[1] for guide in moving]
+
+    def guided_end(self, guide: Guide) -> tuple[str, Point]:
+        """Return a guided body, and in its frame its pin in a slot, or its centre."""
+        at = guide.at
+        return guide.body, (0.0, 0.0) if at is None else self.body(guide.body).local(at)
 
     def require_turning(self) -> None:
         """Raise InputError unless the crank turns through a whole revolution; see `motion`."""
@@ -261,7 +275,23 @@ class Mechanism:
         bodies = sorted(self.bodies, key=lambda body: body.name == self.crank)
         joints = [joint for joint in self.joints if joint != self.shaft]
         constraints = planar_constraints(bodies, joints, self.guides, self.size, self.gears)
-        return kinematics_of(self.name, constraints, self.shaft.at)
+        kinematics = kinematics_of(self.name, constraints, self.shaft.at)
+        if any(guide.length is not None for guide in self.guides):
+            self._check_slots(kinematics)
+        return kinematics
+
+    def _check_slots(self, kinematics: Kinematics) -> None:
+        """Raise MotionError where a pin reaches an end of its slot within a revolution."""
+        from exu_press.mechanism.slots import check_slot_ends
+
+        check_slot_ends(self, REVOLUTION, kinematics.motion(REVOLUTION, 1.0))
+
+
+def _direction(guide: Guide) -> Point:
+    """Return the direction of a guide, of a circular slot counter-clockwise."""
+    if guide.at is None or guide.centre is None:
+        return guide.direction
+    return guide.centre[1] - guide.at[1], guide.at[0] - guide.centre[0]
 
 
 def _unit(direction: Point) -> Point:

@@ -127,13 +127,19 @@ class Guideway:
 
 @dataclass(frozen=True)
 class Guide:
-    """A prismatic joint: a body moves along a line of another one, and turns with it alone.
+    """A prismatic joint or a slot: a body moves along a line of another one.
+
+    In a prismatic joint it turns with that body alone. A slot holds a pin, which can turn in it.
 
     Attributes:
         name: as in messages and channels.
         direction: of the line in the drawing; `Mechanism` makes it a unit vector.
         body: that it guides; by default that of its name.
         on: body along which it moves, or the frame.
+        at: centre of the pin of a slot in the drawing, m; None: a prismatic joint.
+        centre: of a circular slot, m; `Mechanism` makes the direction its tangent.
+        length: along which a slot extends, m; None: as far as its pin goes.
+        middle: of this length; the pin's centre in the drawing unless given.
         lateral: spring across the guide, or None where the guide is ideal.
         tilting: spring of its angle, or None.
         guideway: with clearance, or None.
@@ -143,6 +149,10 @@ class Guide:
     direction: Point = (0.0, 1.0)
     body: str = ""
     on: str = GROUND
+    at: Point | None = None
+    centre: Point | None = None
+    length: float | None = None
+    middle: Point | None = None
     lateral: Spring | None = None
     tilting: Spring | None = None
     guideway: Guideway | None = None
@@ -154,7 +164,17 @@ class Guide:
     @property
     def key(self) -> str:
         """Its table in a mechanism file."""
-        return f"guides.{self.name}"
+        return f"{'slots' if self.is_slot else 'guides'}.{self.name}"
+
+    @property
+    def is_slot(self) -> bool:
+        """Whether it holds a pin, which turns in it."""
+        return self.at is not None
+
+    @property
+    def is_rail(self) -> bool:
+        """Whether it is a guide of the frame that holds a body upright."""
+        return self.on_frame and not self.is_slot
 
     @property
     def bodies(self) -> frozenset[str]:
@@ -174,7 +194,7 @@ class Guide:
     @property
     def holds_angle(self) -> bool:
         """Whether it holds the body's angle rigidly."""
-        return self.tilting is None and self.guideway is None
+        return not self.is_slot and self.tilting is None and self.guideway is None
 
     @property
     def normal(self) -> Point:
@@ -209,12 +229,10 @@ class Output:
         return self.direction[1], -self.direction[0]
 
 
-def drawing_size(joints: Sequence[Joint]) -> float:
-    """Return the largest distance of two joints along x or y in the drawing, m."""
-    return max(
-        (max(values) - min(values) for values in zip(*(j.at for j in joints), strict=True)),
-        default=0.0,
-    )
+def drawing_size(joints: Sequence[Joint], guides: Sequence[Guide]) -> float:
+    """Return the largest distance of two joints or pins along x or y in the drawing, m."""
+    points = [joint.at for joint in joints] + [guide.at for guide in guides if guide.at is not None]
+    return max((max(values) - min(values) for values in zip(*points, strict=True)), default=0.0)
 
 
 def distinct_points(points: Iterable[Point], size: float) -> list[Point]:

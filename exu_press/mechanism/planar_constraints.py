@@ -14,6 +14,7 @@ Source: E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems
 """
 
 import cmath
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -31,6 +32,7 @@ __all__ = [
     "INDEPENDENT",
     "Coincidence",
     "PlanarConstraints",
+    "PointOnCircle",
     "PointOnLine",
     "RotationRatio",
     "null_space",
@@ -73,7 +75,7 @@ class Poses:
         """Return the position of a point of a body."""
         return self.z[..., body] + self.arm(body, point)
 
-    def gap(self, pair: "Coincidence | PointOnLine") -> Number:
+    def gap(self, pair: "Coincidence | PointOnLine | PointOnCircle") -> Number:
         """Return the vector from the base's point of a constraint to the body's."""
         return self.point(pair.body, pair.point) - self.point(pair.base, pair.base_point)
 
@@ -157,6 +159,38 @@ class PointOnLine(NamedTuple):
         return poses.arm(self.base, self.normal)
 
 
+class PointOnCircle(NamedTuple):
+    """A point of a body stays on a circle about a point of another: a circular slot."""
+
+    body: Number
+    point: Number
+    base: Number
+    base_point: Number
+    radius: Number
+
+    def residuals(self, poses: Poses) -> list[Number]:
+        """Return Phi, (d^2 - R^2) / 2 R of the distance d."""
+        return [0.5 * (abs(poses.gap(self)) ** 2 / self.radius - self.radius)]
+
+    def gradients(self, poses: Poses) -> list[list[Gradient]]:
+        """Return the row of J."""
+        normal = poses.gap(self) / self.radius
+        arm, base_arm = poses.arm(self.body, self.point), poses.arm(self.base, self.base_point)
+        return [
+            [
+                (self.body, normal, -(normal.conj() * arm).imag),
+                (self.base, -normal, (normal.conj() * base_arm).imag),
+            ]
+        ]
+
+    def rates(self, poses: Poses) -> list[Number]:
+        """Return gamma."""
+        rate = poses.velocity(self.body, self.point) - poses.velocity(self.base, self.base_point)
+        gamma = poses.centripetal(self.body, self.point)
+        gamma = gamma - poses.centripetal(self.base, self.base_point)
+        return [((poses.gap(self).conj() * gamma).real + abs(rate) ** 2) / self.radius]
+
+
 class RotationRatio(NamedTuple):
     """A body turns a ratio times as far as another: 1 in a guide.
 
@@ -183,7 +217,7 @@ class RotationRatio(NamedTuple):
         return [np.zeros_like(poses.angle[..., self.body])]
 
 
-Constraint = Coincidence | PointOnLine | RotationRatio
+Constraint = Coincidence | PointOnLine | PointOnCircle | RotationRatio
 
 
 @dataclass(frozen=True)
@@ -195,7 +229,8 @@ class PlanarConstraints:
         bodies: names, in the order of their coordinates x and y, over the size, and angle, rad.
         drawn: coordinates in the drawing, (3 n,).
         constraints: with their names. "joints.NAME" has two rows, journal minus bearing along x
-            and y; "guides.NAME" has one across it and one of the angle; "gears.NAME" has one.
+            and y; "guides.NAME" has one across it and one of the angle; "slots.NAME" and
+            "gears.NAME" have one.
     """
 
     size: float
@@ -290,11 +325,16 @@ def planar_constraints(
             yield f"joints.{joint.name}", Coincidence(*ends)
         for guide in guides:
             body, base = drawn[guide.body], drawn[guide.on]
-            ends = index[guide.body], 0j, *end(guide.on, body.centre_of_mass)
-            normal = complex(*guide.normal) * cmath.exp(-1j * base.angle)
-            yield guide.key, PointOnLine(*ends, normal)
-            offset = body.angle - base.angle
-            yield guide.key, RotationRatio(index[guide.body], index[guide.on], 1.0, offset)
+            at = guide.at or body.centre_of_mass
+            ends = *end(guide.body, at), *end(guide.on, guide.centre or at)
+            if guide.centre is not None:
+                yield guide.key, PointOnCircle(*ends, math.dist(at, guide.centre) / size)
+            else:
+                normal = complex(*guide.normal) * cmath.exp(-1j * base.angle)
+                yield guide.key, PointOnLine(*ends, normal)
+            if not guide.is_slot:
+                offset = body.angle - base.angle
+                yield guide.key, RotationRatio(index[guide.body], index[guide.on], 1.0, offset)
         for gear in gears:
             offset = drawn[gear.body].angle - gear.ratio * drawn[gear.to].angle
             pair = index[gear.body], index[gear.to]

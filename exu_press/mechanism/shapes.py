@@ -11,7 +11,8 @@ import numpy as np
 
 from exu_press.mechanism.guide_motion import guide_path
 from exu_press.mechanism.mechanism import Mechanism
-from exu_press.mechanism.parts import Guide
+from exu_press.mechanism.parts import GROUND, Guide
+from exu_press.mechanism.slots import slot_outline
 from exu_press.numerics.arrays import Array
 
 __all__ = [
@@ -40,6 +41,9 @@ ROD = 0.011
 BLOCK = 0.07
 """Margin of the heaviest block around its joints, relative to the mechanism's height."""
 
+SLOT = 0.008
+"""Half the width of a slot, relative to the mechanism's height."""
+
 LEVEL = 1e-6
 """Slope below which a direction is horizontal."""
 
@@ -56,12 +60,14 @@ class Shape:
 
     Attributes:
         outline: (n, 2) corners of a polygon, counter-clockwise.
+        slots: corners of its slots, (m, 2) each.
         role: "crank", "bearing", "link", "block" in the frame, or "slide" in a moving
             guide.
     """
 
     outline: Array
     role: str
+    slots: tuple[Array, ...] = ()
 
     @property
     def colour(self) -> str:
@@ -82,33 +88,50 @@ def shapes_of(mechanism: Mechanism, height: float | None = None) -> dict[str, Sh
     """
     if height is None:
         height = float(np.ptp(swept_points(mechanism)[:, 1]))
-    guides = {guide.body: guide for guide in mechanism.guides}
+    guides = {guide.body: guide for guide in mechanism.guides if not guide.is_slot}
     heaviest = max(body.mass for body in mechanism.bodies)
     shapes = {}
     for body in mechanism.bodies:
         points = np.array(mechanism.points(body.name) or [(0.0, 0.0)])
+        paths = [
+            np.array([body.local(point) for point in path])
+            for path in _guide_paths(mechanism, body.name, height)
+        ]
         if body.name in guides:
+            points = np.vstack([points, *paths])
             margin = BLOCK * height * float(np.cbrt(body.mass / heaviest))
             x, y = guides[body.name].direction
-            turn = 0.0 if guides[body.name].on_frame else math.atan2(y, x) - body.angle
+            turn = 0.0 if guides[body.name].is_rail else math.atan2(y, x) - body.angle
             pose = np.array([0.0, 0.0, turn])
             outline = transform_points(_block(transform_points(points, -pose), margin), pose)
         else:
             margin = ROD * height * (1.6 if body.name == mechanism.crank else 1.0)
-            paths = [
-                np.array([body.local(point) for point in path])
-                for path in _guide_paths(mechanism, body.name)
-            ]
             outline = _link(np.vstack([points, *paths]), margin)
-        shapes[body.name] = Shape(outline, _role(mechanism, body.name))
+        slots = tuple(
+            np.array([body.local(point) for point in corners])
+            for corners in slot_outlines(mechanism, body.name, height)
+        )
+        shapes[body.name] = Shape(outline, _role(mechanism, body.name), slots)
     return shapes
 
 
-def _guide_paths(mechanism: Mechanism, body: str) -> list[Array]:
-    """Return the paths (n, 2) in the drawing of what slides on a body, over a revolution."""
+def slot_outlines(mechanism: Mechanism, body: str, height: float) -> list[Array]:
+    """Return the corners (m, 2) in the drawing of the slots of a body, or of the frame."""
     return [
-        guide_path(mechanism, guide, REVOLUTION) for guide in mechanism.guides if guide.on == body
+        slot_outline(mechanism, guide, REVOLUTION, SLOT * height)
+        for guide in mechanism.guides
+        if guide.is_slot and guide.on == body
     ]
+
+
+def _guide_paths(mechanism: Mechanism, body: str, height: float) -> list[Array]:
+    """Return the paths (n, 2) in the drawing of what slides on a body, and corners of its slots."""
+    paths = [
+        guide_path(mechanism, guide, REVOLUTION)
+        for guide in mechanism.guides
+        if guide.on == body and not guide.is_slot
+    ]
+    return paths + slot_outlines(mechanism, body, height)
 
 
 def swept_points(mechanism: Mechanism) -> Array:
@@ -197,11 +220,11 @@ class FrontView:
         return {"block": 0, "slide": 2, "crank": 2}.get(self.shapes[body].role, 1)
 
     def rails(self) -> list[Array]:
-        """Return the corners (4, 2) of the frame's rails on both sides of its guided bodies."""
-        return [
+        """Return the corners (4, 2) of the frame's rails beside its bodies, and of its slots."""
+        return slot_outlines(self._mechanism, GROUND, self.unit) + [
             corners
             for guide in self._mechanism.guides
-            if guide.on_frame
+            if guide.is_rail
             for corners in rail_corners(guide, self.swept[guide.body], self.unit)
         ]
 
@@ -230,9 +253,9 @@ class FrontView:
 def _role(mechanism: Mechanism, body: str) -> str:
     if body == mechanism.crank:
         return "crank"
-    guides = [guide for guide in mechanism.guides if guide.body == body]
+    guides = [guide for guide in mechanism.guides if guide.body == body and not guide.is_slot]
     if guides:
-        return "block" if any(guide.on_frame for guide in guides) else "slide"
+        return "block" if any(guide.is_rail for guide in guides) else "slide"
     if not mechanism.crank_pins:
         return "link"
     pin = max(mechanism.crank_pins, key=mechanism.crank_pins.__getitem__)

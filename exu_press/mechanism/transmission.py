@@ -4,8 +4,9 @@ A dyad is a group of two bodies: two links (RRR), a link and a body on a guide (
 a pin that slides on a link (RPR). The transmission angle is the acute angle between two lines [1]_:
 those of the two links, or the link and the normal of the guide; in the latter dyad the normal of
 the guide, along which the block presses, and the line from the pin to the link's other joint. A
-link drives its body best at 90 deg; at 0 deg the dyad locks. Textbooks recommend 40 to 50 deg at
-least.
+body with a slot has one as well: between the slot's normal and the line from the pin to the body's
+pivot, or the normal of its guide. A link drives its body best at 90 deg; at 0 deg the dyad locks.
+Textbooks recommend 40 to 50 deg at least.
 
 References
 ----------
@@ -29,7 +30,7 @@ __all__ = ["group_equal_angles", "transmission_angles"]
 def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
     """Return transmission angles (n,), rad, by the name of the joint or guide inside each dyad.
 
-    Groups of more than two bodies have none.
+    Other groups have none.
 
     Args:
         mechanism: with one degree of freedom.
@@ -44,10 +45,12 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
         (body, point), _ = sorted(mechanism.ends(joint), key=lambda end: end[0] == GROUND)
         return motion[body].point_motion(point).position[:, :2]
 
+    def pin_path(slot: Guide) -> Array:
+        body, point = mechanism.guided_end(slot)
+        return motion[body].point_motion(point).position[:, :2]
+
     transmission: dict[str, Array] = {}
     for group in groups_of(mechanism.constraints, mechanism.crank):
-        if len(group.bodies) != 2:
-            continue
         dyad = {*group.bodies}
         elements: tuple[Joint | Guide, ...] = (*mechanism.joints, *mechanism.guides)
         inner = [element for element in elements if element.bodies == dyad]
@@ -56,6 +59,19 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
             for element in elements
             if len(element.bodies & dyad) == 1 and element.bodies & group.predecessors
         ]
+        slots = [element for element in outer if isinstance(element, Guide) and element.is_slot]
+        if len(dyad) == 1 and len(slots) == 1 and len(outer) == 2:
+            (slot,) = slots
+            holding = next(element for element in outer if element is not slot)
+            lines = [guide_direction(mechanism, slot, slot.normal, motion)]
+            if isinstance(holding, Guide):
+                lines.append(guide_direction(mechanism, holding, holding.normal, motion))
+            else:
+                lines.append(pin_path(slot) - path(holding))
+            transmission[slot.name] = _acute_angle(*lines)
+            continue
+        if len(dyad) != 2 or slots:
+            continue
         pins = [element for element in outer if isinstance(element, Joint)]
         guides = [element for element in outer if isinstance(element, Guide)]
         if len(inner) != 1 or not pins or len(pins) + len(guides) != 2:
@@ -70,10 +86,14 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
         else:
             continue
         lines += [guide_direction(mechanism, guide, guide.normal, motion) for guide in guides]
-        across = np.abs(lines[0][:, 0] * lines[1][:, 1] - lines[0][:, 1] * lines[1][:, 0])
-        along = np.abs((lines[0] * lines[1]).sum(axis=1))
-        transmission[within.name] = np.arctan2(across, along)
+        transmission[within.name] = _acute_angle(*lines)
     return transmission
+
+
+def _acute_angle(first: Array, second: Array) -> Array:
+    """Return the angle, rad, (n,), between two lines of directions (n, 2)."""
+    across = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])
+    return np.asarray(np.arctan2(across, np.abs((first * second).sum(axis=1))))
 
 
 def group_equal_angles(transmission: Mapping[str, Array]) -> list[tuple[str, Array]]:

@@ -181,7 +181,7 @@ def _guide_friction(
     return {
         guide.name: add_guide_friction(system, guide, guides[guide.name])
         for guide in system.mechanism.guides
-        if guide.lateral or "force" in guides[guide.name]
+        if not guide.is_slot and (guide.lateral or "force" in guides[guide.name])
     }
 
 

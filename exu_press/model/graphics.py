@@ -91,7 +91,7 @@ def _frame(
     """Return the guides' rails beside their bodies, and the pivots' pins."""
     solids = []
     for guide in mechanism.guides:
-        if not guide.on_frame:
+        if not guide.is_rail:
             continue
         outline, width = view.swept[guide.body], 0.25 * thickness
         (x_min, low), (x_max, high) = outline.min(axis=0), outline.max(axis=0)

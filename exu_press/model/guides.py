@@ -7,12 +7,13 @@ from exudyn.itemInterface import (
     MarkerBodyRigid,
     MarkerNodeCoordinates,
     ObjectConnectorCoordinateVector,
+    ObjectConnectorDistance,
     ObjectConnectorLinearSpringDamper,
     ObjectGenericODE2,
     VObjectGenericODE2,
 )
 
-from exu_press.mechanism import Guide, Spring
+from exu_press.mechanism import GROUND, Body, Guide, Spring
 from exu_press.model.ideal_joints import hold_direction
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
@@ -97,11 +98,18 @@ def _hold_row(system: System, nodes: list[int], row: Array, frame: int, offset: 
 
 def _hold_across(system: System, guide: Guide) -> int:
     """Hold a rigid body along its guide's normal; in the frame linear in the coordinates."""
-    if not guide.on_frame:
-        drawn, at = system.mechanism.body, system.mechanism.body(guide.body).centre_of_mass
-        angle = math.atan2(guide.normal[1], guide.normal[0]) - drawn(guide.on).angle
-        line, point = (guide.on, drawn(guide.on).local(at)), (guide.body, (0.0, 0.0))
-        return hold_direction(system, guide.key, line, angle, system.marker(*point))
+    mechanism = system.mechanism
+    if not guide.is_rail:
+        pin = system.marker(*mechanism.guided_end(guide))
+        base = Body(GROUND, 0.0) if guide.on_frame else mechanism.body(guide.on)
+        at = guide.at or mechanism.body(guide.body).centre_of_mass
+        if guide.centre is not None:
+            markers = [system.marker(guide.on, base.local(guide.centre)), pin]
+            distance = math.dist(at, guide.centre)
+            circle = ObjectConnectorDistance(markerNumbers=markers, distance=distance)
+            return int(system.mbs.AddObject(circle))
+        angle = math.atan2(guide.normal[1], guide.normal[0]) - base.angle
+        return hold_direction(system, guide.key, (guide.on, base.local(at)), angle, pin)
     rigid = system.rigid[guide.body]
     offset = np.dot(system.mechanism.body(guide.body).centre_of_mass, guide.normal)
     by_name = dict(zip(("x", "y", "angle"), (*guide.normal, 0.0), strict=True))

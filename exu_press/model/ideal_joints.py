@@ -73,7 +73,7 @@ def hold_direction(
 
 def _add_flexible_single_axis(system: System, joint: Joint, axis: SingleAxis, flexible: str) -> int:
     """Constrain a flexible body's joint in one direction, where a guide keeps that along x or y."""
-    guided = {guide.body for guide in system.mechanism.guides if guide.on_frame}
+    guided = {guide.body for guide in system.mechanism.guides if guide.is_rail}
     angle = axis.angle
     if axis.body != GROUND:
         angle += float(system.ideal[axis.body].position[0, 2])

@@ -149,7 +149,7 @@ def _guided_bodies(scene: Scene, mechanism: Mechanism) -> frozenset[str]:
         body
         for guide in mechanism.guides
         for body in guide.bodies - {GROUND}
-        if rubs or body in scene.bodies or not (guide.on_frame or guide.holds_across)
+        if rubs or body in scene.bodies or not (guide.is_rail or guide.holds_across)
     )
 
 

@@ -27,6 +27,7 @@ def scenery(result: Result) -> dict[str, Any]:
             "name": name,
             "label": _label(name),
             "outline": _round_points(shape.outline),
+            "slots": [_round_points(slot) for slot in shape.slots],
             "colour": shape.colour,
             "layer": front.layer(name),
         }

@@ -13,7 +13,7 @@ from exu_press.mechanism import Mechanism
 from exu_press.mechanism.examine import Examination
 from exu_press.mechanism.parts import GROUND
 from exu_press.mechanism.pitch_circles import pitch_circles
-from exu_press.mechanism.shapes import shapes_of
+from exu_press.mechanism.shapes import shapes_of, slot_outlines, transform_points
 from exu_press.mechanism.stroke import units_of_output
 from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.numerics.arrays import Array
@@ -86,6 +86,11 @@ def _draw(axes: Axes, examined: Examination) -> None:
             alpha=0.85,
         )
         axes.add_patch(patch)
+        for slot in shapes[body.name].slots:
+            corners = transform_points(slot, drawn[body.name])
+            axes.add_patch(Polygon(corners, facecolor="white", edgecolor=EDGE, linewidth=0.7))
+    for corners in slot_outlines(mechanism, GROUND, mechanism.size):
+        axes.add_patch(Polygon(corners, facecolor="white", edgecolor=GREY, zorder=0.8))
     if error is not None and error.angle and error.poses:
         for name, pose in error.poses.items():
             colour = WRONG if name in examined.wrong_bodies else GREY
@@ -96,9 +101,15 @@ def _draw(axes: Axes, examined: Examination) -> None:
         colour = WRONG if joint.name in examined.wrong_joints else EDGE
         style = "s" if joint.on_frame else "o"
         axes.plot(*joint.at, style, color="white", markeredgecolor=colour, markersize=7)
+    for guide in mechanism.guides:
+        if guide.at is not None:
+            colour = WRONG if guide.key in examined.mobility.overconstraining else EDGE
+            axes.plot(*guide.at, "o", color="white", markeredgecolor=colour, markersize=7)
     for body in mechanism.bodies:
         axes.plot(*body.centre_of_mass, "+", color=GREY, markersize=5, zorder=4)
     for guide in mechanism.guides:
+        if guide.is_slot:
+            continue
         at = np.array(mechanism.body(guide.body).centre_of_mass)
         ends = [at + sign * 0.16 * mechanism.size * np.array(guide.direction) for sign in (-1, 1)]
         colour = WRONG if guide.name in examined.wrong_guides else GREY
@@ -141,10 +152,15 @@ def _draw_names(axes: Axes, examined: Examination) -> None:
     places: dict[tuple[float, float], list[str]] = {}
     for joint in mechanism.joints:
         places.setdefault(joint.at, []).append(joint.name)
+    for guide in mechanism.guides:
+        if guide.at is not None:
+            places.setdefault(guide.at, []).append(guide.name)
     joints = {", ".join(names): np.array(at) for at, names in places.items()}
     wrong_joints = [n for n in joints if set(n.split(", ")) & set(examined.wrong_joints)]
     labels = {body.name: body.name for body in mechanism.bodies}
     for guide in mechanism.guides:
+        if guide.is_slot:
+            continue
         where = "guided" if guide.on_frame else f"on {guide.on}"
         labels[guide.body] += f" ({where})"
     bodies = {label: _middle(mechanism, name) for name, label in labels.items()}

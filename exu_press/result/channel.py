@@ -155,7 +155,9 @@ class Declarations(tuple[Declaration, ...]):
 def guide_channel(mechanism: Mechanism, name: str) -> str:
     """Return the prefix of the names of a guide's channels; the slider's is "guide"."""
     of_slider = mechanism.frame_guide(mechanism.slider)
-    return "guide" if of_slider is not None and name == of_slider.name else f"{name}_guide"
+    if of_slider is not None and name == of_slider.name:
+        return "guide"
+    return f"{name}_slot" if mechanism.guide(name).is_slot else f"{name}_guide"
 
 
 def direction_text(direction: Point) -> str:

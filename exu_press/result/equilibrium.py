@@ -74,11 +74,12 @@ def _guide_actions(run: Recording, name: str) -> Array:
     action = np.zeros((len(run.time), 3))
     for guide in mechanism.guides:
         channel = guide_channel(mechanism, guide.name)
-        if guide.on_frame or name not in guide.bodies or f"{channel}_force" not in run:
+        if guide.is_rail or name not in guide.bodies or f"{channel}_force" not in run:
             continue
         normal = guide_direction(mechanism, guide, guide.normal, motions)
         force = run[f"{channel}_force"][:, None] * normal
-        arm = motions[guide.body].position[:, :2] - motions[name].position[:, :2]
+        end = motions[guide.body].point_motion(mechanism.guided_end(guide)[1])
+        arm = end.position[:, :2] - motions[name].position[:, :2]
         moment = arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]
         if f"{channel}_moment" in run:
             moment += run[f"{channel}_moment"]

@@ -5,6 +5,7 @@ from collections.abc import Collection, Mapping
 import numpy as np
 
 from exu_press.mechanism import GROUND, Motion
+from exu_press.mechanism.guide_motion import guide_direction
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import UNBALANCED, Channel, Declaration, Declarations, guide_channel
@@ -28,11 +29,13 @@ CHANNELS = Declarations(
 
 def record(run: Recording) -> Record:
     """Return the forces on the frame; all joints and guides have their channels."""
-    frame = CHANNELS.record(frame_force=_frame_force(run.model, run.so_far.channels))
+    frame = CHANNELS.record(frame_force=_frame_force(run.model, run.so_far.channels, run.motions))
     return Record(frame | _shaking_forces(run.model, run.motions))
 
 
-def _frame_force(model: Model, channels: Mapping[str, Channel]) -> Array:
+def _frame_force(
+    model: Model, channels: Mapping[str, Channel], motions: Mapping[str, Motion]
+) -> Array:
     """Return the force of shaft, pivots and guides together on the frame, (n, 2), N."""
     on_bodies = np.zeros((len(channels["time"].values), 2))
     signs = {joint.name: 1.0 for joint in model.mechanism.joints if joint.bearing == GROUND}
@@ -46,7 +49,11 @@ def _frame_force(model: Model, channels: Mapping[str, Channel]) -> Array:
         for quantity, direction in (("force", guide.normal), ("friction", guide.direction)):
             force = channels.get(f"{guide_channel(model.mechanism, guide.name)}_{quantity}")
             if force is not None:
-                on_bodies += np.outer(force.values, direction)
+                if guide.is_slot:
+                    turned = guide_direction(model.mechanism, guide, direction, motions)
+                    on_bodies += force.values[:, None] * turned
+                else:
+                    on_bodies += np.outer(force.values, direction)
     return -on_bodies
 
 

@@ -54,7 +54,11 @@ def guide_channels(mechanism: Mechanism, name: str, **values: Array) -> dict[str
     channels: dict[str, Channel] = {}
     for quantity, history in values.items():
         positive = direction_text(guide.direction if quantity == "friction" else guide.normal)
-        positive += "" if guide.on_frame else f" in the drawing, which turns with {guide.on}"
+        positive += (
+            ""
+            if guide.on_frame and not guide.centre
+            else f" in the drawing, turning with {guide.key}"
+        )
         channels |= CHANNELS.record(owner, label=label, positive=positive, **{quantity: history})
     return channels
 
@@ -90,7 +94,7 @@ def _elastic(run: Recording) -> Record:
                 stored += 0.5 * spring.stiffness * deflection**2
                 loss += work(time, spring.damping * rate, rate)
                 reactions[quantity] = -(spring.stiffness * deflection + spring.damping * rate)
-        if guide.body in model.parts or not guide.on_frame:  # others have sensors
+        if guide.body in model.parts or not guide.is_rail:  # others have sensors
             channels |= guide_channels(model.mechanism, guide.name, **reactions)
         channels |= guide_channels(model.mechanism, guide.name, loss=loss)
         dissipated += loss
@@ -128,7 +132,7 @@ def _motion_in_guide(run: Recording, guide: Guide) -> tuple[Array, Array]:
 
 def _relaxed_pose(model: Model, guide: Guide) -> Array:
     """Return the pose (3,) in the drawing in which the springs of a guide are relaxed."""
-    if not guide.on_frame:
+    if not guide.is_rail:
         body = model.mechanism.body(guide.body)
         return np.array([*body.centre_of_mass, body.angle])
     if guide.body in model.rigid:

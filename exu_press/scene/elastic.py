@@ -27,7 +27,10 @@ def with_elastic_guides(
     drawn_ones = {guide.body: drawn.body(guide.body) for guide in drawn.guides}
     inertias = {name: (body.mass, body.inertia) for name, body in drawn_ones.items()}
     inertias |= solids or {}
-    guides = (_elastic(guide, inertias[guide.body], elastic.support) for guide in drawn.guides)
+    guides = (
+        guide if guide.is_slot else _elastic(guide, inertias[guide.body], elastic.support)
+        for guide in drawn.guides
+    )
     return replace(drawn, guides=tuple(guides))
 
 

@@ -215,7 +215,7 @@ class Scene(Table):
         for law in LAWS:
             self._settle_law(law, laws, unused.get(law, ""))
         for guide in mechanism_of(self).guides if self.guide is not None else ():
-            if not guide.on_frame:
+            if not (guide.on_frame or guide.is_slot):
                 raise InputError(
                     f"[guide]: {guide.key} moves with {guide.on}; allowed are guides of the frame, "
                     "or a scene without [guide]"
@@ -288,11 +288,11 @@ class Scene(Table):
         joints = {b.name: [j.name for j in mechanism.joints_of(b.name)] for b in mechanism.bodies}
         joints[mechanism.crank].append(DRIVE_FACE)
         for guide in mechanism.guides:
-            if guide.on_frame:
+            if guide.is_rail:
                 joints[guide.body].append(GUIDE_FACE)
         bodies = bodies_of(self.bodies, mechanism.name, joints)
         for guide in mechanism.guides:
-            if not guide.on_frame and guide.bodies & bodies.keys():
+            if not guide.is_rail and guide.bodies & bodies.keys():
                 raise InputError(
                     f"bodies.{min(guide.bodies & bodies.keys())}: {guide.key} slides on it or with "
                     "it; allowed is a rigid body there"

@@ -116,7 +116,7 @@ def _loads() -> Iterator[str]:
 
 def _a_flexible_body(scene: Scene) -> Iterator[str]:
     mechanism = mechanism_of(scene)
-    guided = {guide.body for guide in mechanism.guides}
+    guided = {guide.body for guide in mechanism.guides if guide.is_rail}
     free = [body.name for body in mechanism.bodies if body.name not in guided]
     shipped = scene.shipped_name == "press"
     name = "linkage" if shipped else free[-1]

@@ -63,6 +63,7 @@ class MechanismPanel:
         )
         self._leaders = _draw_labels(axes, mechanism, self._poses, float(high[0]), unit)
         self._bodies: dict[str, Polygon] = {}
+        self._slots: dict[str, list[Polygon]] = {}
         for name in sorted(front.shapes, key=front.layer):
             self._bodies[name] = patch = Polygon(
                 front.shapes[name].outline,
@@ -73,24 +74,38 @@ class MechanismPanel:
                 joinstyle="round",
             )
             axes.add_patch(patch)
+            self._slots[name] = [
+                Polygon(slot, facecolor="white", edgecolor=EDGE, linewidth=0.7)
+                for slot in front.shapes[name].slots
+            ]
+            for slot in self._slots[name]:
+                axes.add_patch(slot)
         names = result.scene.joints.ideal
         ideal = [joint for joint in mechanism.joints if joint.name in names]
         loose = [joint for joint in mechanism.joints if joint.name not in names]
-        self._joints = [mechanism.ends(joint)[0] for joint in (*ideal, *loose)]
+        pins_in_slots = [mechanism.guided_end(g) for g in mechanism.guides if g.is_slot]
+        self._joints = [mechanism.ends(joint)[0] for joint in ideal]
+        self._joints += [*pins_in_slots, *(mechanism.ends(joint)[0] for joint in loose)]
         size = 4.5
         (pins,) = axes.plot([], [], "o", markersize=size, color="white", markeredgecolor=EDGE)
         (marked,) = axes.plot(
             [], [], "o", markersize=size + 2.5, color="white", markeredgecolor=MARKED
         )
         marked.set_markeredgewidth(2.2)
-        self._pins, self._marked, self._split = pins, marked, len(ideal)
+        self._pins, self._marked, self._split = pins, marked, len(ideal) + len(pins_in_slots)
+        patches = [
+            patch for name, body in self._bodies.items() for patch in (body, *self._slots[name])
+        ]
         leaders = [line for line, _ in self._leaders.values()]
-        self.artists = mark_animated(*self._bodies.values(), pins, marked, *leaders)
+        self.artists = mark_animated(*patches, pins, marked, *leaders)
 
     def show(self, frame: int) -> None:
         """Bring every body to its pose."""
         for name, patch in self._bodies.items():
-            patch.set_xy(self._shapes[name].outline_at(self._poses[name][frame]))
+            pose = self._poses[name][frame]
+            patch.set_xy(self._shapes[name].outline_at(pose))
+            for corners, slot in zip(self._shapes[name].slots, self._slots[name], strict=True):
+                slot.set_xy(transform_points(corners, pose))
         for name, (line, (x, y)) in self._leaders.items():
             line.set_data(*np.array([self._poses[name][frame][:2], (x, y)]).T)
         places = np.array(

@@ -7,7 +7,18 @@ import pytest
 from refused import refused
 
 from exu_press import Scene, simulate
-from exu_press.mechanism import Output, shipped_mechanism
+from exu_press.mechanism import (
+    GROUND,
+    Body,
+    Guide,
+    Joint,
+    Mechanism,
+    Output,
+    change_mechanism,
+    mechanism_from_dict,
+    mechanism_to_dict,
+    shipped_mechanism,
+)
 from exu_press.mechanism.examine import examine
 from exu_press.quantities import quantities_of
 
@@ -52,7 +63,26 @@ def oldham():
     return 0.01 * np.sin(2.0 * ANGLE)
 
 
-LINKAGES = [whitworth, crank_shaper, oscillating_cylinder, inverted_slider_crank, oldham]
+def scotch_yoke():
+    return -0.1 * np.sin(ANGLE)
+
+
+def elliptic_trammel():
+    drawn = np.arctan2(0.06, 0.08)
+    pin = 0.1 * np.exp(1j * (ANGLE + drawn))
+    beside = complex(0.07, -0.03)
+    return (pin + beside * np.exp(-1j * ANGLE)).imag
+
+
+LINKAGES = [
+    whitworth,
+    crank_shaper,
+    oscillating_cylinder,
+    inverted_slider_crank,
+    oldham,
+    scotch_yoke,
+    elliptic_trammel,
+]
 
 
 @pytest.mark.parametrize("form", LINKAGES)
@@ -63,7 +93,7 @@ def test_slides_between_moving_bodies_follow_their_closed_forms(form):
     assert position == pytest.approx(form(), abs=1e-9 * stroke)
 
 
-@pytest.mark.parametrize("name", ["whitworth", "crank_shaper"])
+@pytest.mark.parametrize("name", ["whitworth", "crank_shaper", "scotch_yoke"])
 def test_forces_of_slides_keep_momentum_and_energy(name):
     result = simulate(Scene(mechanism=name, revolutions=0.5, gravity=0.0))
     shaking = result["shaking_force"]
@@ -104,3 +134,81 @@ def test_a_body_that_a_guide_holds_upright_does_not_rotate():
     drawn = shipped_mechanism("whitworth")
     message = refused(replace, drawn, output=Output("ram", rotation=True))
     assert message.startswith("output.rotation = true: guides.ram holds the angle of ram")
+
+
+def test_pins_of_a_trammel_stay_on_straight_lines():
+    rod = shipped_mechanism("elliptic_trammel").motion(ANGLE, 1.0)["tracer"]
+    assert rod.point_motion((0.01, -0.03)).position[:, 1] == pytest.approx(0.0, abs=1e-12)
+    assert rod.point_motion((-0.15, 0.09)).position[:, 0] == pytest.approx(0.0, abs=1e-12)
+
+
+def curved_yoke(**slot):
+    """A yoke whose circular slot moves it as a rod of its radius would move a slider."""
+    return Mechanism(
+        "curved_yoke",
+        [Body("crank", 10.0, 0.05), Body("yoke", 6.0, 0.05)],
+        [Joint("shaft", (0.0, 0.0), "crank", GROUND)],
+        [
+            Guide("yoke", (1.0, 0.0)),
+            Guide("arc", body="crank", on="yoke", at=(0.0, 0.1), centre=(0.4, 0.1), **slot),
+        ],
+        "crank",
+        Output("yoke", (1.0, 0.0)),
+    )
+
+
+def test_a_circular_slot_moves_its_body_as_a_rod_does():
+    pin = 0.1j * np.exp(1j * ANGLE)
+    expected = pin.real + np.sqrt(0.4**2 - (pin.imag - 0.1) ** 2) - 0.4
+    drawn = curved_yoke()
+    assert drawn.ideal_slider(ANGLE, 1.0)[0] == pytest.approx(expected, abs=1e-12)
+    angle = examine(drawn).transmission["arc"][:360:90]
+    assert np.cos(angle) == pytest.approx([0.0, 0.25, 0.5, 0.25], abs=1e-9)
+    result = simulate(Scene(mechanism=drawn, revolutions=0.5, gravity=0.0))
+    shaking = result["shaking_force"]
+    assert result["frame_force"] == pytest.approx(shaking, abs=1e-5 * np.abs(shaking).max())
+    force = result["arc_slot_force"]
+    angle, mass = result["crank_angle"], 6.0
+    # a rod's force, by the acceleration of the slider
+    sine = (np.cos(angle) - 1.0) / 4.0
+    tension = mass * result["slider_acceleration"] / np.sqrt(1.0 - sine**2)
+    assert force == pytest.approx(tension, abs=1e-3 * np.abs(tension).max())
+
+
+def test_a_pin_at_the_end_of_its_slot_is_told_with_the_crank_angle():
+    changed = change_mechanism(
+        mechanism_to_dict(shipped_mechanism("scotch_yoke")), {"slots.yoke_slot.length": 0.19}
+    )
+    fault = examine(mechanism_from_dict(changed)).faults[0]
+    assert "the pin of crank reaches an end of slots.yoke_slot at crank angle 0 deg" in fault
+    assert "it needs a length of 0.2 m" in fault
+    assert refused(Scene, mechanism=mechanism_from_dict(changed)).startswith("scotch_yoke: the pin")
+    assert examine(curved_yoke(length=0.3, middle=(0.01, 0.0))).error is None
+    assert "slots.arc at crank angle" in examine(curved_yoke(length=0.3)).faults[0]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"slots.yoke_slot.centre": [0.0, 0.0]}, "slots.yoke_slot: allowed is a direction"),
+        ({"slots.yoke_slot.direction": None}, "slots.yoke_slot: allowed is a direction"),
+        ({"slots.yoke_slot.length": -0.1}, "slots.yoke_slot.length = -0.1: allowed is a number"),
+        ({"slots.yoke_slot.pin": "yoke"}, "slots.yoke_slot: guides 'yoke' on itself"),
+        ({"slots.yoke_slot.slot": "yok"}, "slots.yoke_slot.slot = 'yok': unknown"),
+        ({"guides.yoke.length": 0.1}, "guides.yoke.length"),
+    ],
+)
+def test_faults_of_slots_are_named(changes, message):
+    drawn = mechanism_to_dict(shipped_mechanism("scotch_yoke"))
+    assert refused(mechanism_from_dict, change_mechanism(drawn, changes)).startswith(message)
+
+
+def test_a_redundant_slot_is_counted_as_a_redundant_joint_is():
+    examined = examine(shipped_mechanism("elliptic_trammel"))
+    assert examined.mobility.redundant == 1
+    second = Guide("second", (0.0, 1.0), body="crank", on="yoke", at=(0.02, 0.08))
+    drawn = shipped_mechanism("scotch_yoke")
+    locked = replace(drawn, guides=(*drawn.guides, second))
+    fault = examine(locked).faults[-1]
+    assert "1 degree of freedom too few" in fault
+    assert "slots.second" in fault

@@ -16,6 +16,8 @@ JOINTS = {
     "cycloidal_press": {"rod_pin": PINS},
     "crank_shaper": {"crank_pin": PINS, "rod_pin": PINS},
     "drag_link": {"wrist_pin": PINS},
+    "elliptic_trammel": {"crank_pin": PINS},
+    "scotch_yoke": {"shaft": PINS},
     "eccentric_press": {"crank_pin": {}, "wrist_pin": {}},
     "four_bar": {"crank_pin": PINS, "knuckle": PINS, "pivot": PINS},
     "inverted_slider_crank": {"crank_pin": PINS},
@@ -36,6 +38,8 @@ LAWS = {
     **dict.fromkeys(
         (
             "crank_shaper",
+            "elliptic_trammel",
+            "scotch_yoke",
             "four_bar",
             "inverted_slider_crank",
             "oldham",

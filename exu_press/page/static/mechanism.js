@@ -42,8 +42,12 @@ class Mechanism {
     }
     this.bodies = scenery.bodies.map((body, index) => ({...body, index}));
     for (const body of [...this.bodies].sort((a, b) => a.layer - b.layer)) {
-      body.group = drawn("polygon",
-        {points: corners(body.outline), fill: body.colour, class: "body"}, svg);
+      body.group = drawn("g", {class: "body"}, svg);
+      drawn("polygon", {points: corners(body.outline), fill: body.colour, class: "body"},
+        body.group);
+      for (const slot of body.slots) {
+        drawn("polygon", {points: corners(slot), class: "fixed"}, body.group);
+      }
       drawn("title", {}, body.group).textContent = body.name;
     }
     const size = 0.034 * unit;

@@ -12,6 +12,7 @@ from exu_press.joints.guideway import GuidewayContact, SpatialGuidewayContact
 from exu_press.joints.guideway_film import GuidewayFilm
 from exu_press.joints.interface import DryInterface, FilmInterface, InterfaceLaw
 from exu_press.joints.joint import ClearanceJoint
+from exu_press.joints.moving_guideway import MovingGuidewayContact
 from exu_press.joints.on_bodies import BodyPoint, in_plane, planar_end, spatial_end
 from exu_press.joints.planar import PlanarJoint
 from exu_press.joints.spatial import SpatialRevolute
@@ -37,6 +38,7 @@ __all__ = [
     "add_joint_sensor",
     "add_lubricated_revolute",
     "add_lubricated_spherical",
+    "add_moving_guideway_contact",
     "add_revolute",
 ]
 
@@ -257,6 +259,49 @@ def add_guideway_contact(
     return _add_joint(
         mbs, SpatialGuidewayContact(spatial_end(mbs, body), centre, across, interface)
     )
+
+
+def add_moving_guideway_contact(
+    mbs: exu.MainSystem,
+    body: BodyPoint,
+    line: BodyPoint,
+    *,
+    across: float,
+    clearance: float,
+    contact: NormalContact,
+    friction: Friction | LuGre,
+    half_width: float = 0.0,
+    radius: float | None = None,
+) -> ClearanceJoint:
+    """Put a point of a planar body between the walls of another one: a guideway or a slot.
+
+    Args:
+        mbs: system, not yet assembled.
+        body: that lies between the walls, and the point of it that touches, in its frame (m).
+        line: body with the walls, and a point in their middle, or the centre of a circular slot.
+        across: angle of the walls' normal in that body's frame, rad.
+        clearance: on each side of the point, m.
+        contact: normal contact law.
+        friction: friction law.
+        half_width: of the body, or radius of a pin: friction acts so far beside the point, m.
+        radius: of a circular slot, m; None: straight walls.
+
+    Returns:
+        The contact; `add_joint_sensor` records it, with the force on the body.
+
+    Raises:
+        InputError: a body is not planar, clearance or radius are none, a law is given by its name,
+            or the system is assembled already.
+    """
+    _check_laws(mbs, contact=contact, friction=friction)
+    _along_guideway((1.0, 0.0), clearance, half_width)
+    if radius is not None:
+        positive(radius=radius)
+    if not (in_plane(mbs, body) and in_plane(mbs, line)):
+        raise InputError("a moving guideway holds planar bodies alone")
+    ends = planar_end(mbs, body), planar_end(mbs, line)
+    interface = DryInterface(contact, friction, half_width, clearance)
+    return _add_joint(mbs, MovingGuidewayContact(*ends, across, interface, radius))
 
 
 def add_guideway_film(

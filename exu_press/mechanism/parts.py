@@ -114,7 +114,7 @@ class Guideway:
 
     Attributes:
         clearance: on each side, m.
-        length: of the body, from end to end, m; its centre of mass lies in the middle.
+        length: of the body, from end to end, m; its centre of mass lies in the middle. 0 of a pin.
         half_width: of the body, m.
         stiffness: of the contact of each end, N/m.
     """

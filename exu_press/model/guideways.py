@@ -1,13 +1,18 @@
 """Guideways with clearance: contacts of both ends of a body, and a film between them."""
 
+import math
 from typing import Any
 
 import numpy as np
 
-from exu_press.joints.add import add_guideway_contact, add_guideway_film
+from exu_press.joints.add import (
+    add_guideway_contact,
+    add_guideway_film,
+    add_moving_guideway_contact,
+)
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.laws.contact import hertz
-from exu_press.mechanism import Guide, Guideway, Point
+from exu_press.mechanism import GROUND, Body, Guide, Guideway, Point
 from exu_press.model.system import System
 
 __all__ = ["add_guideways"]
@@ -22,12 +27,20 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
     friction = scene.guide.friction_table(scene.friction or {})
     body = system.mechanism.body(guide.body)
     along = np.array(guide.direction)
-    points = (
-        np.array(body.centre_of_mass) + 0.5 * side * guideway.length * along for side in (-1.0, 1.0)
-    )
+    middle = np.array(guide.at or body.centre_of_mass)
+    points = (middle + 0.5 * side * guideway.length * along for side in (-1.0, 1.0))
     ends = [_end(system, guide.body, body.local((float(x), float(y)))) for x, y in points]
     onset = 0.0 if oil is None else oil.contact_gap
     elastic = hertz(guideway.stiffness, 1.0)
+    if not guide.is_rail:
+        laws = {
+            "contact": contact.normal_contact(elastic, guideway.clearance, scene.angular_speed),
+            "friction": friction.friction(),
+        }
+        return tuple(
+            _add_moving(system, guide, guideway, end, **laws)
+            for end in (ends[:1] if guide.is_slot else ends)
+        )
     contacts = [
         add_guideway_contact(
             system.mbs,
@@ -56,6 +69,27 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
         half_width=guideway.half_width,
     )
     return (*contacts, film)
+
+
+def _add_moving(
+    system: System, guide: Guide, guideway: Guideway, end: Any, **laws: Any
+) -> ClearanceJoint:
+    """Add the contact of a point with the walls of a moving guide, or of a slot."""
+    mechanism = system.mechanism
+    base = Body(GROUND, 0.0) if guide.on_frame else mechanism.body(guide.on)
+    at = guide.at or mechanism.body(guide.body).centre_of_mass
+    frame_angle = 0.0 if guide.on_frame else system.rigid[guide.on].frame_angle
+    line = base.local(guide.centre or at)
+    return add_moving_guideway_contact(
+        system.mbs,
+        end,
+        (system.ground, line) if guide.on_frame else _end(system, guide.on, line),
+        across=math.atan2(guide.normal[1], guide.normal[0]) - base.angle + frame_angle,
+        clearance=guideway.clearance,
+        half_width=guideway.half_width,
+        radius=None if guide.centre is None else math.dist(at, guide.centre),
+        **laws,
+    )
 
 
 def _end(system: System, body: str, point: Point) -> Any:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from exu_press.joints.history import history
+from exu_press.mechanism.guide_motion import guide_direction
 from exu_press.result.channel import Channel
 from exu_press.result.guides import guide_channels
 from exu_press.result.joints import stored_and_lost
@@ -34,7 +35,9 @@ def record(run: Recording) -> Record:
         angle = angle - model.mechanism.body(guide.body).angle
         x, y = guide.direction
         force, moment, loss = np.zeros((len(time), 2)), np.zeros_like(time), np.zeros_like(time)
-        for n, side in enumerate((-1.0, 1.0)):
+        normal = guide_direction(model.mechanism, guide, guide.normal, run.motions)
+        direction = guide_direction(model.mechanism, guide, guide.direction, run.motions)
+        for n, side in enumerate((0.0,) if guide.is_slot else (-1.0, 1.0)):
             end = states[f"{guide.name} {n}"]
             end_force = end.force[:, :2]
             reach = 0.5 * side * guide.guideway.length
@@ -53,19 +56,19 @@ def record(run: Recording) -> Record:
             loss += stored_and_lost(film, time)[1]
             channels |= guide_channels(model.mechanism, guide.name, gap=film.gap)
         all_losses += loss
-        across, along = force @ np.array(guide.normal), force @ np.array(guide.direction)
+        across, along = (force * normal).sum(axis=1), (force * direction).sum(axis=1)
         channels |= guide_channels(
             model.mechanism, guide.name, force=across, moment=moment, friction=along, loss=loss
         )
         if guide.name in wearing:
             both = [states[f"{guide.name} {n}"] for n in (0, 1)]
-            on_right = [np.sign(end.eccentricity[:, :2] @ np.array(guide.normal)) for end in both]
-            normal = [s * end.rubbing[:, 0] for s, end in zip(on_right, both, strict=True)]
+            on_right = [np.sign((end.eccentricity[:, :2] * normal).sum(axis=1)) for end in both]
+            normal_force = [s * end.rubbing[:, 0] for s, end in zip(on_right, both, strict=True)]
             sliding = [end.rubbing[:, 1] for end in both]
             channels |= guide_channels(
                 model.mechanism,
                 guide.name,
-                normal_force=np.column_stack(normal),
+                normal_force=np.column_stack(normal_force),
                 sliding=np.column_stack(sliding),
             )
     return Record(channels, all_stored, all_losses)

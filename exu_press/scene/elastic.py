@@ -27,10 +27,7 @@ def with_elastic_guides(
     drawn_ones = {guide.body: drawn.body(guide.body) for guide in drawn.guides}
     inertias = {name: (body.mass, body.inertia) for name, body in drawn_ones.items()}
     inertias |= solids or {}
-    guides = (
-        guide if guide.is_slot else _elastic(guide, inertias[guide.body], elastic.support)
-        for guide in drawn.guides
-    )
+    guides = (_elastic(guide, inertias[guide.body], elastic.support) for guide in drawn.guides)
     return replace(drawn, guides=tuple(guides))
 
 
@@ -41,6 +38,9 @@ def _elastic(
     lateral = support.lateral_stiffness
     if isinstance(support, GuidewaySupport):
         half_width = 0.5 * support.width
+        if guide.is_slot:
+            pin = Guideway(support.clearance, 0.0, half_width, lateral)
+            return replace(guide, guideway=pin)
         guideway = Guideway(support.clearance, support.length, half_width, 0.5 * lateral)
         return replace(guide, guideway=guideway)
     mass, about_centre = inertia

@@ -10,6 +10,7 @@ from exu_press.errors import InputError, UnusedKeyError, error_prefix
 from exu_press.files.digests import recorded_files
 from exu_press.mechanism import (
     SHIPPED,
+    Guide,
     Mechanism,
     Press,
     SliderCrank,
@@ -215,15 +216,26 @@ class Scene(Table):
         for law in LAWS:
             self._settle_law(law, laws, unused.get(law, ""))
         for guide in mechanism_of(self).guides if self.guide is not None else ():
-            if not (guide.on_frame or guide.is_slot):
-                raise InputError(
-                    f"[guide]: {guide.key} moves with {guide.on}; allowed are guides of the frame, "
-                    "or a scene without [guide]"
-                )
+            self._check_guide(guide)
         if self.guide is not None and self.guide.guideways is not None:
             contact = self.guide.contact(laws.keys_of("contact"))
             assert contact is not None
             demand_keys("guide.clearance", contact, (), "contact", "[contact]")
+
+    def _check_guide(self, guide: Guide) -> None:
+        """Raise InputError unless a guide can be as [guide] says: of the frame all can."""
+        assert self.guide is not None
+        if guide.is_rail or (self.guide.clearance is not None and self.guide.oil is None):
+            return
+        if guide.is_slot and self.guide.oil is not None:
+            raise InputError(
+                f"guide.viscosity: {guide.key} holds a pin, which has no face for a film; allowed "
+                "is a block there: a pin joint with a film, and a guide"
+            )
+        raise InputError(
+            f"[guide]: {guide.key} is no guide of the frame; allowed there is clearance without "
+            "oil, or an ideal one, in a scene without [guide]"
+        )
 
     def _law_tables(self, joints: Any) -> Iterator[tuple[str, Mapping[str, Any]]]:
         """Yield law and keys of joints and guides, which may name laws of their own."""
@@ -268,7 +280,10 @@ class Scene(Table):
         mechanism = mechanism_of(self)
         joints = {joint.name: self._why_unworn(joint) for joint in mechanism.joints}
         why = "guide.clearance is not given"
-        guides = {g.name: "" if g.guideway is not None else why for g in mechanism.guides}
+        guides = {
+            g.name: "" if g.guideway is not None and not g.is_slot else why
+            for g in mechanism.guides
+        }
         if all((*joints.values(), *guides.values())):
             why = "no revolute joint is dry or has a mixed film, and no guide has clearance"
             self._refuse({"wear": why}, "wear", self.wear)

@@ -19,7 +19,7 @@ def wearing_guides(scene: Scene) -> tuple[str, ...]:
     """Return the guides whose wear is asked for: those with clearance."""
     if scene.wear is None:
         return ()
-    return tuple(g.name for g in mechanism_of(scene).guides if g.guideway is not None)
+    return tuple(g.name for g in mechanism_of(scene).guides if g.guideway and not g.is_slot)
 
 
 def wear_of(scene: Scene, kind: str, name: str) -> WearAt:

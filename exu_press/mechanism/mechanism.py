@@ -23,6 +23,7 @@ from exu_press.mechanism.parts import (
     drawing_size,
 )
 from exu_press.mechanism.planar_constraints import PlanarConstraints, planar_constraints
+from exu_press.mechanism.slots import check_slot_ends
 from exu_press.numerics.arrays import Array
 
 __all__ = ["Mechanism"]
@@ -282,8 +283,6 @@ class Mechanism:
 
     def _check_slots(self, kinematics: Kinematics) -> None:
         """Raise MotionError where a pin reaches an end of its slot within a revolution."""
-        from exu_press.mechanism.slots import check_slot_ends
-
         check_slot_ends(self, REVOLUTION, kinematics.motion(REVOLUTION, 1.0))
 
 

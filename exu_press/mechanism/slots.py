@@ -5,9 +5,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from exu_press.mechanism.guide_motion import guide_path, motion_in_guide
+from exu_press.mechanism.guide_motion import Drawing, guide_path, motion_in_guide
 from exu_press.mechanism.kinematics import MotionError
-from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import Guide
 from exu_press.numerics.arrays import Array
@@ -18,7 +17,7 @@ ARC = 25
 """Points of a slot's wall in pictures."""
 
 
-def check_slot_ends(mechanism: Mechanism, angle: Array, motions: Mapping[str, Motion]) -> None:
+def check_slot_ends(mechanism: Drawing, angle: Array, motions: Mapping[str, Motion]) -> None:
     """Raise MotionError for the first crank angle, rad, (n,), at which a pin is at its slot's end.
 
     Args:
@@ -44,7 +43,7 @@ def check_slot_ends(mechanism: Mechanism, angle: Array, motions: Mapping[str, Mo
             )
 
 
-def slot_outline(mechanism: Mechanism, guide: Guide, angle: Array, half_width: float) -> Array:
+def slot_outline(mechanism: Drawing, guide: Guide, angle: Array, half_width: float) -> Array:
     """Return the corners (m, 2) of a slot in the drawing of the body that has it.
 
     Args:

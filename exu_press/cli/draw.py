@@ -13,6 +13,7 @@ import numpy as np
 from exu_press.cli.options import (
     SHIPPED,
     add_code_argument,
+    add_picture_arguments,
     add_set_argument,
     shipped_names,
     show_warnings,
@@ -77,6 +78,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PICTURE",
         help="write the drawing and the curves over the crank angle as .png, .svg or .pdf",
     )
+    add_picture_arguments(parser, to_files=False)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
 
 

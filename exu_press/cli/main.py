@@ -7,7 +7,7 @@ import signal
 import sys
 import warnings
 from collections.abc import Sequence
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from importlib import import_module
 from pathlib import Path
 from typing import Any, TextIO
@@ -163,10 +163,20 @@ def _execute(arguments: Sequence[str] | None) -> int:
     remove_abandoned()
     usual, warnings.formatwarning = warnings.formatwarning, _format_warning
     try:
-        with executing(["exu-press", *words]), recorded_files():
+        with executing(["exu-press", *words]), recorded_files(), _drawing(options):
             return int(options.execute(options))
     finally:
         warnings.formatwarning = usual
+
+
+def _drawing(options: argparse.Namespace) -> AbstractContextManager[None]:
+    """Return the block in which pictures are drawn as the options say."""
+    if "width" not in options:
+        return nullcontext()
+    from exu_press.cli.options import picture_format_of
+    from exu_press.plots.format import drawn_as
+
+    return drawn_as(picture_format_of(options))
 
 
 def _format_warning(message: Warning | str, *_: object, **__: object) -> str:

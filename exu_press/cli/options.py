@@ -9,20 +9,21 @@ from pathlib import Path
 from exu_press.errors import InputError
 from exu_press.files.output_directory import folder_name
 from exu_press.mechanism import SHIPPED as MECHANISMS
+from exu_press.plots.format import PictureFormat
 from exu_press.scene import Scene
 from exu_press.schema.checks import demand_known
 
 __all__ = [
     "add_code_argument",
     "add_error_argument",
-    "add_format_argument",
+    "add_picture_arguments",
     "add_run_arguments",
     "add_scene_arguments",
     "add_set_argument",
     "add_study_arguments",
     "add_worker_arguments",
-    "check_format",
     "directory_of",
+    "picture_format_of",
     "scene_of",
     "scene_path",
     "shipped_names",
@@ -45,12 +46,12 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_run_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add --set, --allow-code, --out, --quiet and --no-pictures."""
+    """Add --set, --allow-code, --out, --quiet and those of pictures."""
     add_set_argument(parser, "the scene, as in film.viscosity=0.1")
     add_code_argument(parser)
     parser.add_argument("--out", metavar="DIR", help="where to write (default: out/SCENE)")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
+    add_picture_arguments(parser)
 
 
 def add_code_argument(parser: argparse.ArgumentParser) -> None:
@@ -88,7 +89,7 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
     add_code_argument(parser)
     parser.add_argument("--out", metavar="DIR", help="where to write (default: out/STUDY)")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
+    add_picture_arguments(parser)
 
 
 def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
@@ -100,21 +101,47 @@ def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
     where.add_argument("--dask", metavar="ADDRESS", help="a Dask scheduler, as in tcp://host:8786")
 
 
-def add_format_argument(parser: argparse.ArgumentParser) -> None:
-    """Add --format of pictures."""
+def add_picture_arguments(parser: argparse.ArgumentParser, *, to_files: bool = True) -> None:
+    """Add the arguments of pictures.
+
+    Args:
+        parser: of a command.
+        to_files: whether the command names their files itself, and may leave them out.
+    """
+    if to_files:
+        parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
+        parser.add_argument(
+            "--format", default="png", metavar="FORMAT", help="of pictures: png, svg or pdf"
+        )
     parser.add_argument(
-        "--format", default=".png", metavar="ENDING", help="of pictures: .png, .svg or .pdf"
+        "--width",
+        metavar="WIDTH",
+        help="of pictures on paper, as in 84mm: without heading, in letters of 7 points",
+    )
+    parser.add_argument(
+        "--style", metavar="FILE.mplstyle", help="a matplotlib style, whose settings go before ours"
     )
 
 
-def check_format(options: argparse.Namespace) -> None:
-    """Raise InputError unless pictures can be written in --format."""
-    if options.no_pictures:
-        return
-    from exu_press.files.output_directory import FORMATS
+def picture_format_of(options: argparse.Namespace) -> PictureFormat:
+    """Return how a command draws its pictures; what it does without them.
 
-    if options.format not in FORMATS:
-        raise InputError(f"--format {options.format}: allowed are {', '.join(FORMATS)}")
+    Raises:
+        InputError: one of its options is not allowed.
+    """
+    if "width" not in options or getattr(options, "no_pictures", False):
+        return PictureFormat()
+    chosen = PictureFormat.from_texts(
+        getattr(options, "format", "png"),
+        options.width,
+        options.style,
+        getattr(options, "pictures", "default"),
+    )
+    if chosen.style is not None:
+        from exu_press.plots.style import read_style  # loads matplotlib
+
+        read_style(chosen.style)
+    return chosen
 
 
 def scene_of(options: argparse.Namespace) -> Scene:

@@ -67,6 +67,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="go on from the end of another run, or of the one in a directory, for as long as the "
         "scene says",
     )
+    parser.add_argument(
+        "--pictures",
+        choices=("default", "all"),
+        default="default",
+        help="all: press and energy beside slider, orbit and force",
+    )
     parser.add_argument("--figure", metavar="NAME", help="--within is for this figure alone")
     parser.add_argument(
         "--overwrite",

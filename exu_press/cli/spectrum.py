@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from exu_press.cli.options import add_format_argument, check_format
+from exu_press.cli.options import add_picture_arguments
 from exu_press.errors import InputError
 from exu_press.report.find import Kind, find_output
 from exu_press.result import Result
@@ -29,9 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "boxcar (none); default: none over whole revolutions at constant speed, else flattop",
     )
     parser.add_argument("--out", metavar="DIR", help="where to write (default: beside the run)")
-    add_format_argument(parser)
+    add_picture_arguments(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
 
 
 def execute(options: argparse.Namespace) -> int:
@@ -39,7 +38,6 @@ def execute(options: argparse.Namespace) -> int:
     from exu_press.files.output_directory import output_directory
     from exu_press.studies.spectrum import DEFAULT, marks_of, spectra
 
-    check_format(options)
     kind, file = find_output(Path(options.path), Kind.RUN)
     if kind is not Kind.RUN:
         raise InputError(f"{options.path}: allowed is a run.nc, or the directory that run wrote to")

@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from exu_press.cli.options import (
-    add_format_argument,
     add_scene_arguments,
     add_study_arguments,
     add_worker_arguments,
-    check_format,
     directory_of,
     scene_of,
     show_warnings,
@@ -19,6 +17,7 @@ from exu_press.cli.options import (
 from exu_press.errors import InputError
 from exu_press.files.lock import lock_directory, remove_unused
 from exu_press.files.output_directory import FORMATS, output_directory
+from exu_press.plots.format import picture_format
 from exu_press.studies.base.command import SceneCommand, StudyCommand
 from exu_press.studies.base.report import Report
 from exu_press.studies.base.study import Study
@@ -54,7 +53,6 @@ def command_of(study: type[StudyCommand]) -> Command:
             add_study_arguments(parser)
         if study.uses_workers:
             add_worker_arguments(parser)
-        add_format_argument(parser)
         study.add_arguments(parser)
 
     return Command(study.example, add_arguments, lambda options: _execute(study, options))
@@ -62,7 +60,6 @@ def command_of(study: type[StudyCommand]) -> Command:
 
 def _execute(command: type[StudyCommand], options: argparse.Namespace) -> int:
     """Run the study; return its report's exit status, or 3 after Ctrl-C."""
-    check_format(options)
     if issubclass(command, SceneCommand):
         _refuse_replaced(command, options)
         study: Study = command.study_of(scene_of(options), options)
@@ -106,21 +103,20 @@ def show_report(report: Report, directory: Path, options: argparse.Namespace) ->
     Args:
         report: of a study.
         directory: of its files.
-        options: with `quiet` and `no_pictures`, and `format` of pictures.
+        options: with `quiet` and `no_pictures`.
     """
     report.save(directory)
     if not options.quiet:
         print("\n".join(report.lines()), flush=True)
         show_warnings(report.warnings())
     files = list(report.files)
-    ending = getattr(options, "format", FORMATS[0])
     for picture in report.pictures():
         for old in FORMATS:
             (directory / f"{picture.name}{old}").unlink(missing_ok=True)
         if not options.no_pictures and (figure := picture.draw(report)) is not None:
             from exu_press.plots.file import save_figure
 
-            path = directory / f"{picture.name}{ending}"
+            path = directory / f"{picture.name}{picture_format().ending}"
             files.append(save_figure(figure, path, {"": report.provenance()}).name)
     if not options.quiet:
         print("written:", ", ".join(files), f"in {directory}")

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from exu_press.plots.words import joint_in_words
-from exu_press.quantities.catalogue import CATALOGUE
+from exu_press.quantities.catalogue import CATALOGUE, quantities_of
 from exu_press.quantities.quantity import Owner
 from exu_press.result import Result
 from exu_press.result.channel import AXES, guide_channel
@@ -71,7 +71,9 @@ def curves_of(result: Result) -> list[Curve]:
     used = {curve.channel for curve in of_owners} | {"time", "crank_angle"}
     rest = [name for name in sorted(result.channels) if name not in used]
     peaks = {
-        curve: quantity.name for (owner, curve), quantity in PEAKS.items() if owner is Owner.RUN
+        placed.quantity.curve: name
+        for name, placed in quantities_of(result.scene).items()
+        if placed.quantity.curve and placed.quantity.owner is Owner.RUN
     }
     whole = [curve for name in rest for curve in _plain(result, name, "Mechanism", "", peaks)]
     return [*whole, *of_owners]

@@ -11,6 +11,7 @@ from exu_press.quantities.alternating import LOADS, remove_alternation
 from exu_press.quantities.dead_centre import bottom_dead_centres
 from exu_press.quantities.value import values_of
 from exu_press.result import Result
+from exu_press.result.windows import settled_part
 from exu_press.scene import mechanism_of
 
 __all__ = ["dead_centres", "impacts", "peaks", "values_on"]
@@ -78,15 +79,21 @@ def values_on(result: Result, curve: Curve, *, as_read: bool = False) -> Array:
 
 
 def peaks(result: Result, curves: Iterable[Curve]) -> dict[str, dict[str, Any]]:
-    """Return, by curve, the peak that a quantity states, with its error and its bounds, SI."""
+    """Return, by curve, the peak that a quantity states, with its error and its bounds, SI.
+
+    It is in the part of the run from which quantities are read.
+    """
     values_by_name = values_of(result)
+    read = settled_part(result).time
+    inside = (result.time >= read[0]) & (result.time <= read[-1])
     marks = {}
     for curve in curves:
         value = values_by_name.get(curve.peak)
         if value is None or value.value is None:
             continue
         values = values_on(result, curve, as_read=True)
-        at = int(np.argmin(values) if curve.least else np.argmax(np.abs(values)))
+        sizes = -values if curve.least else np.abs(values)
+        at = int(np.argmax(np.where(inside, sizes, -np.inf)))
         sign = -1.0 if values[at] < 0.0 <= value.value else 1.0
         marks[curve.name] = {
             "at": float(result.time[at]),

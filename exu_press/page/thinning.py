@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array, lengths
+from exu_press.plots.decimate import block_extremes
 
 __all__ = ["MOST_VALUES", "Thinning", "thinning"]
 
@@ -42,26 +43,18 @@ class Thinning:
         """
         if self.every == 1:
             return values
-        blocks = -(-self.count // self.every)
-        missing = blocks * self.every - self.count
-        padded = np.concatenate([values, np.repeat(values[-1:], missing, axis=0)])
-        padded = padded.reshape(blocks, self.every, -1)
-        both = np.sort(np.stack([padded.argmin(axis=1), padded.argmax(axis=1)], axis=1), axis=1)
-        extreme_values = np.take_along_axis(padded, both, axis=1)
-        return np.asarray(extreme_values.reshape(2 * blocks, *values.shape[1:]))
+        flat = values.reshape(self.count, -1)
+        columns = [column[self._extremes_of(column)] for column in flat.T]
+        return np.stack(columns, axis=1).reshape(-1, *values.shape[1:])
 
     def vectors(self, values: Array) -> Array:
         """Return the shortest and the longest vectors (m, k) of blocks, in their order."""
-        if self.every == 1:
-            return values
-        size = lengths(values)
-        blocks = -(-self.count // self.every)
-        padded = np.full(blocks * self.every, size[-1])
-        padded[: self.count] = size
-        table = padded.reshape(blocks, self.every)
-        both = np.sort(np.column_stack([table.argmin(axis=1), table.argmax(axis=1)]), axis=1)
-        steps = both + self.every * np.arange(blocks)[:, None]
-        return np.asarray(values[np.minimum(steps.ravel(), self.count - 1)])
+        return values if self.every == 1 else values[self._extremes_of(lengths(values))]
+
+    def _extremes_of(self, values: Array) -> NDArray[np.intp]:
+        """Return where the extremes of every block are, two a block, in their order."""
+        starts = np.arange(0, self.count, self.every)
+        return np.sort(block_extremes(values, starts), axis=1).ravel()
 
 
 def thinning(counts: list[int], widths: list[int], most: int = MOST_VALUES) -> list[Thinning]:

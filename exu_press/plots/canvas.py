@@ -1,6 +1,6 @@
 """The common parts of all pictures: title, curves over crank angle, legends beside the data."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,9 @@ from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.decimate import decimate
+from exu_press.plots.format import picture_format
 from exu_press.plots.scales import crank_angle_axis
+from exu_press.plots.style import points
 from exu_press.plots.title import figure_with_title
 from exu_press.plots.words import describe, early_stops
 from exu_press.result import Result
@@ -23,22 +25,41 @@ __all__ = [
     "curve",
     "dead_centres",
     "legend_above",
+    "lowest_panels",
     "new_figure",
+    "panel_grid",
 ]
 
 
-def new_figure(heading: str, results: Mapping[str, Result], size: tuple[float, float]) -> Figure:
+def new_figure(
+    heading: str, results: Mapping[str, Result], size: tuple[float, float], *, stacked: bool = True
+) -> Figure:
     """Return a figure without pyplot: heading, scene in words, and why a run stopped early.
 
     Args:
         heading: of the picture.
         results: by label.
-        size: width and height, inch.
+        size: width and height on a screen, inch.
+        stacked: whether its two columns stand below each other in a narrow figure on paper.
     """
     letters = int(12.5 * size[0])
     scenes = [result.scene for result in results.values()]
     lines = [describe(scenes, letters), early_stops(results, letters)]
-    return figure_with_title(heading, "\n".join(filter(None, lines)), size)
+    return figure_with_title(heading, "\n".join(filter(None, lines)), size, stacked=stacked)
+
+
+def panel_grid(figure: Figure, count: int) -> list[Axes]:
+    """Return panels over one crank angle, in two columns row by row; in a narrow figure in one."""
+    width = 1 if picture_format().stacks else 2
+    grid = list(figure.subplots(-(-count // width), width, sharex=True, squeeze=False).flat)
+    for axes in grid[count:]:
+        axes.remove()
+    return grid[:count]
+
+
+def lowest_panels(panels: Sequence[Axes]) -> Sequence[Axes]:
+    """Return the panels of `panel_grid` below which none is."""
+    return panels[-1:] if picture_format().stacks else panels[-2:]
 
 
 def crank_degrees(result: Result) -> Array:
@@ -93,7 +114,12 @@ def dead_centres(results: Mapping[str, Result]) -> dict[str, float]:
 
 
 def curve(axes: Axes, result: Result, values: Array, **line: Any) -> None:
-    """Draw values (n,) over the crank angle; a cross ends the curve of a run that stopped early."""
+    """Draw values (n,) over the crank angle; a cross ends the curve of a run that stopped early.
+
+    Widths of lines are those on a screen.
+    """
+    if "linewidth" in line:
+        line["linewidth"] = points(line["linewidth"])
     angle = crank_degrees(result)
     indices = decimate(angle, values)
     (drawn,) = axes.plot(angle[indices], values[indices], **{"solid_joinstyle": "round", **line})
@@ -102,7 +128,7 @@ def curve(axes: Axes, result: Result, values: Array, **line: Any) -> None:
             angle[-1:],
             values[-1:],
             marker="X",
-            markersize=8,
+            markersize=points(8),
             color=drawn.get_color(),
             markeredgecolor="white",
             clip_on=False,
@@ -112,10 +138,12 @@ def curve(axes: Axes, result: Result, values: Array, **line: Any) -> None:
 
 def legend_above(axes: Axes, columns: int = 4) -> None:
     """Put a panel's legend over its right end, where no data is."""
+    columns = min(columns, 2) if picture_format().stacks and columns > 3 else columns
     axes.legend(
         loc="lower right",
         bbox_to_anchor=(1.0, 1.0),
         ncols=columns,
         columnspacing=1.3,
         handletextpad=0.5,
+        borderpad=0.0,
     )

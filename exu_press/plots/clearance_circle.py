@@ -14,7 +14,7 @@ from matplotlib.ticker import MaxNLocator
 from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import crank_degrees, legend_above
 from exu_press.plots.decimate import visible_segments
-from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, SHADE
+from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, SHADE, points
 from exu_press.result import JointRecord, Result
 
 __all__ = ["TOUCH_COLOUR", "Path", "draw_path"]
@@ -29,12 +29,12 @@ MARGIN = 1.15
 LETTERS = 18
 """Letters of a joint's name that fit in a line beside the legend."""
 
-PIXELS = 300
+PIXELS = 200
 """From the middle of a circle's panel to its edge, at least."""
 
 TOUCH_COLOUR = COLOURS["vermilion"]
 
-SMALL_TEXT: dict[str, Any] = {"fontsize": 8, "fontweight": "normal", "pad": 3}
+SMALL_TEXT: dict[str, Any] = {"fontsize": "small", "fontweight": "normal", "pad": 3}
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ def draw_path(axes: Axes, path: Path) -> LineCollection | None:
         axes.plot(
             *point,
             marker,
-            markersize=6,
+            markersize=points(6),
             markerfacecolor="white",
             markeredgecolor="black",
             zorder=4,
@@ -122,7 +122,9 @@ def draw_path(axes: Axes, path: Path) -> LineCollection | None:
     legend_above(axes)
     if path.ball and path.vertical and not path.small:
         for sign, words in ((1, "ball lifts\nthe slider"), (-1, "ball pushes\nit down")):
-            axes.text(0.1 * limit, 0.5 * sign * limit, words, va="center", fontsize=9, color=GREY)
+            axes.text(
+                0.1 * limit, 0.5 * sign * limit, words, va="center", fontsize=points(9), color=GREY
+            )
     return None if path.vertical else lines
 
 
@@ -134,22 +136,22 @@ def _draw(axes: Axes, path: Path, half: float, linewidth: float) -> LineCollecti
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
     axes.spines[:].set_visible(True)
-    circle = {"radius": path.clearance, "linewidth": 1.2}
+    circle = {"radius": path.clearance, "linewidth": points(1.2)}
     axes.add_patch(Circle((0, 0), **circle, facecolor="white", edgecolor="none", zorder=0.4))
     axes.add_patch(Circle((0, 0), **circle, fill=False, edgecolor=TOUCH_COLOUR, zorder=1.8))
     for line in (axes.axhline, axes.axvline):
         line(0.0, color="#D0D0D0", linewidth=0.6, zorder=0.6)
-    angle, points = crank_degrees(path.result), path.points
-    segments = visible_segments(points, half / PIXELS)
+    angle, places = crank_degrees(path.result), path.points
+    segments = visible_segments(places, half / PIXELS)
     lines = LineCollection(
-        list(points[segments]),
+        list(places[segments]),
         norm=Normalize(angle[0], max(angle[-1], angle[0] + 1e-3)),
-        linewidths=linewidth,
+        linewidths=points(linewidth),
         capstyle="round",
         zorder=2,
     )
     if path.vertical:
-        lines.set(color=RUN, linewidths=2.0)
+        lines.set(color=RUN, linewidths=points(2.0))
     else:
         lines.set(cmap=PATH_COLOURS, array=angle[segments].mean(axis=1))
     axes.add_collection(lines)

@@ -5,10 +5,10 @@ from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["BINS", "decimate", "distance_travelled", "visible_segments"]
+__all__ = ["BINS", "block_extremes", "decimate", "distance_travelled", "visible_segments"]
 
-BINS = 1500
-"""About two bins a pixel in a panel over half a picture's width."""
+BINS = 900
+"""About a bin a pixel in a panel over half a picture's width."""
 
 
 def decimate(x: Array, *curves: Array, bins: int = BINS) -> NDArray[np.intp]:
@@ -32,11 +32,26 @@ def decimate(x: Array, *curves: Array, bins: int = BINS) -> NDArray[np.intp]:
     bin_of = np.minimum((path_length / (path_length[-1] / bins or 1.0)).astype(int), bins - 1)
     starts = np.flatnonzero(np.diff(bin_of, prepend=-1))
     ends = np.append(starts[1:], count) - 1
-    indices = [starts, ends]
-    for curve in curves:
-        order = np.lexsort((curve, bin_of))
-        indices += [order[starts], order[ends]]
-    return np.unique(np.concatenate(indices))
+    extremes = [block_extremes(curve, starts).ravel() for curve in curves]
+    return np.unique(np.concatenate([starts, ends, *extremes]))
+
+
+def block_extremes(values: Array, starts: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return where the least and the largest values of blocks are.
+
+    Args:
+        values: (n,).
+        starts: of the blocks, (m,), increasing; the first is 0.
+
+    Returns:
+        (m, 2) indices into the values, the least first; of equal values the first one.
+    """
+    block_of = np.repeat(np.arange(len(starts)), np.diff(np.append(starts, len(values))))
+    columns = []
+    for extreme in (np.minimum, np.maximum):
+        reached = np.flatnonzero(values == extreme.reduceat(values, starts)[block_of])
+        columns.append(reached[np.unique(block_of[reached], return_index=True)[1]])
+    return np.stack(columns, axis=1)
 
 
 def distance_travelled(x: Array) -> Array:

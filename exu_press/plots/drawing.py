@@ -18,7 +18,7 @@ from exu_press.mechanism.stroke import units_of_output
 from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
-from exu_press.plots.style import GREY, RUN, colour_of, with_style
+from exu_press.plots.style import GREY, RUN, colour_of, points, with_style
 from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain, shorten, wrap_text
 
@@ -96,7 +96,7 @@ def _draw(axes: Axes, examined: Examination) -> None:
             colour = WRONG if name in examined.wrong_bodies else GREY
             outline = shapes[name].outline_at(pose)
             axes.add_patch(Polygon(outline, fill=False, edgecolor=colour, linestyle="--"))
-    axes.set_title(_complaints(examined), color=WRONG, fontsize=9.5, fontweight="normal")
+    axes.set_title(_complaints(examined), color=WRONG, fontsize=points(9.5), fontweight="normal")
     for joint in mechanism.joints:
         colour = WRONG if joint.name in examined.wrong_joints else EDGE
         style = "s" if joint.on_frame else "o"
@@ -187,7 +187,7 @@ def _column(
             lines[name],
             (float(at[0]), float(at[1])),
             (x, y),
-            fontsize=8.5,
+            fontsize=points(8.5),
             color=colour,
             ha=side,
             va="center",

@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.plots.busiest import joint_titles
-from exu_press.plots.canvas import angle_axis, curve, legend_above, new_figure
+from exu_press.plots.canvas import angle_axis, curve, legend_above, new_figure, panel_grid
+from exu_press.plots.format import picture_format
 from exu_press.plots.scales import note
 from exu_press.plots.style import COLOURS, GREY, colour_of, with_style
 from exu_press.plots.typesetting import shorten
@@ -44,10 +45,15 @@ def energy_figure(result: Result) -> Figure:
     """
     figure = new_figure("Energy balance since the start", {"": result}, (13.0, 6.4))
     dissipates = any(name.endswith("_loss") for name in result)
-    right = [["losses"], ["residual"]] if dissipates else [["residual"]]
-    panels = figure.subplot_mosaic(
-        [["balance", *row] for row in right], sharex=True, width_ratios=(1.25, 1.0)
-    )
+    right = ["losses", "residual"] if dissipates else ["residual"]
+    if picture_format().stacks:
+        names = ["balance", *right]
+        panels = dict(zip(names, panel_grid(figure, len(names)), strict=True))
+        lowest = [panels["residual"]]
+    else:
+        rows: Any = [["balance", name] for name in right]
+        panels = figure.subplot_mosaic(rows, sharex=True, width_ratios=(1.25, 1.0))
+        lowest = [panels["balance"], panels["residual"]]
     for name, line in BALANCE_LINES.items():
         if dissipates or name != "energy_dissipated":
             curve(panels["balance"], result, result[name], **({"linewidth": 1.6} | line))
@@ -57,7 +63,7 @@ def energy_figure(result: Result) -> Figure:
     if dissipates:
         _losses(panels["losses"], result)
         panels["losses"].tick_params(labelbottom=False)
-    angle_axis(panels.values(), {"": result}, [panels["balance"], panels["residual"]])
+    angle_axis(panels.values(), {"": result}, lowest)
     return figure
 
 

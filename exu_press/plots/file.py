@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+from matplotlib import rcParams
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
@@ -15,10 +16,11 @@ from PIL.PngImagePlugin import PngInfo
 
 from exu_press.errors import InputError
 from exu_press.files.output_directory import FORMATS, replacing
+from exu_press.plots.format import picture_format
 from exu_press.plots.style import DPI, look
 from exu_press.scene.provenance import Provenance, provenance_of
 
-__all__ = ["check_picture", "png_texts", "save_figure", "save_figures"]
+__all__ = ["check_picture", "png_texts", "read_sources", "save_figure", "save_figures"]
 
 
 def check_picture(path: Path) -> None:
@@ -42,19 +44,18 @@ def save_figure(
         sources: provenance of what it shows, by label; it goes into the file's metadata.
     """
     figure.set_layout_engine("none")  # it has been laid out; not again
-    figure.set_dpi(DPI)
     kind = path.suffix.lower().removeprefix(".")
-    with replacing(path) as partial:
+    with look(), replacing(path) as partial:
+        dpi = rcParams["savefig.dpi"]
+        figure.set_dpi(DPI if dpi == "figure" else dpi)
         if kind != "png":
-            with look():
-                figure.savefig(partial, format=kind, metadata=_metadata(kind, sources))
+            figure.savefig(partial, format=kind, metadata=_metadata(kind, sources))
             return path
         canvas: Any = FigureCanvasAgg(figure)
-        with look():
-            canvas.draw()
+        canvas.draw()
         image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
-        texts = png_texts(sources)
-        image.save(partial, format="png", dpi=(DPI, DPI), compress_level=4, pnginfo=texts)
+        texts, dots = png_texts(sources), (figure.dpi, figure.dpi)
+        image.save(partial, format="png", dpi=dots, compress_level=4, pnginfo=texts)
     return path
 
 
@@ -65,6 +66,15 @@ def png_texts(sources: Mapping[str, Provenance]) -> PngInfo:
     texts.add_text("Creation Time", drawn["date"])
     texts.add_text("Description", _description(drawn, sources))
     return texts
+
+
+def read_sources(path: Path) -> Any:
+    """Return the provenance of what a PNG file shows, by label; None where it does not say."""
+    try:
+        with Image.open(path) as image:
+            return json.loads(image.info["Description"])["sources"]
+    except (OSError, ValueError, KeyError, TypeError, Image.DecompressionBombError):
+        return None
 
 
 def _description(drawn: Provenance, sources: Mapping[str, Provenance]) -> str:
@@ -93,6 +103,6 @@ def save_figures(
 ) -> list[Path]:
     """Write each figure under its name and return the files; `sources` as of `save_figure`."""
     return [
-        save_figure(figure, Path(directory) / f"{name}{FORMATS[0]}", sources)
+        save_figure(figure, Path(directory) / f"{name}{picture_format().ending}", sources)
         for name, figure in figures.items()
     ]

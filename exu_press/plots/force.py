@@ -7,9 +7,16 @@ from matplotlib.figure import Figure
 from exu_press.mechanism import GROUND
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.plots.busiest import busiest
-from exu_press.plots.canvas import angle_axis, crank_degrees, curve, new_figure
+from exu_press.plots.canvas import (
+    angle_axis,
+    crank_degrees,
+    curve,
+    lowest_panels,
+    new_figure,
+    panel_grid,
+)
 from exu_press.plots.peaks import mark_peak
-from exu_press.plots.scales import impact_scale, note
+from exu_press.plots.scales import contain_bars, impact_scale, note
 from exu_press.plots.style import colour_of, with_style
 from exu_press.plots.typesetting import plain
 from exu_press.quantities.catalogue import GUIDE_FORCE, JOINT_FORCE, PEAK_TORQUE
@@ -38,9 +45,7 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     figure = new_figure(heading, results, (13.0, 7.6))
     panel_of = {title: (f"{name}_force", "force, kN", 1e-3) for name, title in drawn.items()}
     panel_of["Drive torque"] = "drive_torque", "torque, N m", 1.0
-    rows = -(-len(panel_of) // 2)
-    grid = figure.subplots(rows, 2, sharex=True, squeeze=False)
-    panels = list(grid.flat)[: len(panel_of)]
+    panels = panel_grid(figure, len(panel_of))
     for axes, (title, (channel, unit, scale)) in zip(panels, panel_of.items(), strict=True):
         curves, peaks = [], []
         for index, (label, result) in enumerate(results.items()):
@@ -53,15 +58,14 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
                 peaks.append(mark_peak(axes, result, figure_name, magnitude, scale, colour))
         signed = any(values.min() < -1e-3 * values.max() for _, values in curves)
         words = impact_scale(axes, curves, signed=signed)
+        contain_bars(axes)
         note(axes, *(peaks if len(results) == 1 else ()), words)
         axes.set(title=title, ylabel=unit)
-    for axes in list(grid.flat)[len(panel_of) :]:
-        axes.remove()
-    angle_axis(panels, results, panels[-2:])
+    angle_axis(panels, results, lowest_panels(panels))
     if len(results) > 1:
         handles, labels = panels[-1].get_legend_handles_labels()
         for handle in handles:
-            handle.set_linewidth(1.0)
+            handle.set(linewidth=1.0)
         figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
     return figure
 

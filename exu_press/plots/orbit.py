@@ -9,6 +9,7 @@ from exu_press.errors import InputError
 from exu_press.plots.busiest import busiest, draw_rest
 from exu_press.plots.canvas import angle_axis, angle_range, curve, legend_above, new_figure
 from exu_press.plots.clearance_circle import TOUCH_COLOUR, Path, draw_path
+from exu_press.plots.format import picture_format
 from exu_press.plots.scales import angle_ticks, note
 from exu_press.plots.style import GREY, RUN, SHADE, with_style
 from exu_press.result import Result
@@ -42,21 +43,41 @@ def orbit_figure(result: Result) -> Figure:
     lines_of_rest = LINE * (len(rest) + 2) if rest else 0.0
     height = 1.3 + ROW * len(paths) + lines_of_rest
     figure = new_figure("Journal and ball centres in their clearance", {"": result}, (13.0, height))
-    heights = [ROW] * len(paths) + [lines_of_rest] * bool(rest)
-    grid = figure.subplots(
-        len(heights), 3, squeeze=False, width_ratios=(0.03, 1.0, 1.8), height_ratios=heights
-    )
+    circles, colours, over_angle, table = _panels(figure, len(paths), lines_of_rest)
     if rest:
-        for axes in grid[-1]:
-            axes.set_axis_off()
-        draw_rest(grid[-1, 1], result, rest, 9.5)
-        grid = grid[:-1]
+        draw_rest(table[0], result, rest, 9.5)
     for row, path in enumerate(paths):
-        lines = draw_path(grid[row, 1], path)
-        _angle_colours(figure, grid[row, 0], lines, result)
-        _over_angle(grid[row, 2], result, path)
-    angle_axis(grid[:, 2], {"": result}, [grid[-1, 2]])
+        lines = draw_path(circles[row], path)
+        _angle_colours(figure, colours[row], lines, result)
+        _over_angle(over_angle[row], result, path)
+    angle_axis(over_angle, {"": result}, over_angle[-1:])
     return figure
+
+
+def _panels(
+    figure: Figure, paths: int, lines_of_rest: float
+) -> tuple[list[Axes], list[Axes], list[Axes], list[Axes]]:
+    """Return panels of circles, their colours, curves over the angle, and the table of the rest.
+
+    A row has them beside each other; in a narrow figure curves stand below their circle.
+    """
+    rest = bool(lines_of_rest)
+    if picture_format().stacks:
+        heights = [1.6 * ROW, ROW] * paths + [lines_of_rest] * rest
+        grid = figure.add_gridspec(len(heights), 2, width_ratios=(0.03, 1.0), height_ratios=heights)
+        cells = [(grid[2 * row, 0], grid[2 * row, 1], grid[2 * row + 1, :]) for row in range(paths)]
+    else:
+        heights = [ROW] * paths + [lines_of_rest] * rest
+        grid = figure.add_gridspec(
+            len(heights), 3, width_ratios=(0.03, 1.0, 1.8), height_ratios=heights
+        )
+        cells = [(grid[row, 0], grid[row, 1], grid[row, 2]) for row in range(paths)]
+    rows = [[figure.add_subplot(cell) for cell in row] for row in cells]
+    colours, circles, curves = (list(column) for column in zip(*rows, strict=True))
+    table = [figure.add_subplot(grid[-1, -1 if picture_format().stacks else 1 :])]
+    if not lines_of_rest:
+        table.pop().remove()
+    return circles, colours, curves, table
 
 
 def _angle_colours(

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import crank_degrees
-from exu_press.plots.style import colour_of
+from exu_press.plots.style import colour_of, points
 from exu_press.quantities.uncertain import uncertain
 from exu_press.quantities.value import Value
 from exu_press.result import Result
@@ -54,14 +54,16 @@ def mark_peak(
     read = settled_part(result).time
     inside = (result.time >= read[0]) & (result.time <= read[-1])
     highest = int(np.argmax(np.where(inside, np.abs(values), 0.0)))
-    ends = np.array([error["low"], error["high"]]) * np.copysign(scale, values[highest])
+    size, sign = abs(scale * values[highest]), np.copysign(1.0, values[highest])
+    low, high = scale * error["low"], scale * error["high"]  # of the magnitude
+    bars = np.maximum([size - low, high - size], 0.0)[:: int(sign)]
     axes.errorbar(
         crank_degrees(result)[highest],
-        scale * values[highest],
-        np.abs(ends - scale * values[highest])[:, None],
+        sign * size,
+        bars[:, None],
         color=colour,
-        capsize=3.0,
-        linewidth=1.4,
+        capsize=points(3.0),
+        linewidth=points(1.4),
         zorder=4,
     )
     # the figure itself: of means over 1 ms, a curve drawn at the run's instants meets it nearly

@@ -18,8 +18,9 @@ from exu_press.plots.canvas import (
     legend_above,
     new_figure,
 )
+from exu_press.plots.format import picture_format
 from exu_press.plots.peaks import mark_peak, with_error
-from exu_press.plots.scales import note, widen
+from exu_press.plots.scales import contain_bars, note, widen
 from exu_press.plots.slider import sliding_mean
 from exu_press.plots.style import GREY, IDEAL, colour_of, with_style
 from exu_press.plots.words import joint_in_words
@@ -72,7 +73,8 @@ def press_figure(result: Result) -> Figure:
     rows = math.ceil((4 + bool(loads) + motor + 2 * elastic) / 2)
     heading = "Frame, drive, guides, dead centres"
     figure = new_figure(heading, {"": result}, (13.0, 3.6 * rows))
-    shaking, drive, guides, strokes, *further_panels = figure.subplots(rows, 2).flat
+    shape = (2 * rows, 1) if picture_format().stacks else (rows, 2)
+    shaking, drive, guides, strokes, *further_panels = figure.subplots(*shape).flat
     _shaking(shaking, result)
     _drive(drive, result)
     _guides(guides, result)
@@ -160,9 +162,11 @@ def _draw(
             curve(axes, result, mean, color=colour_of(index), linewidth=1.1, label=label)
             if figures:
                 mark_peak(axes, result, figures[index], 1e3 * mean, 1e-3, colour_of(index))
+    contain_bars(axes)
     if len(curves) > 1:
         rows = 1 if len(curves) < 5 else 2  # beside the panel's title
-        legend_above(axes, columns=math.ceil(len(curves) / rows))
+        columns = math.ceil(len(curves) / rows)
+        legend_above(axes, columns=2 if picture_format().stacks else columns)
 
 
 def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:

@@ -1,41 +1,56 @@
-"""All pictures of a run or a comparison, as PNG files."""
+"""The pictures of a run or a comparison, as files."""
 
 from collections.abc import Mapping
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from exu_press.plots.energy import energy_figure
-from exu_press.plots.file import save_figures
+from exu_press.plots.file import read_sources, save_figures
 from exu_press.plots.force import force_figure
+from exu_press.plots.format import picture_format
 from exu_press.plots.orbit import orbit_figure
-from exu_press.plots.press import press_figure
 from exu_press.plots.slider import slider_figure
 from exu_press.quantities.energy import has_balance
 from exu_press.result import Result
 from exu_press.scene.provenance import Provenance
 
-__all__ = ["comparison_figures", "save_comparison", "save_pictures", "sources_of"]
+__all__ = ["comparison_figures", "drawn_pictures", "save_comparison", "save_pictures", "sources_of"]
+
+RUN = "simulated"
+"""Label of a run that is drawn alone."""
 
 
 def save_pictures(result: Result, directory: str | Path) -> list[Path]:
-    """Draw everything about one run; return the files: slider, orbit, force, press, energy .png.
+    """Draw slider, orbit and force of one run, with errors of their peaks; return the files.
 
-    There is no orbit.png of a scene without clearance joints, and no energy.png where the user's
-    own items leave no balance. `directory` must exist.
+    Where the picture format asks for everything, press and energy too. There is no orbit of a scene
+    without clearance joints, and no energy where the user's own items leave no balance.
+    `directory` must exist.
 
     Raises:
         InputError: a file cannot be written.
     """
-    run = {"simulated": result}
+    run = {RUN: result}
     figures = {"slider": slider_figure(run)}
     if result.clearance_joints:
         figures["orbit"] = orbit_figure(result)
     figures["force"] = force_figure(run)
-    figures["press"] = press_figure(result)
-    if has_balance(result):
-        figures["energy"] = energy_figure(result)
+    if picture_format().everything:
+        from exu_press.plots.energy import energy_figure
+        from exu_press.plots.press import press_figure
+
+        figures["press"] = press_figure(result)
+        if has_balance(result):
+            figures["energy"] = energy_figure(result)
     return save_figures(figures, directory, sources_of(run))
+
+
+def drawn_pictures(result: Result, directory: Path) -> list[Path]:
+    """Return the PNG files of `save_pictures` in a directory, if all are there and of this run."""
+    names = ["slider", *(["orbit"] if result.clearance_joints else []), "force"]
+    files = [directory / f"{name}.png" for name in names]
+    sources = sources_of({RUN: result})
+    return files if sources and all(read_sources(file) == sources for file in files) else []
 
 
 def comparison_figures(results: Mapping[str, Result]) -> dict[str, Figure]:

@@ -9,9 +9,17 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.decimate import distance_travelled
-from exu_press.plots.style import GREY, SHADE
+from exu_press.plots.style import GREY, SHADE, points
 
-__all__ = ["angle_ticks", "crank_angle_axis", "impact_scale", "log_axis", "note", "spread", "widen"]
+__all__ = [
+    "angle_ticks",
+    "crank_angle_axis",
+    "impact_scale",
+    "log_axis",
+    "note",
+    "spread",
+    "widen",
+]
 
 TICK_STEPS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360)  # deg
 MOST_CENTRES = 100
@@ -22,6 +30,9 @@ TOO_CLOSE = 0.6
 
 SLACK = 1e-4
 """Distance over an axis' length by which a tick may lie beyond its ends."""
+
+BEYOND = 1.05
+"""Share of an error bar's end to which an axis goes."""
 
 DWARFED = 6.0
 """An axis is logarithmic where its peak is more than this times the 90th percentile of values."""
@@ -120,9 +131,17 @@ def widen(axes: Axes, least: float) -> None:
 
 def note(axes: Axes, *texts: str) -> None:
     """Write notes on the scale over a panel's right end; empty texts are left out."""
-    axes.set_title(
-        "; ".join(filter(None, texts)), loc="right", fontsize=8.5, fontweight="normal", color=GREY
-    )
+    words = "; ".join(filter(None, texts))
+    axes.set_title(words, loc="right", fontsize=points(8.5), fontweight="normal", color=GREY)
+
+
+def contain_bars(axes: Axes) -> None:
+    """Let the values' axis reach as far as error bars do."""
+    bars = [container[2][0] for container in axes.containers]
+    ends = [end for lines in bars for segment in lines.get_segments() for end in segment[:, 1]]
+    if ends:
+        low, high = axes.get_ylim()
+        axes.set_ylim(min(low, BEYOND * min(ends)), max(high, BEYOND * max(ends)))
 
 
 def _log_ticks(above: float, top: float, *, signed: bool) -> Array:

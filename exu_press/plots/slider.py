@@ -1,6 +1,7 @@
 """The slider's motion over crank angle, against the ideal mechanism."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -8,11 +9,19 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.canvas import angle_axis, crank_degrees, curve, new_figure
+from exu_press.numerics.piecewise import evaluate, hermite
+from exu_press.plots.canvas import (
+    angle_axis,
+    crank_degrees,
+    curve,
+    lowest_panels,
+    new_figure,
+    panel_grid,
+)
 from exu_press.plots.decimate import decimate
 from exu_press.plots.peaks import mark_peaks
-from exu_press.plots.scales import impact_scale, note, widen
-from exu_press.plots.style import IDEAL, colour_of, with_style
+from exu_press.plots.scales import contain_bars, impact_scale, note, widen
+from exu_press.plots.style import IDEAL, colour_of, points, with_style
 from exu_press.plots.typesetting import plain
 from exu_press.quantities.catalogue import MEAN_ACCELERATION, PEAK_ACCELERATION
 from exu_press.quantities.slider import of_output
@@ -29,6 +38,10 @@ WINDOW = 1e-3
 
 MOST_OF_IDEAL = 8.0
 """The averaged acceleration's panel ends at this multiple of the ideal peak, and says so."""
+
+KNOTS = 720
+"""Crank angles of a revolution at which the ideal motion of a longer record is solved; cubics are
+between them."""
 
 IDEAL_NAME = "ideal mechanism"
 
@@ -50,7 +63,8 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     its deviation from the ideal (um, mm/s) and the acceleration as resolved, impacts and all.
     """
     figure = new_figure("Slider motion against the ideal mechanism", results, (13.0, 8.6))
-    panels = figure.subplots(3, 2, sharex=True)
+    grid = panel_grid(figure, 6)
+    panels: Any = np.array(grid).reshape(3, 2)
     output = mechanism_of(next(iter(results.values())).scene).output
     ideals = {label: _ideal(result) for label, result in results.items()}
     for index, (label, result) in enumerate(results.items()):
@@ -64,8 +78,10 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     resolved = [(crank_degrees(r), r["slider_acceleration"]) for r in results.values()]
     scale = impact_scale(panels[2, 1], resolved, signed=True)
     peaks = {label: (r, r["slider_acceleration"]) for label, r in results.items()}
-    note(panels[2, 1], mark_peaks(panels[2, 1], peaks, of_output(PEAK_ACCELERATION, output)), scale)
-    angle_axis(panels.flat, results, panels[2])
+    words = mark_peaks(panels[2, 1], peaks, of_output(PEAK_ACCELERATION, output))
+    contain_bars(panels[2, 1])
+    note(panels[2, 1], words, scale)
+    angle_axis(grid, results, lowest_panels(grid))
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
     return figure
@@ -91,7 +107,12 @@ def _draw_ideals(
     for label in sorted(results, key=lambda label: float(np.ptp(results[label]["crank_angle"]))):
         scene = results[label].scene
         longest[scene.mechanism, scene.press, scene.slider_crank, scene.speed_rpm] = label
-    line = {"color": IDEAL, "linewidth": 1.1, "linestyle": (0, (4, 2)), "zorder": 3}
+    line: dict[str, Any] = {
+        "color": IDEAL,
+        "linewidth": points(1.1),
+        "linestyle": (0, (4, 2)),
+        "zorder": 3,
+    }
     for number, label in enumerate(longest.values()):
         angle = crank_degrees(results[label])
         drawn = decimate(angle, *ideals[label])
@@ -108,8 +129,17 @@ def _draw_ideals(
 
 def _ideal(result: Result) -> Motion:
     """Return position (m), velocity and acceleration of the ideal slider, (n,) each."""
-    scene = result.scene
-    return mechanism_of(scene).ideal_slider(result["crank_angle"], scene.angular_speed)
+    scene, angle = result.scene, result["crank_angle"]
+    if len(angle) <= KNOTS:
+        return mechanism_of(scene).ideal_slider(angle, scene.angular_speed)
+    knots = np.linspace(0.0, 2.0 * np.pi, KNOTS + 1)
+    position, velocity, acceleration = mechanism_of(scene).ideal_slider(knots, scene.angular_speed)
+    at, time = (np.mod(angle, 2.0 * np.pi) / scene.angular_speed, knots / scene.angular_speed)
+    return (
+        evaluate(time, hermite(time, position, velocity), at),
+        evaluate(time, hermite(time, velocity, acceleration), at),
+        np.interp(at, time, acceleration),
+    )
 
 
 def sliding_mean(time: Array, velocity: Array) -> Array:
@@ -140,4 +170,5 @@ def _scale_averaged(
         axes.set_ylim(-limit, limit)
         note(axes, peak_words or f"peaks reach {peak:.0f} {output.unit}/s²", "clipped")
     else:
+        contain_bars(axes)
         note(axes, peak_words)

@@ -1,14 +1,21 @@
 """The look of every picture: light, printable, readable by the colour-blind; no global state."""
 
+import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import wraps
+from functools import cache, wraps
+from pathlib import Path
 from typing import Any, ParamSpec
 
 import matplotlib
 import matplotlib.style
 from matplotlib.colors import Colormap, ListedColormap
 from matplotlib.figure import Figure
+
+from exu_press.errors import InputError
+from exu_press.files.digests import note_content
+from exu_press.plots.format import picture_format
+from exu_press.plots.headings import separate_headings
 
 __all__ = [
     "COLOURS",
@@ -20,6 +27,8 @@ __all__ = [
     "SHADE",
     "colour_of",
     "look",
+    "points",
+    "read_style",
     "with_style",
 ]
 
@@ -27,15 +36,22 @@ Parameters = ParamSpec("Parameters")
 
 DPI = 150
 
+PRINTED_DPI = 600
+"""Of a PNG with a width on paper."""
+
+SCREEN_SIZE, PRINTED_SIZE = 9.5, 7.0
+"""Letters, points."""
+
 COLOURS = {
-    "blue": "#0072B2",
-    "vermilion": "#D55E00",
-    "green": "#009E73",
-    "purple": "#CC79A7",
-    "orange": "#E69F00",
-    "sky blue": "#56B4E9",
+    "blue": "#005A9E",
+    "vermilion": "#C84E00",
+    "green": "#2BA84A",
+    "purple": "#430B55",
+    "orange": "#F9C74F",
+    "sky blue": "#6FB7EE",
 }
-"""Okabe and Ito's colour-blind-safe palette, less black (the ideal's) and yellow (too pale)."""
+"""Hues of Okabe and Ito's colour-blind-safe palette, less black (the ideal's) and yellow (too
+pale), with lightnesses apart from each other, for grey prints."""
 
 RUN = COLOURS["blue"]
 IDEAL = "#000000"
@@ -68,7 +84,7 @@ LOOK: dict[str, Any] = {
     "figure.dpi": DPI,
     "figure.facecolor": "white",
     "font.family": "DejaVu Sans",  # comes with matplotlib: the same picture everywhere
-    "font.size": 9.5,
+    "font.size": SCREEN_SIZE,
     "grid.color": "#E3E3E3",
     "grid.linewidth": 0.6,
     "legend.borderaxespad": 0.2,
@@ -76,7 +92,9 @@ LOOK: dict[str, Any] = {
     "legend.frameon": False,
     "legend.handlelength": 1.8,
     "lines.linewidth": 1.2,
+    "pdf.fonttype": 42,
     "savefig.dpi": DPI,
+    "svg.fonttype": "none",  # text stays text
     "xtick.color": "#4D4D4D",
     "xtick.labelcolor": "black",
     "xtick.labelsize": 9.0,
@@ -86,11 +104,59 @@ LOOK: dict[str, Any] = {
 }
 
 
+def _paper_settings(width: float) -> dict[str, Any]:
+    """Return the settings of a figure of a width on paper, inch."""
+    scale = PRINTED_SIZE / SCREEN_SIZE
+    sizes = {name: scale * LOOK[name] for name in LOOK if name.endswith(("size", "linewidth"))}
+    pads = {f"figure.constrained_layout.{side}_pad": 0.03 for side in "hw"}
+    return {**sizes, **pads, "savefig.dpi": PRINTED_DPI, "legend.handlelength": 1.4}
+
+
 @contextmanager
 def look() -> Iterator[None]:
-    """Draw with our look inside the block, on matplotlib's defaults; leave the user's alone."""
-    with matplotlib.style.context(["default", LOOK]):
+    """Draw with our look inside the block, on matplotlib's defaults; leave the user's alone.
+
+    The settings of a style file that the format names go before ours.
+
+    Raises:
+        InputError: the style file is none.
+    """
+    form = picture_format()
+    styles: list[Any] = ["default", LOOK]
+    styles += [] if form.width is None else [_paper_settings(form.width)]
+    if form.style is not None:
+        styles.append(read_style(form.style))
+    with matplotlib.style.context(styles):
         yield
+
+
+@cache
+def read_style(path: Path) -> dict[str, Any]:
+    """Return the settings of a style file."""
+    note_content(path, path.read_bytes())
+    complaints: list[str] = []
+
+    def collect(record: logging.LogRecord) -> bool:
+        complaints.append(record.getMessage())
+        return False
+
+    logger = logging.getLogger("matplotlib")  # where it reports keys and values that are none
+    logger.addFilter(collect)
+    try:
+        settings: Any = matplotlib.rc_params_from_file(path, use_default_template=False)
+    except (OSError, ValueError) as error:
+        complaints.append(str(error))
+    finally:
+        logger.removeFilter(collect)
+    if complaints:
+        text = " ".join(complaints[0].split())
+        raise InputError(f"--style {path}: is no matplotlib style ({text:.200})")
+    return dict(settings)
+
+
+def points(size: float) -> float:
+    """Return a size of letters or marks, points, as the style scales it from that on a screen."""
+    return size * float(matplotlib.rcParams["font.size"]) / SCREEN_SIZE
 
 
 def with_style(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figure]:
@@ -103,6 +169,7 @@ def with_style(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figur
     def inner(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Figure:
         with look():
             figure = draw(*args, **kwargs)
+            separate_headings(figure)
             if (engine := figure.get_layout_engine()) is not None:
                 engine.execute(figure)
             return figure

@@ -68,7 +68,9 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
     if kind is Kind.RUN:
         from exu_press.report.run import run_report
 
-        return run_report(Result.load(file), f"{file.resolve().parent.name}/{file.name}", span)
+        return run_report(
+            Result.load(file), f"{file.resolve().parent.name}/{file.name}", span, file.parent
+        )
     if kind is Kind.COMPARISON:
         from exu_press.report.comparison import comparison_report
 

@@ -1,6 +1,7 @@
 """The report of one run."""
 
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ from matplotlib.figure import Figure
 from exu_press.page import Live
 from exu_press.page.viewer import viewer
 from exu_press.plots import save_pictures
+from exu_press.plots.save import drawn_pictures
 from exu_press.plots.words import ONE_LINE, describe, joint_in_words
 from exu_press.quantities import Quantity, value_of
 from exu_press.quantities.catalogue import CATALOGUE
@@ -83,13 +85,14 @@ MOST_NUMBERS = 4
 """Numbers of a list that are shown one by one."""
 
 
-def run_report(result: Result, source: str, span: Span = ALL) -> str:
+def run_report(result: Result, source: str, span: Span = ALL, directory: Path | None = None) -> str:
     """Return the page of a run.
 
     Args:
         result: of the run.
         source: name of its file, to be shown.
         span: begin and end of its curves, s; None: those of the record.
+        directory: in which its pictures may be already.
     """
     summary = result.summary()
     numbers = with_headings(quantity_cells({"": result}))
@@ -102,7 +105,7 @@ def run_report(result: Result, source: str, span: Span = ALL) -> str:
             ("In motion", live),
             ("Warnings", warnings(warnings_of(summary))),
             ("Results", table(("quantity", "value"), numbers) + joint_table(result)),
-            ("Pictures", stills(_pictures(result), live)),
+            ("Pictures", stills(_pictures(result, directory), live)),
             ("Energy and solver", _energy_and_solver(result)),
             ("Provenance", provenance_section({"": result.info.get("provenance")})),
             *scene_parts(result.scene),
@@ -158,8 +161,11 @@ def warnings_of(summary: Mapping[str, Any]) -> list[str]:
     return [*ended, *summary["warnings"]]
 
 
-def _pictures(result: Result) -> str:
-    """Return every picture of a run, the mechanism at the slider's largest acceleration first."""
+def _pictures(result: Result, directory: Path | None) -> str:
+    """Return the pictures of a run, the mechanism at the slider's largest acceleration first.
+
+    Those are taken that the run has drawn, if its provenance is in them.
+    """
     peak = float(result.time[int(np.argmax(np.abs(result["slider_acceleration"])))])
     with TemporaryFolder() as folder:
         animation = Animation(result, moment(result, peak), Figure(figsize=SIZE))
@@ -168,7 +174,8 @@ def _pictures(result: Result) -> str:
         if result.scene.press is None:
             caption = caption.replace("press", "mechanism", 1)
         pictures = [picture(still, caption)]
-        for path in save_pictures(result, folder):
+        drawn = [] if directory is None else drawn_pictures(result, directory)
+        for path in drawn or save_pictures(result, folder):
             pictures.append(picture(path, CAPTIONS.get(path.stem, path.stem)))
     return "\n".join(pictures)
 

@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 
+from exu_press import Scene, simulate
 from exu_press.page.blocks import Blocks
 from exu_press.page.curves import PEAKS, curves_of
 from exu_press.page.marks import impacts, peaks, values_on
@@ -70,3 +71,12 @@ def test_a_block_is_unpacked_as_the_script_does():
     ordered = np.frombuffer(gzip.decompress(base64.b64decode(packed)), np.uint8)
     back = np.ascontiguousarray(ordered.reshape(8, -1).T).view("<f8").reshape(told["columns"], -1)
     assert (values == back.T).all()
+
+
+def test_peaks_are_marked_in_the_part_that_is_read():
+    scene = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "start": "centred"}
+    run = simulate(Scene.from_dict({**scene, "revolutions": 0.3, "settle": 0.25}))
+    assert np.abs(run["drive_torque"]).argmax() < np.searchsorted(run["crank_angle"], np.pi / 2)
+    marks = peaks(run, curves_of(run))
+    begin = float(np.interp(np.pi / 2, run["crank_angle"], run.time))
+    assert marks["drive_torque"] and all(m["at"] >= begin * (1 - 1e-9) for m in marks.values())

@@ -47,6 +47,25 @@ def test_peaks_have_error_bars_and_say_how_large(told, results):
     assert any("±" in note for note in notes(press_figure(told)))
 
 
+def test_bars_have_their_bounds_at_the_peak_s_side_and_lie_inside_the_axes(results):
+    """Also of a negative peak, whose bounds are of its magnitude."""
+    run = results["dry"]
+    flipped = run.with_values({"slider_acceleration": -run["slider_acceleration"]})
+    name, ends = "peak_acceleration.resolved", []
+    for signed in (run, flipped):
+        size = abs(signed["slider_acceleration"]).max()
+        error = {"error": 0.6 * size, "determined": True, "low": 0.7 * size, "high": 1.6 * size}
+        info = {**run.info, "errors": {name: error}}
+        drawn = slider_figure({"": dataclasses.replace(signed, info=info)})
+        axes = next(axes for axes in drawn.axes if axes.containers)
+        (segment,) = axes.containers[0][2][0].get_segments()
+        ends.append(sorted(segment[:, 1] / size))
+        low, high = axes.get_ylim()
+        assert low <= segment[:, 1].min() and segment[:, 1].max() <= high
+    assert ends[0] == pytest.approx([-end for end in ends[1][::-1]])
+    assert {round(abs(end), 6) for end in ends[0]} == {0.7, 1.6}
+
+
 def test_a_table_and_a_note_tell_the_summary_s_figures_not_those_of_the_start():
     scene = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "start": "centred"}
     run = simulate(Scene.from_dict({**scene, "revolutions": 0.3, "settle": 0.25}))

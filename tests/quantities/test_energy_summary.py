@@ -67,7 +67,7 @@ def test_the_user_s_own_load_leaves_no_balance(tmp_path, monkeypatch):
     assert not any(name.startswith("energy_") for name in result)
     assert any("no energy balance" in warning for warning in summary["warnings"])
     monkeypatch.setattr("exu_press.plots.save.save_figures", lambda figures, *_: list(figures))
-    assert save_pictures(result, tmp_path) == ["slider", "force", "press"]
+    assert save_pictures(result, tmp_path) == ["slider", "force"]
 
 
 def test_sensors_of_one_s_own_change_nothing():

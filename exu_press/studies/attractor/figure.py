@@ -20,6 +20,9 @@ __all__ = ["attractor_figure"]
 
 ORDERS = 30
 
+LEAST_SPAN = 0.02
+"""Half of an axis of values, over them: scatter far below their errors looks like none."""
+
 
 @with_style
 def attractor_figure(report: AttractorReport) -> Figure:
@@ -90,6 +93,7 @@ def _transient(panel: Axes, motion: Attractor) -> None:
     panel.axhline(motion.error, color=GREY, ls="--", lw=1.0, label="error")
     panel.set_title("transient: distance from the last point")
     panel.set(xlabel="revolution", ylabel="clearances")
+    panel.set_xlim(0.5, len(motion.transient) + 0.5)
     panel.xaxis.set_major_locator(MaxNLocator(integer=True))
     panel.legend(loc="best")
 
@@ -115,14 +119,26 @@ def _orders(panel: Axes, slider: Spectra) -> None:
 
 
 def _histogram(panel: Axes, label: str, values: Array) -> None:
-    panel.hist(values[np.isfinite(values)], bins=24, color=RUN)
+    panel.hist(values[np.isfinite(values)], bins=[*np.linspace(*_span_of(values), 31)], color=RUN)
     panel.set_title("values of a revolution")
     panel.set(xlabel=label, ylabel="revolutions")
+    panel.set_xlim(_span_of(values))
     panel.locator_params(axis="x", nbins=4)
+
+
+def _span_of(values: Array) -> tuple[float, float]:
+    """Return the ends of an axis of values: some hundredths of them, or more where they differ."""
+    known = values[np.isfinite(values)]
+    if not len(known):
+        return 0.0, 1.0
+    middle = 0.5 * float(known.max() + known.min())
+    half = max(0.6 * float(np.ptp(known)), LEAST_SPAN * abs(middle)) or 1.0
+    return middle - half, middle + half
 
 
 def _by_revolution(panel: Axes, label: str, values: Array, skip: int) -> None:
     panel.plot(np.arange(skip + 1, skip + len(values) + 1), values, "o-", color=RUN, ms=3, lw=0.6)
     panel.set_title("value of each revolution")
-    panel.set(xlabel="revolution", ylabel=label)
+    panel.set(xlabel="revolution", ylabel=label, ylim=_span_of(values))
+    panel.set_xlim(skip + 0.5, skip + len(values) + 0.5)
     panel.xaxis.set_major_locator(MaxNLocator(integer=True))

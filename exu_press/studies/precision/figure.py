@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, with_style
+from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, points, with_style
 from exu_press.plots.title import figure_with_title
 from exu_press.studies.precision.report import PrecisionReport
 from exu_press.studies.precision.rows import Row, series_of
@@ -131,7 +131,7 @@ def _draw_failed(axes: Axes, failed: Sequence[tuple[Row, str]]) -> None:
             color=colour,
         )
     if failed:
-        axes.set_title(f"x: {len(failed)} failed", loc="right", fontsize=8.5, color=GREY)
+        axes.set_title(f"x: {len(failed)} failed", loc="right", fontsize=points(8.5), color=GREY)
 
 
 def _in_order(series: Mapping[str, Sequence[Row]]) -> list[str]:

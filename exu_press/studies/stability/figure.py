@@ -11,7 +11,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, with_style
+from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, points, with_style
 from exu_press.plots.title import figure_with_title
 from exu_press.studies.stability.cases import PAIRS
 from exu_press.studies.stability.checks import RESIDUAL_LIMIT
@@ -86,10 +86,12 @@ def _draw_axes(
             _mark(axes, position, height, row, colours)
         ends = dict.fromkeys([along[0].value, along[-1].value])
         axes.annotate(
-            " to ".join(filter(None, ends)), (len(along) - 0.4, height), fontsize=8.5, va="center",
-            color=GREY,
+            " to ".join(filter(None, ends)), (len(along) - 0.4, height),
+            fontsize=points(8.5), va="center", color=GREY,
         )  # fmt: skip
-    axes.set_yticks(range(len(lines)), [f"{axis}: {base}" for axis, base in lines], fontsize=9.5)
+    axes.set_yticks(
+        range(len(lines)), [f"{axis}: {base}" for axis, base in lines], fontsize=points(9.5)
+    )
     axes.set(xlim=(-0.7, most + 4.0), ylim=(len(lines) - 0.4, -0.6), xticks=[])
     axes.set_title("Along each axis")
     axes.grid(False)
@@ -101,8 +103,8 @@ def _draw_pairs(axes: Axes, rows: Sequence[Row], colours: ScalarMappable) -> Non
     for row in rows:
         across, down = (names.index(name) for name in row.value.split(" + "))
         _mark(axes, min(across, down), max(across, down), row, colours)
-    axes.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=9.5)
-    axes.set_yticks(range(len(names)), names, fontsize=9.5)
+    axes.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=points(9.5))
+    axes.set_yticks(range(len(names)), names, fontsize=points(9.5))
     axes.set(xlim=(-0.6, len(names) - 0.4), ylim=(len(names) - 0.4, -0.6))
     axes.set_title(f"Two extremes at once: {rows[0].name.rpartition(', ')[2]}")
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
-from exu_press.plots.style import GREY, PATH_COLOURS, colour_of, with_style
+from exu_press.plots.style import GREY, PATH_COLOURS, colour_of, points, with_style
 from exu_press.plots.sweep_words import in_unit, label_with_unit, setting, words
 from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain
@@ -193,4 +193,4 @@ def _title(name: str, unit: str) -> str:
 
 
 def _count(panel: Axes, missing: "NDArray[np.bool_]") -> None:
-    panel.set_title(f"x: {missing.sum()} without", loc="right", fontsize=8.5, color=GREY)
+    panel.set_title(f"x: {missing.sum()} without", loc="right", fontsize=points(8.5), color=GREY)

@@ -1,0 +1,70 @@
+"""Titles, notes and legends over a panel that keep clear of each other."""
+
+import textwrap
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+__all__ = ["separate_headings"]
+
+GAP = 6.0
+"""Least distance of a title from what is beside it, points."""
+
+GROWS = 1.18
+"""Width of a panel when it is laid out, over that before."""
+
+
+def separate_headings(figure: Figure) -> None:
+    """Raise the titles of panels that are too narrow for a title and a note or a legend beside it.
+
+    A note then stands below the title.
+    """
+    for axes in figure.axes:
+        title = _title_at(axes, "left")
+        beside = [text for text in (_title_at(axes, "right"),) if text.get_text()]
+        legend = axes.get_legend()
+        above = legend is not None and legend.get_bbox_to_anchor().y0 >= axes.bbox.y1 - 1.0
+        if not title.get_text() or not (beside or above):
+            continue
+        headings = [*beside, *([legend] if above and legend is not None else [])]
+        widths = [item.get_window_extent().width for item in (title, *headings)]
+        room = _width_of(axes)
+        if sum(widths) + GAP * figure.dpi / 72.0 <= room:
+            continue
+        height = max(item.get_window_extent().height for item in headings) * 72.0 / figure.dpi
+        for note in beside:
+            text = note.get_text()
+            letters = max(10, int(len(text) * room / max(widths[1], 1.0)))
+            lines = textwrap.wrap(text, letters)
+            height *= len(lines)
+            _write_below_title(axes, note, "\n".join(lines))
+        axes.set_title(title.get_text(), loc="left", pad=height + GAP)
+
+
+def _write_below_title(axes: Axes, note: Text, text: str) -> None:
+    """Write a note between a panel and its title, in place of that beside it."""
+    written = axes.annotate(
+        text,
+        (1.0, 1.0),
+        (0.0, 2.0),
+        xycoords="axes fraction",
+        textcoords="offset points",
+        ha="right",
+        fontsize=note.get_fontsize(),
+        color=note.get_color(),
+    )
+    written.set_in_layout(False)  # it is as wide as the panel
+    note.set_text("")
+
+
+def _width_of(axes: Axes) -> float:
+    """Return the width that a panel will have, pixels; with equal scales its shorter side."""
+    box = axes.bbox
+    return float(GROWS * box.width if axes.get_aspect() == "auto" else min(box.width, box.height))
+
+
+def _title_at(axes: Axes, side: str) -> Text:
+    """Return the title at one side of a panel, which may be empty."""
+    title: Text = getattr(axes, f"_{side}_title")  # no public name gives the text itself
+    return title

@@ -6,21 +6,30 @@ from exu_press.joints.joint import GROUND
 
 
 def forces(joint, q, q_t):
-    """Return the generalised forces of a joint between two planar bodies, (6,)."""
-    out = [0.0] * 9
+    """Return the generalised forces of a joint whose bodies have the coordinates q."""
+    out = [0.0] * (len(q) + 3)
     joint.add_force([*q, *GROUND], [*q_t, *GROUND], out)
-    return np.array(out[:6])
+    return np.array(out[: len(q)])
 
 
-def assert_partials(given, forces, state, factors, allowed):
-    """Check -(by_q dQ/dq + by_q_t dQ/dq_t), row by row, against differences.
+def assert_jacobian(joint, q, q_t, factors, allowed):
+    """Check a joint's Jacobian of a state, where its forces are those of all of q."""
+    force = forces(joint, q, q_t)
+    state = [*q], [*q_t]
+    given = np.reshape(joint.jacobian(*factors), (len(force), -1))
+    assert_partials(given, lambda: forces(joint, *state), state, factors, allowed)
+
+
+def assert_partials(given, forces, state, factors, allowed, by_rows=True):
+    """Check -(by_q dQ/dq + by_q_t dQ/dq_t) against differences.
 
     Args:
         given: the joint's Jacobian, (n, n).
         forces: function of no argument that returns the forces in `state`.
         state: (q, q_t), lists that are changed for the differences.
         factors: by_q, by_q_t.
-        allowed: error over the size of row and column.
+        allowed: error over the size.
+        by_rows: of row and column, else of the whole.
     """
     expected, size = np.zeros_like(given), np.zeros_like(given)
     for target, factor, width in zip(state, factors, (1e-9, 1e-7), strict=True):
@@ -34,4 +43,6 @@ def assert_partials(given, forces, state, factors, allowed):
             expected[:, i] -= column
             size[:, i] += np.abs(column)
     scale = np.sqrt(size.max(axis=1, keepdims=True) * size.max(axis=0, keepdims=True))
-    assert np.all(np.abs(given - expected) < allowed * scale), (given - expected) / scale
+    if not by_rows:
+        scale = scale.max()
+    assert np.all(np.abs(given - expected) <= allowed * scale), (given - expected) / scale

@@ -5,6 +5,7 @@ import math
 import exudyn as exu
 import numpy as np
 import pytest
+from differences import assert_jacobian
 from exudyn.itemInterface import (
     LoadForceVector,
     LoadTorqueVector,
@@ -152,28 +153,11 @@ def test_in_space_it_is_the_same(side):
 
 
 @pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_the_jacobian_is_that_of_the_forces(side):
+@pytest.mark.parametrize("factors", [(1.0, 0.0), (0.0, 1.0)])
+def test_the_jacobian_is_that_of_the_forces(side, factors):
     contact, q, q_t = pressed_end(side)
-
-    def forces(q, q_t):
-        out = [0.0] * 3
-        contact.add_force(q, q_t, out)
-        return np.array(out)
-
-    forces(q, q_t)
     assert state_in(contact, q, q_t).gap < 0.0
-    for by_q, by_q_t in ((1.0, 0.0), (0.0, 1.0)):
-        forces(q, q_t)
-        found = np.array(contact.jacobian(by_q, by_q_t)).reshape(3, 3)
-        small, expected = 1e-7, np.zeros((3, 3))
-        for i in range(3):
-            plus, minus = [list(q if by_q else q_t) for _ in range(2)]
-            plus[i] += small
-            minus[i] -= small
-            interfaces = ((plus, q_t), (minus, q_t)) if by_q else ((q, plus), (q, minus))
-            up, down = (forces(*state) for state in interfaces)
-            expected[:, i] = -(up - down) / (2 * small)
-        assert np.abs(found - expected).max() < 1e-5 * np.abs(expected).max()
+    assert_jacobian(contact, q, q_t, factors, 1e-5)
 
 
 @pytest.mark.parametrize(

@@ -3,34 +3,15 @@
 import math
 
 import pytest
+from planar_states import BRISTLE, CLEARANCE, LAWS, RADIUS, STEADY, STIFFNESS, dry, film
 
-from exu_press.joints.interface import DryInterface, FilmInterface
-from exu_press.laws.contact import hertz, hunt_crossley, step_damping
-from exu_press.laws.film import film_scale, finite, pi_film, pinkus, short, with_asperities
-from exu_press.laws.friction import LuGre, lugre_steady, no_friction
+from exu_press.joints.interface import FilmInterface
+from exu_press.laws.contact import hertz, hunt_crossley
+from exu_press.laws.film import pi_film, with_asperities
+from exu_press.laws.friction import no_friction
 
-RADIUS, CLEARANCE = 0.07, 1e-4
-STEADY = lugre_steady(0.15, 0.1, 1e-3, 0.1, 2.0, 1e-4)
-BRISTLE = LuGre(0.15, 0.1, 1e4, 40.0, 1e-3, 0.1, 2.0)
-
-
-def dry(friction, law=None):
-    law = law or step_damping(hertz(2.5545e10), 2.5545e6, 1e-5)
-    return DryInterface(law, friction, RADIUS, CLEARANCE)
-
-
-def film(law):
-    return FilmInterface(law, film_scale(0.4, 0.1, RADIUS, CLEARANCE), CLEARANCE)
-
-
-DRY = {"steady friction": dry(STEADY)}
-FILMS = {
-    "pinkus": film(pinkus()),
-    "pi_film": film(pi_film()),
-    "short": film(short(0.7)),
-    "finite": film(finite(0.7)),
-    "mixed": film(with_asperities(pi_film(), 0.1)),
-}
+FILMS = {name: film(law) for name, law in LAWS.items()}
+ROUGH = film(with_asperities(pi_film(), 0.1))
 
 
 def force_of(interface, e, e_dot, v_t, omega_j, omega_b):
@@ -42,18 +23,18 @@ def force_of(interface, e, e_dot, v_t, omega_j, omega_b):
 def test_contact_begins_at_the_clearance():
     assert force_of(dry(no_friction()), CLEARANCE, 0.1, 0.0, 0.0, 0.0) is None
     (f_n, f_t), _, _ = force_of(dry(no_friction()), CLEARANCE + 1e-6, 0.0, 0.3, 0.0, 0.0)
-    assert f_n == pytest.approx(-2.5545e10 * 1e-6**1.5)
+    assert f_n == pytest.approx(-STIFFNESS * 1e-6**1.5)
     assert f_t == 0.0
 
 
 def test_friction_acts_on_the_sliding_of_the_two_surfaces():
     """A turning journal that stays in place slides with R omega."""
     omega = 3.0
-    (f_n, f_t), _, _ = force_of(dry(STEADY), CLEARANCE + 1e-6, 0.0, 0.0, omega, 0.0)
+    (f_n, f_t), _, _ = force_of(dry(), CLEARANCE + 1e-6, 0.0, 0.0, omega, 0.0)
     assert f_t / f_n == pytest.approx(STEADY(RADIUS * omega)[0], rel=1e-12)
 
 
-@pytest.mark.parametrize("interface", [*FILMS.values(), DRY["steady friction"]])
+@pytest.mark.parametrize("interface", [*FILMS.values(), ROUGH, dry()])
 def test_turning_together_like_one_body_moves_no_surface(interface):
     """Co-rotation: v_t = omega |e|, both bodies with omega. A mixed-up W fails here."""
     omega = 20.0
@@ -65,9 +46,7 @@ def test_turning_together_like_one_body_moves_no_surface(interface):
         assert abs(f_n) < 1e-8 * abs(turning_alone[0])
 
 
-@pytest.mark.parametrize(
-    "interface", [DRY["steady friction"], FILMS["pinkus"]], ids=["dry", "film"]
-)
+@pytest.mark.parametrize("interface", [dry(), FILMS["pinkus"]], ids=["dry", "film"])
 def test_arms_conserve_angular_momentum(interface):
     """a_J + a_B + |e| = 0: the two moments balance the couple of the separated centres."""
     for e in (0.0, 0.3 * CLEARANCE, CLEARANCE + 1e-5):
@@ -77,7 +56,7 @@ def test_arms_conserve_angular_momentum(interface):
 
 
 def test_dry_contact_point_lies_on_the_journals_surface():
-    a_j, a_b, _, _ = dry(STEADY).arms(CLEARANCE + 1e-5)
+    a_j, a_b, _, _ = dry().arms(CLEARANCE + 1e-5)
     assert a_j == RADIUS
     assert a_b == -(RADIUS + CLEARANCE + 1e-5)
 
@@ -85,12 +64,12 @@ def test_dry_contact_point_lies_on_the_journals_surface():
 def test_stored_energy_of_a_dry_pair_is_the_work_of_its_elastic_force():
     interface = dry(no_friction())
     depth = 1e-5
-    assert interface.stored_energy(CLEARANCE + depth) == pytest.approx(2.5545e10 * depth**2.5 / 2.5)
+    assert interface.stored_energy(CLEARANCE + depth) == pytest.approx(STIFFNESS * depth**2.5 / 2.5)
     assert interface.stored_energy(0.5 * CLEARANCE) == 0.0
     assert FILMS["pinkus"].stored_energy(0.9 * CLEARANCE) == 0.0
 
 
-@pytest.mark.parametrize("name", ["pinkus", "pi_film", "short", "finite"])
+@pytest.mark.parametrize("name", LAWS)
 def test_film_outside_its_range_is_nan_and_remembered(name):
     interface = FILMS[name]
     (f_n, _), _, _ = force_of(interface, 1.01 * CLEARANCE, 0.1, 0.1, 1.0, 0.0)
@@ -128,7 +107,7 @@ def test_bristle_is_not_reset_by_separation():
 
 def test_approach_speed_is_that_of_the_touch():
     """Half-way between two instants the rate's square is the mean of theirs; then it is kept."""
-    interface = dry(STEADY, hunt_crossley(hertz(2.5545e10), 0.7))
+    interface = dry(contact=hunt_crossley(hertz(STIFFNESS), 0.7))
     for e, e_dot in ((0.9, 0.1), (0.99, 0.2), (1.01, 0.3)):
         interface.begin_step(1e-6, accepted=True)
         force = force_of(interface, e * CLEARANCE, e_dot, 0.0, 0.0, 0.0)

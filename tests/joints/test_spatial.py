@@ -5,6 +5,7 @@ import functools
 import exudyn as exu
 import numpy as np
 import pytest
+from differences import assert_partials, forces
 from exudyn.itemInterface import (
     NodeRigidBodyEP,
     NodeRigidBodyRotVecLG,
@@ -144,7 +145,7 @@ def test_dissipated_power_is_never_negative(joint):
 
 @pytest.mark.parametrize("joint", JOINTS)
 @pytest.mark.parametrize("kind", ["Rxyz", "2D"])
-def test_jacobian_against_differences(kind, joint):
+def test_jacobian_against_differences(kind, joint, factors=(1.0, 0.01)):
     """Between a spatial body and another kind, near the reference, to the arms' small terms."""
     _container, mbs = system()
     first, _ = add_body(mbs, "Rxyz", (0.0, 0.0, 0.0), (0, 0, 0), (0, 0, 0))
@@ -159,21 +160,12 @@ def test_jacobian_against_differences(kind, joint):
     inside, touching = (4e-4, 3e-4), (CLEARANCE + 2e-4, 3e-4)
     q[:2] = {"dry": touching, "spherical": touching, "mixed ball": (9e-4, 3e-4)}.get(joint, inside)
 
-    def force(q, q_t):
-        out = [0.0] * (size + 3)
-        made.add_force([*q, 0, 0, 0], [*q_t, 0, 0, 0], out)
-        return np.array(out[:size])
-
-    force(q, q_t)
+    forces(made, q, q_t)
     matrix = np.zeros((size, size))
     matrix[np.ix_(made.indices, made.indices)] = np.reshape(
-        made.jacobian(1.0, 0.01), (len(made.indices), -1)
+        made.jacobian(*factors), (len(made.indices), -1)
     )
-    numeric = np.zeros((size, size))
-    for i, unit in enumerate(np.eye(size)):
-        numeric[:, i] -= (force(q + 1e-8 * unit, q_t) - force(q - 1e-8 * unit, q_t)) / 2e-8
-        numeric[:, i] -= 0.01 * (force(q, q_t + 1e-6 * unit) - force(q, q_t - 1e-6 * unit)) / 2e-6
-    assert np.abs(matrix - numeric).max() < 2e-3 * np.abs(numeric).max()
+    assert_partials(matrix, lambda: forces(made, q, q_t), (q, q_t), factors, 2e-3, by_rows=False)
 
 
 def test_bristle_of_a_ball_works_in_space():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from heavy_wheel import HEAVY_WHEEL
 
-from exu_press import InputError, Scene, simulate
+from exu_press import Scene, simulate
 from exu_press.quantities.wear import guideway_depths, sliding_of, wear_depths
 from exu_press.scene import mechanism_of
 from exu_press.scene.warnings import scene_warnings
@@ -62,23 +62,6 @@ def test_wear_changes_nothing_in_the_run_and_is_in_proportion(result):
         ratio = 1.0 if name == "pressure_velocity" else 2.0
         assert result.quantity(full).value > 0.0
         assert other.quantity(full).value == pytest.approx(ratio * result.quantity(full).value)
-
-
-@pytest.mark.parametrize(
-    ("keys", "words"),
-    [
-        ({"wear": {"coefficient": 1e-4, "hardness": 2e9}}, "length"),
-        ({"wear": WEAR | {"coefficient": 2.0}}, "coefficient"),
-        ({"wear": WEAR, "joints": {}}, "no revolute joint is dry"),
-        ({"wear": WEAR | {"joints": {"crank_pim": {"length": 0.1}}}}, "no such place"),
-        ({"wear": WEAR | {"joints": {"shaft": {"length": 0.1}}}}, "do not touch"),
-        ({"wear": WEAR | {"joints": {"crank_pin": {"lenght": 0.1}}}}, "did you mean 'length'"),
-        ({"wear": WEAR | {"guides": {"slider": {"length": 0.1}}}}, "guide.clearance is not given"),
-    ],
-)
-def test_what_is_refused(keys, words):
-    with pytest.raises(InputError, match=words):
-        Scene(**({"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}} | keys))
 
 
 def test_a_coefficient_of_a_thousand_times_steel_is_warned_of(result):

@@ -70,19 +70,6 @@ def test_a_run_goes_on_from_a_file_without_channels(tmp_path):
     assert np.array_equal(one["slider_position"], other["slider_position"])
 
 
-@pytest.mark.parametrize(
-    ("output", "message"),
-    [
-        ({"channels": "some"}, r"output\.channels = 'some': allowed is one of 'all', or a list"),
-        ({"channels": [1]}, r"output\.channels = \(1,\): allowed is a list of texts"),
-        ({"every": 0}, r"output\.every = 0: allowed is a whole number >= 1"),
-    ],
-)
-def test_what_is_refused(output, message):
-    with pytest.raises(InputError, match=message):
-        Scene(output=output)
-
-
 def test_an_unknown_channel_is_refused_before_the_run():
     scene = SCENE.replace({"output": {"channels": ["slider_positon"]}, "revolutions": 1e6})
     with pytest.raises(InputError, match="is no channel of this scene"):

@@ -65,23 +65,7 @@ def test_samples_at_constant_speed_are_the_closed_forms():
     assert np.ptp(positions) < 1e-9
 
 
-@pytest.mark.parametrize(
-    ("output", "message"),
-    [
-        ({"samples": []}, "output.samples: allowed is at least one crank angle"),
-        ({"samples": [360.0]}, r"output\.samples = 360\.0: allowed are numbers from 0 to < 360"),
-        ({"samples": [90.0, 90.0]}, r"output\.samples = 90\.0 after 90\.0: allowed is increasing"),
-        ({"samples": 90.0}, r"output\.samples = 90\.0: allowed is a list of numbers"),
-    ],
-)
-def test_what_is_refused(output, message):
-    with pytest.raises(InputError, match=message):
-        Scene(output=output)
-
-
-def test_fixed_steps_and_runs_without_samples_are_refused():
-    with pytest.raises(InputError, match=r"output\.samples: allowed with solver\.tolerance"):
-        Scene(output={"samples": [0.0]}, solver={"step": 1e-5})
+def test_runs_without_samples_and_other_angles_are_refused():
     run = simulate(Scene(joints={}, revolutions=0.01))
     with pytest.raises(InputError, match="samples: this run has none"):
         run.samples  # noqa: B018

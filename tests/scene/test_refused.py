@@ -110,8 +110,25 @@ regularisation_velocity = 1e-4} -> friction.regularisation_velocity = .. pin.fri
 drive = {table_speed_rpm = [0, 300], table_torque = [9, 0], inertia = 9, slip = 1} -> is given
 guide = {friction = 'coulomb', width = 0} -> guide.width = 0 .. guide.clearance is not given
 
+# output and wear
+=
+output.channels = 'some' -> output.channels = 'some': allowed is one of 'all', or a list
+output.channels = [1] -> output.channels = (1,): allowed is a list of texts
+output.samples = [] -> output.samples: allowed is at least one crank angle
+output.samples = [360.0] -> output.samples = 360.0: allowed are numbers from 0 to < 360
+output.samples = [90.0, 90.0] -> output.samples = 90.0 after 90.0: allowed is increasing
+output.samples = 90.0 -> output.samples = 90.0: allowed is a list of numbers
+output.samples = [0.0]; solver.step = 1e-5 -> output.samples: allowed with solver.tolerance
+= mechanism = 'slider_crank'; joints.crank_pin = 'dry'; wear = {coefficient = 1e-4, hardness = 2e9}
+speed_rpm = 200 -> length
+wear = {length = 0.1, joints.crank_pim.length = 0.1} -> no such place
+wear = {length = 0.1, joints.shaft.length = 0.1} -> do not touch
+wear = {length = 0.1, joints.crank_pin.lenght = 0.1} -> did you mean 'length'
+wear = {length = 0.1, guides.slider.length = 0.1} -> guide.clearance is not given
+
 # guides
 = mechanism = 'slider_crank'; joints = {}
+wear = {coefficient = 1e-4, hardness = 2e9, length = 0.1} -> no revolute joint is dry
 guide = {} -> [guide] has neither lateral_stiffness nor clearance
 guide = {friction = 'none', length = 0.3} -> [guide] has neither lateral_stiffness nor clearance
 guide = {friction = 'coulomb', length = 0.3} -> guide.length = 0.3: not used .. lateral_stiffness is

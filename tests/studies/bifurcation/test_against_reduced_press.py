@@ -1,28 +1,28 @@
-"""Three points of the dry press's diagram against an independent model of the press."""
+"""Points of diagrams: against an independent model of the press, and at a finer tolerance."""
 
 import numpy as np
 import pytest
 from independent.reduced_slider_crank import Numbers
 from independent.symmetric_press import SymmetricPress
+from slider_cranks import section_points
 
 from exu_press import Scene
 from exu_press.studies.attractor import period_of
-from exu_press.studies.attractor.orbit import Orbit
 
 BALLS = 1e-4
 REVOLUTIONS = 14
 PRESS = Scene(joints={"crank_pin": "dry", "balls": {"kind": "dry", "clearance": BALLS}})
+DRY = Scene(
+    mechanism="slider_crank",
+    joints={"crank_pin": {"kind": "dry", "clearance": 1e-4, "radius": 0.07}},
+    contact={"length": 0.1},
+)
 
 
 def by_the_press(clearance):
     """Eccentricities of crank pin and ball in the section, (REVOLUTIONS, 3), over clearances."""
-    orbit = Orbit(PRESS.replace({"joints.crank_pin.clearance": clearance}))
-    points = []
-    for _ in range(REVOLUTIONS):
-        orbit.advance()
-        points.append(orbit.point())
-    orbit.close()
-    pin_x, pin_y, _, _, _, ball = np.array(points)[:, :6].T
+    scene = PRESS.replace({"joints.crank_pin.clearance": clearance})
+    pin_x, pin_y, _, _, _, ball = np.array(section_points(scene, REVOLUTIONS))[:, :6].T
     return np.stack([pin_x, pin_y, ball], axis=1)
 
 
@@ -50,3 +50,17 @@ def test_both_have_the_same_period_and_points(clearance, error, compare):
     compare(name, expected[-1], points[-1], error=error, abs=error)
     for each in (points, expected):
         assert period_of(each[-6:], error, 2).revolutions == 1
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("clearance", "error"), [(4e-5, 1.2e-3), (7e-5, 4.7e-3)])
+def test_at_a_tenth_of_the_tolerance_the_period_and_the_point_stay(clearance, error):
+    """The error that the diagram states at its own tolerance is what its point may be off."""
+    scene = DRY.replace({"joints.crank_pin.clearance": clearance})
+    coarse, fine = (
+        np.array(section_points(scene.replace({"solver.tolerance": one}), 9))
+        for one in (1e-3, 1e-4)
+    )
+    for each in (coarse, fine):
+        assert period_of(each[-3:], error, 1).revolutions == 1
+    assert np.linalg.norm(coarse[-1] - fine[-1]) < error

@@ -24,7 +24,7 @@ from exu_press.plots.scales import contain_bars, note, widen
 from exu_press.plots.slider import sliding_mean
 from exu_press.plots.style import GREY, IDEAL, colour_of, with_style
 from exu_press.plots.words import joint_in_words
-from exu_press.quantities import DeadCentre, bottom_dead_centres, ideal_bottom_angle
+from exu_press.quantities import DeadCentre, bottom_dead_centres, ideal_angles
 from exu_press.quantities.catalogue import (
     DEAD_CENTRE_MEAN,
     DEAD_CENTRE_RANGE,
@@ -174,7 +174,7 @@ def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:
     mean = float(np.mean([centre.position for centre in centres]))
     mechanism = mechanism_of(result.scene)
     unit = mechanism.output.unit
-    bottom = np.degrees(ideal_bottom_angle(mechanism))
+    bottom = np.degrees(ideal_angles(mechanism)[0])
     about = _about(mechanism, bottom)
     from_centre = np.linspace(-about, about, 200)
     ideal = mechanism.ideal_slider(np.radians(bottom + from_centre), 1.0)[0]

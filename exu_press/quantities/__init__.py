@@ -12,7 +12,7 @@ from exu_press.quantities.catalogue import (
 from exu_press.quantities.dead_centre import (
     DeadCentre,
     bottom_dead_centres,
-    ideal_bottom_angle,
+    ideal_angles,
     lowest_of_strokes,
 )
 from exu_press.quantities.quantity import Extreme, Owner, Quantity
@@ -32,7 +32,7 @@ __all__ = [
     "add",
     "bottom_dead_centres",
     "differentiated_peak",
-    "ideal_bottom_angle",
+    "ideal_angles",
     "lowest_of_strokes",
     "mean_peak",
     "mean_peak_of",

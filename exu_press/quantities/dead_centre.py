@@ -15,8 +15,7 @@ __all__ = [
     "DeadCentre",
     "behind_cut_centre",
     "bottom_dead_centres",
-    "ideal_bottom_angle",
-    "ideal_top_angle",
+    "ideal_angles",
     "lowest",
     "lowest_of_strokes",
 ]
@@ -48,24 +47,16 @@ def bottom_dead_centres(result: Result) -> list[DeadCentre]:
         result["crank_angle"],
         result["slider_position"],
         result["slider_velocity"],
-        about=ideal_bottom_angle(mechanism_of(result.scene)),
+        about=ideal_angles(mechanism_of(result.scene))[0],
     )
 
 
 @lru_cache(maxsize=16)  # errors take six summaries of a scene, and this is most of a short one's
-def ideal_bottom_angle(mechanism: Mechanism) -> float:
-    """Return the crank angle at which the ideal slider is lowest, to half a degree, rad."""
+def ideal_angles(mechanism: Mechanism) -> tuple[float, float]:
+    """Return the crank angles at which the ideal slider is lowest and highest, to 0.5 deg, rad."""
     angle = np.linspace(0.0, 2.0 * np.pi, 721)
     position = mechanism.ideal_slider(angle, speed=1.0)[0]
-    return float(angle[np.argmin(position)])
-
-
-@lru_cache(maxsize=16)
-def ideal_top_angle(mechanism: Mechanism) -> float:
-    """Return the crank angle at which the ideal slider is highest, to half a degree, rad."""
-    angle = np.linspace(0.0, 2.0 * np.pi, 721)
-    position = mechanism.ideal_slider(angle, speed=1.0)[0]
-    return float(angle[np.argmax(position)])
+    return float(angle[np.argmin(position)]), float(angle[np.argmax(position)])
 
 
 def behind_cut_centre(crank_angle: Array, about: float) -> int:

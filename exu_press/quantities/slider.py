@@ -10,8 +10,7 @@ from exu_press.mechanism import Output
 from exu_press.quantities.acceleration import differentiated_peak, mean_peak, peak
 from exu_press.quantities.dead_centre import (
     behind_cut_centre,
-    ideal_bottom_angle,
-    ideal_top_angle,
+    ideal_angles,
     lowest,
 )
 from exu_press.quantities.kind import DIFFERENCE, LOAD, MOTION
@@ -60,7 +59,7 @@ def _of_strokes(
 def _ends(run: Reading) -> tuple[float, float]:
     """Return the slider's lowest and highest position, m, of dead centres that are whole."""
     angle, mechanism, ends = run["crank_angle"], run.mechanism, []
-    for sign, about in ((1.0, ideal_bottom_angle(mechanism)), (-1.0, ideal_top_angle(mechanism))):
+    for sign, about in zip((1.0, -1.0), ideal_angles(mechanism), strict=True):
         first = behind_cut_centre(angle, about)
         position, velocity = (run[f"slider_{name}"][first:] for name in ("position", "velocity"))
         ends.append(sign * lowest(run.time[first:], sign * position, sign * velocity)[1])

@@ -9,7 +9,7 @@ import numpy as np
 from calibration.mechanisms import eccentric, four_bar, knuckle
 from exu_press import InputError, Scene
 from exu_press.mechanism import SHIPPED, Mechanism
-from exu_press.quantities.dead_centre import ideal_bottom_angle
+from exu_press.quantities.dead_centre import ideal_angles
 from exu_press.scene import flexible_press, mechanism_of
 
 __all__ = ["chaotic_scene", "groups_of", "random_scene"]
@@ -226,7 +226,7 @@ def _load(
     """Return a load that acts about the bottom dead centre, and the start before it."""
     force, bottom = (
         most * float(random.uniform(0.1, 1.0)),
-        math.degrees(ideal_bottom_angle(mechanism)),
+        math.degrees(ideal_angles(mechanism)[0]),
     )
     part = 360.0 * given["revolutions"]
     start = bottom - part * float(random.uniform(0.2, 0.9))

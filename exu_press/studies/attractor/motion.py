@@ -1,7 +1,7 @@
 """A long run: its points in the section, neighbouring motions, and figures by revolution."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -179,74 +179,32 @@ def attractor(
         names = [name for name, placed in declared.items() if placed.quantity.headline]
     quantities = {name: declared[name] for name in names if name in declared}
     channels = {name: _unit(scene, name) for name in names if name not in declared}
-    total = skip + revolutions
-    orbit = Orbit(scene, start)
-    neighbours = [Orbit(scene) for _ in DISTANCES]
-    finer_orbit, pushed = Orbit(finer(scene)), Orbit(_perturbed_scene(scene))
-    begin = min(1, skip - 1)
-    checked = {skip, skip + 1, *(skip + int(share * revolutions) for share in LATER)}
-    transient_points: list[Array] = []
-    points: list[Array] = []
-    values: list[dict[str, float]] = []
-    last: list[Result] = []
-    growths: list[list[float]] = [[] for _ in DISTANCES]
-    point_errors: list[float] = []
-    differences: list[dict[str, float]] = []
-    stopped = ""
 
     def read(result: Result) -> dict[str, float]:
         there = {name: float(column_of(result, name)[0][-1]) for name in channels}
         return numbers_of(result, quantities) | there
 
+    total = skip + revolutions
+    walk = _Walk(scene, start, skip, revolutions, read)
+    stopped = ""
     with Progress("attractor", total, "revolutions", quiet=quiet) as progress:
         try:
             for done in range(total):
-                is_checked = done == begin or done in checked
-                if done == begin:
-                    pushed.set_state(orbit.state)
-                if is_checked:
-                    finer_orbit.set_state(orbit.state)
-                result = orbit.advance(recorded=done >= skip)
-                if done == skip - 1:
-                    start_time = orbit.state["time"]
-                finer_result = finer_orbit.advance(recorded=done >= skip) if is_checked else None
-                if done > begin:
-                    growth_of_each = [
-                        _growth(orbit, *pair) for pair in zip(neighbours, DISTANCES, strict=True)
-                    ]
-                if done == begin:  # towards states that fit all constraints
-                    pushed.advance()
-                    for pair in zip(neighbours, (pushed, finer_orbit), DISTANCES, strict=True):
-                        _bring_back(orbit, *pair)
-                (points if done >= skip else transient_points).append(orbit.point())
-                if result is not None:
-                    values.append(read(result))
-                    last = [*last[-LAST + 1 :], result]
-                    for series, growth in zip(growths, growth_of_each, strict=True):
-                        series.append(growth)
-                if finer_result is not None and values:
-                    finest = read(finer_result)
-                    point_errors.append(float(np.linalg.norm(orbit.point() - finer_orbit.point())))
-                    differences.append(
-                        {n: values[-1].get(n, math.nan) - finest.get(n, math.nan) for n in names}
-                    )
+                walk.turn(done)
                 progress.update(done + 1)
         except NoMotion as end:
-            if len(values) < FEWEST or len(point_errors) < 2:
+            if len(walk.values) < FEWEST or len(walk.point_errors) < 2:
                 raise
-            stopped = f"{end} (after {len(transient_points) + len(points)} of {total} revolutions)"
-    state = orbit.state
-    turns = len(values) / (state["time"] - start_time)
-    for system in (orbit, finer_orbit, pushed, *neighbours):
-        system.close()
+            stopped = f"{end} (after {len(walk.points)} of {total} revolutions)"
+    state, values = walk.close(), walk.values
     # the first growth is from a state that did not fit its constraints
-    settled = [np.array(series[begin == skip - 1 :]) for series in growths]
-    error = max(*point_errors, NOISE)
+    settled = [np.array(series[walk.begin == skip - 1 :]) for series in walk.growths]
+    error = max(*walk.point_errors, NOISE)
     if len(values) >= 2 * BATCHES:
         exponent = combine_exponents(settled, DISTANCES, error)
     else:
         exponent = Exponent(math.nan, -math.inf, math.inf, DISTANCES, len(settled[0]))
-    section = np.array(points)
+    transient, section = np.array(walk.points[:skip]), np.array(walk.points[skip:])
     point_error = error * _error_amplification(exponent)
     most = min(most, len(section) // 3)
     figures = {name: np.array([v.get(name, math.nan) for v in values]) for name in names}
@@ -259,16 +217,104 @@ def attractor(
         exponent=exponent,
         figures=figures,
         step_errors={
-            name: _figure_error([d[name] for d in differences], figures[name], exponent)
-            for name in names
+            name: _figure_error(walk.differences(name), figures[name], exponent) for name in names
         },
         units=channels | {name: placed.quantity.unit for name, placed in quantities.items()},
-        turns=turns,
-        last=last,
-        transient=np.linalg.norm(np.array(transient_points) - section[-1], axis=1),
+        turns=len(values) / (state["time"] - walk.start_time),
+        last=walk.last,
+        transient=np.linalg.norm(transient - section[-1], axis=1),
         state=state,
         stopped=stopped,
     )
+
+
+class _Walk:
+    """A long run under way: the orbit, what is run beside it, and what is known so far.
+
+    Beside it are neighbours, brought back in every revolution; the orbit with finer steps, in the
+    revolutions whose errors are measured; and, once, one that is pushed in another direction.
+
+    Attributes:
+        begin: revolution from whose end on neighbours follow.
+        points: in the section, one a revolution, those of the transient too.
+        values: of each revolution after the transient.
+        growths: of each neighbour, its logarithms after the transient.
+        point_errors: of the points of the revolutions whose errors are measured.
+        last: records of the last revolutions.
+        start_time: s, at the end of the transient.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        start: State | None,
+        skip: int,
+        revolutions: int,
+        read: Callable[[Result], dict[str, float]],
+    ) -> None:
+        self._orbit = Orbit(scene, start)
+        self._neighbours = [Orbit(scene) for _ in DISTANCES]
+        self._finer, self._pushed = Orbit(finer(scene)), Orbit(_perturbed_scene(scene))
+        self._skip, self._read = skip, read
+        self.begin = min(1, skip - 1)
+        later = (skip + int(share * revolutions) for share in LATER)
+        self._checked = {self.begin, skip, skip + 1, *later}
+        self.points: list[Array] = []
+        self.values: list[dict[str, float]] = []
+        self.growths: list[list[float]] = [[] for _ in DISTANCES]
+        self.point_errors: list[float] = []
+        self.last: list[Result] = []
+        self.start_time = 0.0
+        self._pairs: list[tuple[dict[str, float], dict[str, float]]] = []
+
+    def turn(self, done: int) -> None:
+        """Go on by a revolution, of which so many are done.
+
+        Raises:
+            NoMotion: it does not get to the section.
+        """
+        orbit, recorded = self._orbit, done >= self._skip
+        if done == self.begin:
+            self._pushed.set_state(orbit.state)
+        if done in self._checked:
+            self._finer.set_state(orbit.state)
+        result = orbit.advance(recorded=recorded)
+        if done == self._skip - 1:
+            self.start_time = orbit.state["time"]
+        finer_result = self._finer.advance(recorded=recorded) if done in self._checked else None
+        growths: list[float] = []
+        if done > self.begin:
+            growths = [
+                _growth(orbit, *pair) for pair in zip(self._neighbours, DISTANCES, strict=True)
+            ]
+        if done == self.begin:  # towards states that fit all constraints
+            self._pushed.advance()
+            directions = self._pushed, self._finer
+            for triple in zip(self._neighbours, directions, DISTANCES, strict=True):
+                _bring_back(orbit, *triple)
+        self.points.append(orbit.point())
+        if result is None:
+            return
+        self.values.append(self._read(result))
+        self.last = [*self.last[-LAST + 1 :], result]
+        for series, growth in zip(self.growths, growths, strict=True):
+            series.append(growth)
+        if finer_result is not None:
+            self._pairs.append((self.values[-1], self._read(finer_result)))
+            apart = np.linalg.norm(orbit.point() - self._finer.point())
+            self.point_errors.append(float(apart))
+
+    def differences(self, name: str) -> list[float]:
+        """Return what finer steps change of a figure, in each revolution that is checked."""
+        nan = math.nan
+        return [usual.get(name, nan) - finest.get(name, nan) for usual, finest in self._pairs]
+
+    def close(self) -> State:
+        """Return the state in which the orbit ends, and let all systems go."""
+        state = self._orbit.state
+        for system in (self._orbit, self._finer, self._pushed, *self._neighbours):
+            system.close()
+        return state
 
 
 def _figure_error(differences: Sequence[float], values: Array, exponent: Exponent) -> float:

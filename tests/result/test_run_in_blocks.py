@@ -177,14 +177,6 @@ def test_a_killed_run_is_not_taken_for_the_one_before(whole, killed, tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["run.nc"]
 
 
-def test_finished_blocks_are_not_begun_anew(killed):
-    left = checkpoint_directory(killed / "run.nc")
-    before = {file.name: file.read_bytes() for file in left.iterdir()}
-    with pytest.raises(InputError, match=r"finished blocks .*`--from .*`--overwrite`"):
-        simulate(SCENE.replace({"revolutions": 11.0}), unfinished=left)
-    assert {file.name: file.read_bytes() for file in left.iterdir()} == before
-
-
 def test_damage_of_a_block_is_noticed_when_it_is_read(killed, tmp_path):
     """A bit of each of 40 places, named by its file; other channels are still there."""
     left = shutil.copytree(checkpoint_directory(killed / "run.nc"), tmp_path / "left")

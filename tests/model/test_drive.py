@@ -9,7 +9,7 @@ from pressed import FORMING
 from schedules import LIGHT, OneCoordinate, kloss
 from scipy.integrate import solve_ivp
 
-from exu_press import InputError, Scene, simulate
+from exu_press import Scene, simulate
 from exu_press.scene import Motor, mechanism_of
 from exu_press.scene.assumptions import assumed_values
 from exu_press.schema.table import table_from
@@ -203,33 +203,6 @@ def test_a_motor_by_its_table():
     assert result.quantity("energy.residual").value < 1e-3
 
 
-@pytest.mark.parametrize(
-    ("drive", "message"),
-    [
-        (
-            {"rated_torque": 400.0, "breakdown_torque": 300.0},
-            r"drive\.breakdown_torque = 300\.0: allowed is a number >=",
-        ),
-        ({"table_torque": [1.0, 0.0]}, "table_speed_rpm, drive.table_torque: 0 and 2 values"),
-        (
-            {"table_torque": [1, 0], "table_speed_rpm": [2, 1]},
-            r"drive\.table_speed_rpm = 1\.0 after 2\.0: allowed is increasing",
-        ),
-        (
-            {"table_torque": [1, 0], "table_speed_rpm": [-2, -1]},
-            r"drive\.table_speed_rpm = -1\.0 at the end",
-        ),
-        (
-            {"table_torque": [1, 0], "table_speed_rpm": [0, 9], "slip": 0.1},
-            r"drive\.slip = 0\.1: not used by this scene \(drive\.table_torque is given\)",
-        ),
-    ],
-)
-def test_a_motor_that_is_refused(drive, message):
-    with pytest.raises(InputError, match=message):
-        Scene(drive={"inertia": 50.0, **drive})
-
-
 @pytest.mark.parametrize("place", ["start_angle_deg", "end_angle_deg"])
 def test_a_pulse_keeps_its_times_where_the_crank_slows_down(place):
     """Rise, fall and impulse are those of the scene; its place follows the crank's angle."""
@@ -281,11 +254,3 @@ def test_what_a_scene_says():
     )
     assert Scene().drive is None
     assert scene.replace({"drive": None}) == Scene()
-    with pytest.raises(InputError, match=r"drive\.slip = 0\.0: allowed is a number > 0"):
-        Scene(drive={"slip": 0.0})
-    with pytest.raises(InputError, match=r"\[drive\] needs drive\.inertia \(of flywheel, gear and"):
-        Scene(drive={"rated_torque": 400.0})
-    with pytest.raises(InputError, match=r"\[drive\] needs drive\.rated_torque \(at rated speed"):
-        Scene(drive={"inertia": 50.0})
-    with pytest.raises(InputError, match=r"drive\.flywheel = 1\.0: unknown key"):
-        Scene(drive={"flywheel": 1.0})

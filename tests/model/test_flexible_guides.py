@@ -223,18 +223,6 @@ def test_a_force_compresses_it_as_all_finite_elements(slider):
 
 
 @pytest.mark.long
-def test_longer_by_a_length_it_gives_way_by_that_over_ea(slider):
-    """What the pin's surroundings add is the same for both."""
-    moved = [
-        pressed(
-            slider(block(length), f"long {length}", load=load_of(1e4, length), **STILL), "load push"
-        )
-        for length in (0.3, 0.5)
-    ]
-    assert moved[1] - moved[0] == pytest.approx(1e4 * 0.2 / (STEEL * WIDTH**2), rel=2e-3)
-
-
-@pytest.mark.long
 def test_the_balance_closes_and_the_solid_may_be_drawn_on_its_own(slider):
     """Lying on its side about its pin: the same run, in an ideal and in an elastic guide."""
     side = block().Move(Vec(0, -1e3 * WRIST, 0)).Rotate(Line(Pnt(0, 0, 0), Z), 90.0)

@@ -1,10 +1,10 @@
-"""[guide] with oil: energy, the frame's force, quantities, starts, flexible bodies, bad input."""
+"""[guide] with oil: energy, the frame's force, quantities, starts, flexible bodies."""
 
 import numpy as np
 import pytest
 from pressed import pressed_slider_crank
 
-from exu_press import InputError, Scene, simulate
+from exu_press import Scene, simulate
 from exu_press.scene import flexible_press, mechanism_of
 from exu_press.scene.warnings import scene_warnings
 from exu_press.solving import scales
@@ -90,21 +90,7 @@ def test_flexible_bodies_have_it():
         assert soft[name][-1] == pytest.approx(rigid[name][-1], rel=0.02)
 
 
-def test_what_is_refused_and_dropped():
-    with pytest.raises(InputError, match=r"guide\.viscosity needs guide\.face_width .* no default"):
-        Scene(guide={**DRY, "viscosity": 0.1})
-    with pytest.raises(InputError, match=r"guide\.viscosity needs guide\.contact_gap"):
-        Scene(guide={**DRY, "viscosity": 0.1, "face_width": 0.1})
-    with pytest.raises(InputError, match=r"guide\.face_width = 0\.1: not used .*viscosity is not"):
-        Scene(guide={**DRY, "face_width": 0.1})
-    with pytest.raises(InputError, match=r"guide\.viscosity = 0\.1: not used .*clearance is not"):
-        Scene(guide={"friction": "coulomb", "viscosity": 0.1})
-    with pytest.raises(InputError, match=r"guide\.contact_gap = 3e-05: allowed is a number < guid"):
-        Scene(guide={**OILED, "contact_gap": 3e-5})
-    with pytest.raises(InputError, match=r"guide\.face_width = 0\.001: allowed are 0\.01 to 100"):
-        Scene(guide={**OILED, "face_width": 1e-3})
-    with pytest.raises(InputError, match=r"guide\.viscosity = 0\.0: allowed is a number > 0"):
-        Scene(guide={**OILED, "viscosity": 0.0})
+def test_without_its_key_a_guide_is_another_one():
     scene = Scene(guide=OILED)
     assert Scene.from_dict(scene.to_dict()) == scene
     assert scene.replace({"guide.viscosity": None}) == Scene(guide=DRY)

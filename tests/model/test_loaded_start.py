@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press import InputError, Scene, simulate
+from exu_press import Scene, simulate
 from exu_press.model import build
 from exu_press.model.loaded_start import loaded_start
 from exu_press.model.system import System
@@ -112,11 +112,7 @@ def test_the_papers_press_starts_centred():
     assert model.scene.start == "centred"
 
 
-def test_a_start_that_cannot_be_is_refused():
-    with pytest.raises(InputError, match=r"start = 'loaded': not used .*every joint is ideal"):
-        Scene(joints={}, start="loaded")
-    with pytest.raises(InputError, match="start = 'middle': allowed is one of 'loaded', 'centred'"):
-        Scene(start="middle")
+def test_a_start_that_no_joint_needs_is_dropped():
     assert Scene(start="loaded").replace({"joints.crank_pin": "ideal", "joints.balls": "ideal"})
 
 

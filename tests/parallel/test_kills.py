@@ -9,6 +9,7 @@ from pathlib import Path
 
 import batch_functions
 import pytest
+from waiting import alive, until
 
 from exu_press import InputError
 from exu_press.files.lock import lock_directory
@@ -30,22 +31,6 @@ def parent(function, arguments, directory):
         path=sys.path, function=function, arguments=arguments, directory=str(directory)
     )
     return subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True)
-
-
-def until(condition, seconds=20.0):
-    """Wait until something holds."""
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.01)
-
-
-def alive(process):
-    try:
-        status = Path(f"/proc/{process}/stat").read_text()
-    except FileNotFoundError:
-        return False
-    return status.rpartition(")")[2].split()[0] != "Z"
 
 
 def lines(directory):

@@ -68,18 +68,6 @@ def test_step_file_in_mm_with_boxes(tmp_path: Path):
         StepFile(file, scale=1e-3, faces={"top": ((1, 1, 1), (2, 2, 2))}).build()
 
 
-def test_step_file_that_is_not_one(tmp_path: Path):
-    file = tmp_path / "rod.step"
-    with pytest.raises(InputError, match="cannot be read"):
-        StepFile(file).build()
-    file.write_text("solid STL")
-    with pytest.raises(InputError, match=r"rod.step.*is not one"):
-        StepFile(file).key()
-    file.write_text("ISO-10303-21;\nHEADER;\nbroken")
-    with pytest.raises(InputError, match=r"rod\.step"):
-        StepFile(file).build()
-
-
 def test_impossible_dimensions():
     crank, rod = shipped_part("crank").geometry, shipped_part("linkage").geometry
     with pytest.raises(InputError, match="web_radius"):

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import process_functions
 import pytest
+from waiting import alive, until
 
 from fe_models.errors import DiskFullError, InputError
 from fe_models.processes import Child, ChildError, TimeLimitError, may_copy
@@ -159,27 +160,17 @@ def test_no_child_outlives_its_parent(copied, how, tmp_path):
     mark = tmp_path / "mark"
     code = PARENT.format(path=[HERE, *sys.path], copied=copied, mark=str(mark))
     parent = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL)
-    end = time.monotonic() + 30.0
-    while not (mark.exists() and mark.read_text()):
-        assert time.monotonic() < end and parent.poll() is None
-        time.sleep(0.01)
+    end_with(parent, mark, how)
+
+
+def end_with(parent, mark, how):
+    """End a process by a signal once its child has left a mark, and wait for the child's end."""
+    until(lambda: mark.exists() and mark.read_text(), 30.0)
     number = int(mark.read_text())
-    assert runs(number)
+    assert parent.poll() is None and alive(number)
     parent.send_signal(how)
     parent.wait()
-    end = time.monotonic() + 10.0
-    while runs(number):
-        assert time.monotonic() < end, "still there"
-        time.sleep(0.01)
-
-
-def runs(number):
-    """Return whether a process is there and is no zombie."""
-    try:
-        state = Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[0]
-    except FileNotFoundError:
-        return False
-    return state != "Z"
+    until(lambda: not alive(number), 10.0)
 
 
 def test_without_linux_a_closed_pipe_ends_a_child(tmp_path):
@@ -200,16 +191,7 @@ def test_without_linux_a_closed_pipe_ends_a_child(tmp_path):
         f"child.request({str(mark)!r}); child.answer()"
     )
     parent = subprocess.Popen([sys.executable, "-c", code])
-    end = time.monotonic() + 30.0
-    while not (mark.exists() and mark.read_text()):
-        assert time.monotonic() < end
-        time.sleep(0.01)
-    parent.kill()
-    parent.wait()
-    number, end = int(mark.read_text()), time.monotonic() + 10.0
-    while runs(number):
-        assert time.monotonic() < end, "still there"
-        time.sleep(0.01)
+    end_with(parent, mark, signal.SIGKILL)
 
 
 def test_beside_ngsolve_there_is_no_copy(monkeypatch):

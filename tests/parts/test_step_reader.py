@@ -49,8 +49,9 @@ def test_a_file_is_read_however_its_name_ends(name, tmp_path):
         (lambda text: text.replace("DATA;", "DATA"), "rod"),
         (lambda text: text.replace(*CRASH), r"may be damaged \(killed by SIG.*: #594 = DEFINITION"),
         (lambda _: "", "is not one"),
+        (lambda _: "ISO-10303-21;\n", "cannot (be )?read|holds 0 solids"),
     ],
-    ids=["half", "misspelt", "no section", "crash", "empty"],
+    ids=["half", "misspelt", "no section", "crash", "empty", "head"],
 )
 def test_a_damaged_one_is_refused(damage, named, tmp_path):
     path = tmp_path / "rod.step"

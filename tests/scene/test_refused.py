@@ -137,6 +137,31 @@ guide.friction = 'lugre'; friction.mu_kinetic = 0.2 -> friction.mu_kinetic = 0.2
 guide.friction = 'coulomb'; friction.sigma_0 = 2e4 -> [friction]: not used .. no joint is 'dry'
 guide.clearance = 2e-5; contact.modulus = 1e11 -> contact.modulus = 1
 guide.clearance = 2e-5; contact.damping = 'step' -> guide.clearance needs contact.damping_max
+guide = {friction = 'coulomb', viscosity = 0.1} -> guide.viscosity = 0.1: not used .. clearance is
+= mechanism = 'slider_crank'; joints = {}; guide = {clearance = 2e-5, length = 0.3, width = 0.1}
+guide.damping_ratio = 0.1 -> guide.damping_ratio = 0.1: not used .. [contact] has
+guide.damping_depth = 1e-6 -> guide.damping_depth = 1e-06: is contact.damping_depth
+guide.tilting_stiffness = 1e6 -> guide.tilting_stiffness = 1000000.0: not used
+guide = {friction = 'stribeck', mu_static = 0.05} -> guide.mu_static = 0.05: allowed is .. >= guide
+guide.mu_kinetic = 0.05 -> guide.mu_kinetic = 0.05: not used .. friction is
+guide.viscosity = 0.1 -> guide.viscosity needs guide.face_width .. no default
+guide = {viscosity = 0.1, face_width = 0.1} -> guide.viscosity needs guide.contact_gap
+guide.face_width = 0.1 -> guide.face_width = 0.1: not used .. viscosity is not
+guide = {viscosity = 0.1, face_width = 0.1, contact_gap = 3e-5} -> gap = 3e-05: allowed is .. < guid
+guide = {viscosity = 0.1, face_width = 1e-3, contact_gap = 2e-6} -> face_width = 0.001: allowed are
+
+# motors
+= drive.inertia = 50.0
+drive = {} -> [drive] needs drive.rated_torque (at rated speed
+drive = {rated_torque = 400.0, breakdown_torque = 300.0} -> drive.breakdown_torque = 300.0: allowed
+drive.table_torque = [1.0, 0.0] -> table_speed_rpm, drive.table_torque: 0 and 2 values
+drive = {table_torque = [1, 0], table_speed_rpm = [2, 1]} -> = 1.0 after 2.0: allowed is increasing
+drive = {table_torque = [1, 0], table_speed_rpm = [-2, -1]} -> drive.table_speed_rpm = -1.0 at the e
+=
+drive.rated_torque = 400.0 -> [drive] needs drive.inertia (of flywheel, gear and
+drive.flywheel = 1.0 -> drive.flywheel = 1.0: unknown key
+joints = {}; start = 'loaded' -> start = 'loaded': not used .. every joint is ideal
+start = 'middle' -> start = 'middle': allowed is one of 'loaded', 'centred'
 
 # films and their oil
 = mechanism = 'slider_crank'; joints.crank_pin = 'lubricated'; film.oil = {viscosity_cst = [68, 8],\
@@ -161,6 +186,10 @@ bodies = 'flexible' -> bodies = 'flexible': allowed is a table for each flexible
 bodies.linkige = 'linkage' -> bodies.linkige = 'linkage': press has no such body (did you
 bodies.linkage.modes = 4 -> bodies.linkage.flexible: missing
 bodies.linkage = 3 -> bodies.linkage = 3: allowed is a shipped part, a STEP file's path, or
+= mechanism = 'six_bar'; bodies.rod.matrices = 'rod.toml'
+bodies.rod.mesh_size = 0.1 -> bodies.rod.mesh_size = 0.1: not used .. matrices in place of a solid
+bodies.rod.flexible = 'rod.step' -> allowed is one of the two
+bodies.rod.matrices = 'rod.mtx' -> matrices = 'rod.mtx': allowed is the path of a description
 = bodies.crank.flexible = 'crank'
 bodies.crank.modes = 2.5 -> bodies.crank.modes = 2.5: allowed is a whole number >= 0
 bodies.crank.mode = 2 -> bodies.crank.mode = 2: unknown key (did you mean 'modes'?)

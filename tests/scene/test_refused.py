@@ -281,7 +281,7 @@ def test_what_is_refused_is_named(scene, message):
 def wrong_values(field):
     """Return values that no key of its kind may have."""
     meta, of_type = field.metadata, str(field.type)
-    if "above" not in meta or meta["also"] or {"part", "by_place"} & meta.keys():
+    if "above" not in meta or meta["also"] or {"part", "by_place", "list_of"} & meta.keys():
         return []
     wrong = [float("nan"), -float("inf"), {}, ["x"], [True]]
     if meta["numbers"] is None and "float" in of_type:

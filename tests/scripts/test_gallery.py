@@ -107,6 +107,16 @@ def check_bearing_coefficients(found):
     assert math.isinf(found["bearing"].critical_mass)
 
 
+def check_slides_and_slots(found):
+    """Travels by the crank's radius and the lengths; a looser block knocks harder."""
+    travels, forces = found["travels"], found["forces"]
+    arm = 0.75  # of the shaper, whose crank is a quarter as long as its shaft is away
+    assert travels["crank_shaper"] == pytest.approx(2.0 * arm * 0.25, rel=1e-6)
+    assert travels["scotch_yoke"] == pytest.approx(0.2, rel=1e-6)
+    assert travels["oscillating_cylinder"] == pytest.approx(0.12, rel=1e-6)
+    assert forces[5e-5] > forces[1e-5] > 0.0
+
+
 def check_of(script):
     return globals()[f"check{script.stem[2:]}"]
 

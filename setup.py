@@ -51,6 +51,7 @@ MODULES = [
     "joints/states",
     "joints/guideway",
     "joints/guideway_film",
+    "joints/moving_guideway",
     "joints/worn",
     "laws/contact_damping",
     "laws/contact_stiffness",

@@ -200,6 +200,7 @@ def _parts(mechanism: Mechanism) -> list[str]:
         ("guides", [guide.name for guide in mechanism.guides if not guide.is_slot]),
         ("slots", [guide.name for guide in mechanism.guides if guide.is_slot]),
         ("gears", [gear.name for gear in mechanism.gears]),
+        ("springs", [spring.name for spring in mechanism.springs]),
     ):
         if not names and kind not in ALWAYS_LISTED:
             continue

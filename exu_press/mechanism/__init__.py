@@ -10,19 +10,24 @@ from exu_press.mechanism.file import (
     shipped_mechanism,
     unit_in_mechanism,
 )
+from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import GROUND, Body, Guide, Guideway, Joint, Output, Point, Spring
 from exu_press.mechanism.press import Press, press
 from exu_press.mechanism.slider_crank import SliderCrank, slider_crank
+from exu_press.mechanism.springs import GasSpring, LinearSpring
 
 __all__ = [
     "GROUND",
     "SHIPPED",
     "Body",
+    "GasSpring",
+    "Gear",
     "Guide",
     "Guideway",
     "Joint",
+    "LinearSpring",
     "Mechanism",
     "Motion",
     "Output",

@@ -17,6 +17,7 @@ from exu_press.mechanism.parts import (
     distinct_points,
     drawing_size,
 )
+from exu_press.mechanism.springs import SpringBetween, check_springs
 from exu_press.schema.checks import demand_known, demand_name, demand_number, refuse_unknown
 
 __all__ = ["check_defaults", "check_drawing", "require_kind"]
@@ -42,7 +43,7 @@ RESERVED = {
 
 CHANNEL_NAMES = ("drive", "frame", "guide", "shaking")
 BODY_CHANNELS = ("guide", "modes")
-OTHER_CHANNELS = ("gear_", "load_")
+OTHER_CHANNELS = ("gear_", "load_", "spring_")
 """Prefixes of channels that belong to no joint; those of a body follow its name."""
 
 PERPENDICULAR = 1e-9
@@ -100,6 +101,7 @@ def check_drawing(
     groups: Mapping[str, Sequence[str]],
     counterweight: Sequence[str],
     gears: Sequence[Gear],
+    springs: Sequence[SpringBetween],
 ) -> None:
     """Raise InputError for the first fault of a mechanism's data."""
     if not isinstance(name, str) or not name:
@@ -112,6 +114,7 @@ def check_drawing(
     _check_unique("guides", [guide.name for guide in guides if not guide.is_slot])
     _check_unique("slots", [guide.name for guide in guides])
     _check_unique("gears", [gear.name for gear in gears])
+    _check_unique("springs", [spring.name for spring in springs])
     for name, what in RESERVED.items():
         if name in names:
             raise InputError(f"bodies.{name}: this name means {what}; allowed is another one")
@@ -164,6 +167,7 @@ def check_drawing(
             "counterweight", body_name, [n for n in names if n not in (crank, output.body)]
         )
     check_gears(gears, names, crank)
+    check_springs(springs, names)
     _check_connections(bodies, joints, guides, crank)
 
 

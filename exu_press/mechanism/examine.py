@@ -96,6 +96,7 @@ def examine(mechanism: Mechanism) -> Examination:
     """Examine a drawing; one whose crank does not turn is examined as far as possible."""
     mobility = mobility_of(mechanism)
     try:
+        mechanism.require_turning()
         stroke = stroke_of(mechanism, ANGLES)
         transmission = transmission_angles(mechanism, ANGLES)
     except MotionError as error:

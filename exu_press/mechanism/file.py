@@ -16,6 +16,11 @@ direction = [0, 1]
 [gears.pair]
 body = "second_crank"
 ratio = -1
+[springs.counterbalance]
+between = ["slider", "frame"]
+at = [[0.0, -0.3], [0.0, 0.2]]
+stiffness = 2e4
+preload = -3e3
 [groups]
 pins = ["crank_pin", "wrist_pin"]
 [defaults]
@@ -35,6 +40,7 @@ from exu_press.errors import InputError, error_prefix
 from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output
+from exu_press.mechanism.springs import GasSpring, LinearSpring
 from exu_press.schema.checks import as_float, nearest, refuse_unknown
 from exu_press.schema.toml import read_toml, toml_text
 
@@ -60,19 +66,42 @@ SECTIONS: dict[str, tuple[type, tuple[str, ...], tuple[str, ...]]] = {
     "guides": (Guide, ("direction",), ("body", "on")),
     "slots": (Guide, ("body", "on", "at"), ("direction", "centre", "length", "middle")),
     "gears": (Gear, ("body", "ratio"), ("to",)),
+    "springs": (
+        LinearSpring,
+        ("between", "at", "stiffness"),
+        ("damping", "free_length", "preload"),
+    ),
 }
 """Section of the file -> class of its tables, their required keys, their optional keys."""
 
 IN_FILE = {"slots": {"body": "pin", "on": "slot"}}
 """Section -> names in the file of some keys."""
 
-UNITS = {"mass": "kg", "inertia": "kg m^2", "angle": "rad", "at": "m", "centre_of_mass": "m"}
+GAS = (
+    GasSpring,
+    ("between", "at", "area", "pressure", "volume", "exponent"),
+    ("ambient", "damping"),
+)
+"""Class and keys of a spring with an area."""
+
+UNITS = {
+    "mass": "kg",
+    "inertia": "kg m^2",
+    "angle": "rad",
+    **dict.fromkeys(("at", "centre_of_mass", "free_length"), "m"),
+    "stiffness": "N/m",
+    "damping": "N s/m",
+    "preload": "N",
+    "area": "m^2",
+    "volume": "m^3",
+    **dict.fromkeys(("pressure", "ambient"), "Pa"),
+}
 COORDINATES = "x", "y"
 
 OUTPUT = ("body",), ("direction", "origin", "rotation")
 TOP = (
     ("name", "crank", "output", "bodies", "joints"),
-    ("guides", "slots", "gears", "groups", "counterweight", "defaults"),
+    ("guides", "slots", "gears", "springs", "groups", "counterweight", "defaults"),
 )
 """Required and optional keys of the output's table, and of the whole file."""
 
@@ -117,8 +146,9 @@ def mechanism_from_dict(data: Mapping[str, Any]) -> Mechanism:
 
 
 def _element(section: str, name: str, table: Any) -> Any:
-    """Return a body, joint, guide, slot or gear of its table."""
-    element, *keys = SECTIONS[section]
+    """Return a body, joint, guide, slot, gear or spring of its table."""
+    is_gas = section == "springs" and isinstance(table, Mapping) and "area" in table
+    element, *keys = GAS if is_gas else SECTIONS[section]
     in_file = IN_FILE.get(section, {})
     values = _checked_keys(
         f"{section}.{name}", table, *(tuple(in_file.get(key, key) for key in k) for k in keys)
@@ -141,7 +171,7 @@ def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
     if mechanism.counterweight:
         data["counterweight"] = [*mechanism.counterweight]
     data["output"] = _plain(mechanism.output, *OUTPUT)
-    for section, (element, required, optional) in SECTIONS.items():
+    for section, (element, *keys) in SECTIONS.items():
         name = fields(element)[0].name
         in_file = IN_FILE.get(section, {})
         items = getattr(mechanism, "guides" if section == "slots" else section)
@@ -150,7 +180,9 @@ def mechanism_to_dict(mechanism: Mechanism) -> dict[str, Any]:
         data[section] = {
             getattr(item, name): {
                 in_file.get(key, key): value
-                for key, value in _plain(item, required, optional).items()
+                for key, value in _plain(
+                    item, *(GAS[1:] if isinstance(item, GasSpring) else keys)
+                ).items()
                 if key != "direction" or getattr(item, "centre", None) is None
             }
             for item in items
@@ -262,11 +294,16 @@ def _value(value: Any) -> Any:
 
 
 def _plain(item: Any, required: tuple[str, ...], optional: tuple[str, ...]) -> dict[str, Any]:
-    """Return the keys of a body, joint, guide or output that a file needs, points as lists."""
+    """Return the keys of an element or output that a file needs, points as lists."""
     implied = {"body": getattr(item, "name", None), "on": GROUND}
     values = {key: getattr(item, key) for key in required + optional}
     return {
-        key: [*value] if isinstance(value, tuple) else value
+        key: _lists(value)
         for key, value in values.items()
-        if key in required or value not in (None, False, implied.get(key))
+        if key in required
+        or (value is not None and value is not False and value != implied.get(key))
     }
+
+
+def _lists(value: Any) -> Any:
+    return [*map(_lists, value)] if isinstance(value, tuple) else value

@@ -10,7 +10,7 @@ import numpy as np
 
 from exu_press.mechanism.checks import check_defaults, check_drawing, require_kind
 from exu_press.mechanism.gears import Gear
-from exu_press.mechanism.kinematics import Kinematics, kinematics_of
+from exu_press.mechanism.kinematics import Kinematics, MotionError, kinematics_of
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import (
     GROUND,
@@ -24,6 +24,8 @@ from exu_press.mechanism.parts import (
 )
 from exu_press.mechanism.planar_constraints import PlanarConstraints, planar_constraints
 from exu_press.mechanism.slots import check_slot_ends
+from exu_press.mechanism.spring_motion import impossible_spring
+from exu_press.mechanism.springs import SpringBetween
 from exu_press.numerics.arrays import Array
 
 __all__ = ["Mechanism"]
@@ -46,6 +48,7 @@ class Mechanism:
         joints: ideal or with clearance, as a scene says.
         guides: in the frame, or between moving bodies.
         gears: between two bodies' rotations.
+        springs: between points of two bodies, or of a body and the frame.
         crank: name of the driven body.
         output: whose motion the result's slider channels record.
         groups: name -> joints that a scene can address together.
@@ -69,6 +72,7 @@ class Mechanism:
     counterweight: tuple[str, ...] = ()
     defaults: Mapping[str, Any] = field(default_factory=dict, hash=False)
     gears: tuple[Gear, ...] = ()
+    springs: tuple[SpringBetween, ...] = ()
 
     def __post_init__(self) -> None:
         """Check the drawing, fill in the inertia of uniform rods, make directions unit vectors."""
@@ -81,6 +85,7 @@ class Mechanism:
                 replace(gear, to=gear.to or self.crank)
                 for gear in require_kind(Gear, "gears", self.gears)
             ),
+            springs=require_kind(SpringBetween, "springs", self.springs),
         )
         check_drawing(
             self.name,
@@ -92,6 +97,7 @@ class Mechanism:
             self.groups,
             self.counterweight,
             self.gears,
+            self.springs,
         )
         check_defaults(self.defaults)
         self._assign(
@@ -186,8 +192,17 @@ class Mechanism:
         return guide.body, (0.0, 0.0) if at is None else self.body(guide.body).local(at)
 
     def require_turning(self) -> None:
-        """Raise InputError unless the crank turns through a whole revolution; see `motion`."""
+        """Raise InputError unless the crank turns through a whole revolution; see `motion`.
+
+        Springs have a length, and gas a volume, at every crank angle.
+        """
         self._kinematics()
+        if (impossible := impossible_spring(self)) is not None:
+            spring, angle, reason = impossible
+            bodies = tuple(body for body in spring.between if body != GROUND)
+            text = f"at crank angle {math.degrees(angle):.4g} deg springs.{spring.name} {reason}"
+            poses = {n: m.position[0] for n, m in self.motion(np.array([angle]), 1.0).items()}
+            raise MotionError(f"{self.name}: {text}", bodies, angle, poses)
 
     def motion(self, angle: Array, speed: float) -> dict[str, Motion]:
         """Return the motion (x, y, angle) of every body with ideal joints, by its name.

@@ -12,7 +12,9 @@ import numpy as np
 from exu_press.mechanism.guide_motion import guide_path
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Guide
+from exu_press.mechanism.pitch_circles import pitch_circles
 from exu_press.mechanism.slots import slot_outline
+from exu_press.mechanism.spring_motion import spring_ends
 from exu_press.numerics.arrays import Array
 
 __all__ = [
@@ -196,8 +198,8 @@ class FrontView:
     Attributes:
         shapes: name of a body -> its shape.
         swept: name of a body -> its outlines over a revolution of the ideal mechanism, (n, 2), m.
-        low: least x and y of them, m.
-        high: largest x and y of them, m.
+        low: least x and y of them, of springs and of pitch circles, m.
+        high: largest x and y of these, m.
         unit: of labels and pins, m: the larger of height and width.
     """
 
@@ -209,7 +211,13 @@ class FrontView:
             name: np.vstack([shape.outline_at(pose) for pose in motion[name].position])
             for name, shape in self.shapes.items()
         }
-        corners = np.vstack(list(self.swept.values()))
+        spring_paths = [
+            transform_points(np.array([point]), pose)
+            for spring in mechanism.springs
+            for body, point in spring_ends(mechanism, spring)
+            for pose in (motion[body].position if body in motion else np.zeros((1, 3)))
+        ]
+        corners = np.vstack([*self.swept.values(), *pitch_circles(mechanism), *spring_paths])
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
         self.unit = float((self.high - self.low).max())
 

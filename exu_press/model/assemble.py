@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import exudyn as exu
 from exudyn.itemInterface import SensorNode, SensorObject
 
+from exu_press.errors import InputError
 from exu_press.integrate.modal_mass import follow_modes
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.joints.states import States
@@ -16,6 +17,7 @@ from exu_press.model.gears import add_gear
 from exu_press.model.guides import add_guide
 from exu_press.model.ideal_joints import add_ideal_joint
 from exu_press.model.model import Model, count_items
+from exu_press.model.springs import add_spring
 from exu_press.model.stall import Stall, holding_torque
 from exu_press.model.system import System
 from exu_press.scene import IdealJoint, Scene
@@ -99,6 +101,7 @@ def _assemble(
         for gear in mechanism.gears
         if gear.name in constraints.gears
     }
+    springs = {spring.name: add_spring(system, spring) for spring in mechanism.springs}
     guideways = _guideways(system)
     friction = _guide_friction(system, guides)
     start_stop: StartStop | None = None
@@ -117,6 +120,7 @@ def _assemble(
     if system.flexible:
         follow_modes(system.mbs)
     _add_sensors(system, ideal | {"drive": drive}, guides, gears)
+    _add_spring_sensors(system, springs)
     system.mbs.Assemble()
     if start_stop is not None:
         forces = dict.fromkeys(system.loads, 0.0)
@@ -176,6 +180,13 @@ def _guide_friction(
     table = system.scene.guide
     if table is None or not table.rubs or table.clearance is not None:
         return {}
+    for guide in system.mechanism.guides:
+        if guide.key in system.constraints.undetermined:
+            raise InputError(
+                f"guide.friction: the force of {guide.key}, which decides it, is not determined "
+                "beside gears and ideal joints; allowed is friction in a guide with stiffness or "
+                "clearance"
+            )
     from exu_press.model.guide_friction import add_guide_friction
 
     return {
@@ -246,3 +257,17 @@ def _add_sensors(
         kind = exu.OutputVariableType.ForceLocal if local else exu.OutputVariableType.Force
         load = SensorObject(objectNumber=number, storeInternal=True, outputVariableType=kind)
         system.sensors[key] = system.mbs.AddSensor(load)
+
+
+def _add_spring_sensors(system: System, springs: Mapping[str, int]) -> None:
+    """Record the vector between both ends of springs, and its rate."""
+    levels = {
+        "ends": exu.OutputVariableType.Displacement,
+        "velocity": exu.OutputVariableType.Velocity,
+    }
+    for name, number in springs.items():
+        for level, output in levels.items():
+            sensor = SensorObject(
+                objectNumber=number, storeInternal=True, outputVariableType=output
+            )
+            system.sensors[f"spring_{name}", level] = system.mbs.AddSensor(sensor)

@@ -19,6 +19,7 @@ from exu_press.joints.interface import DryInterface, InterfaceLaw
 from exu_press.joints.joint import SHALLOW
 from exu_press.mechanism import GROUND, Motion
 from exu_press.mechanism.planar_constraints import INDEPENDENT, null_space
+from exu_press.mechanism.spring_motion import spring_ends, spring_motion
 from exu_press.model.clearance_joints import interfaces_of
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
@@ -190,6 +191,16 @@ class _Problem:
             angle = self.ideal[load.body].position[:, 2]
             forces[k : k + 2] -= size[i] * np.array(load.direction)
             forces[k + 2] -= load.moment(size, angle)[i]
+        for spring in self.mechanism.springs:
+            motion = spring_motion(self.mechanism, spring, self.ideal)
+            push = spring.force(motion.length, motion.rate)[i] * motion.direction[i]
+            ends = spring_ends(self.mechanism, spring)
+            for sign, (name, point) in zip((-1.0, 1.0), ends, strict=True):
+                if name in self.constraints.bodies:
+                    k, ideal = 3 * self.constraints.bodies.index(name), self.ideal[name]
+                    x, y = (ideal.point_motion(point).position - ideal.position)[i, :2]
+                    forces[k : k + 2] -= sign * push
+                    forces[k + 2] -= sign * (x * push[1] - y * push[0])
         return np.asarray(forces * self.scale)
 
 

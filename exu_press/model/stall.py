@@ -6,6 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from exu_press.mechanism import Mechanism
+from exu_press.mechanism.spring_motion import spring_motion
 from exu_press.scene import Scene
 from exu_press.scene.applied import applied_loads
 
@@ -68,7 +69,7 @@ def stall_message(
     Args:
         time: s.
         angle: of the crank, rad.
-        needed: torque at the crank that balances loads and weights, N m.
+        needed: torque at the crank that balances loads, springs and weights, N m.
         available: torque of the motor, or of a clutch that slips, N m.
         slips: whether the clutch slips.
     """
@@ -88,13 +89,16 @@ def stall_message(
 def holding_torque(
     mechanism: Mechanism, scene: Scene, forces: Mapping[str, float], angle: float
 ) -> float:
-    """Return the torque at the crank that balances loads and weights, N m, by virtual work.
+    """Return the torque at the crank that balances loads, springs and weights, by virtual work.
 
     Args:
         mechanism: ideal, and without friction.
         scene: with the loads.
         forces: name of a load -> its force just before the output came to rest, N.
         angle: of the crank, rad.
+
+    Returns:
+        N m.
     """
     per_angle = mechanism.motion(np.array([angle]), 1.0)
     torque = 0.0
@@ -105,4 +109,7 @@ def holding_torque(
         if load.fade is None or closes:
             rate = per_angle[load.body].point_motion(load.point).velocity[0, :2]
             torque -= forces[name] * float(rate @ np.array(load.direction))
+    for spring in mechanism.springs:
+        motion = spring_motion(mechanism, spring, per_angle)
+        torque -= float(spring.static_force(motion.length)[0] * motion.rate[0])
     return torque

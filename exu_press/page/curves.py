@@ -62,6 +62,9 @@ def curves_of(result: Result) -> list[Curve]:
         of_owners += _channels_of(
             result, f"gear_{gear.name}", f"Gear {_label_of(gear.name)}", Owner.GEAR, gear.name
         )
+    for spring in mechanism.springs:
+        begin, group = f"spring_{spring.name}", f"Spring {_label_of(spring.name)}"
+        of_owners += _channels_of(result, begin, group, Owner.SPRING, spring.name)
     for load in applied_loads(result.scene):
         of_owners += _channels_of(
             result, f"load_{load}", f"Load {_label_of(load)}", Owner.LOAD, load
@@ -119,7 +122,7 @@ def _peak(owner: Owner, curve: str, at: str) -> str:
 
 
 def _channels_of(result: Result, begin: str, group: str, owner: Owner, at: str) -> Iterator[Curve]:
-    """Yield the curves of all channels of a guide, a gear or a load."""
+    """Yield the curves of all channels of a guide, a gear, a spring or a load."""
     for name in result.channels:
         if name.startswith(f"{begin}_"):
             what = name.removeprefix(f"{begin}_")

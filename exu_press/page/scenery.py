@@ -2,10 +2,12 @@
 
 from typing import Any
 
-from exu_press.mechanism import Mechanism
+from exu_press.mechanism import Joint, Mechanism
 from exu_press.mechanism.parts import GROUND
 from exu_press.mechanism.pitch_circles import pitch_circles
 from exu_press.mechanism.shapes import FrontView
+from exu_press.mechanism.spring_motion import spring_ends
+from exu_press.mechanism.springs import HALF_WIDTH, SpringBetween
 from exu_press.numerics.arrays import Array
 from exu_press.plots.busiest import busiest
 from exu_press.plots.words import joint_in_words
@@ -38,10 +40,11 @@ def scenery(result: Result) -> dict[str, Any]:
         "unit": front.unit,
         "box": [*front.low.tolist(), *front.high.tolist()],
         "bodies": bodies,
-        "joints": [_joint(result, mechanism, name) for name in result.joints],
+        "joints": [_joint(result, mechanism, joint) for joint in mechanism.joints],
         "magnified": _joints_to_magnify(result),
         "rails": [_round_points(rail) for rail in front.rails()],
         "wheels": [_round_points(outline) for outline in pitch_circles(mechanism)],
+        "springs": [_spring(mechanism, spring, front.unit) for spring in mechanism.springs],
         "pivots": [[*map(float, joint.at)] for joint in mechanism.joints if joint.on_frame],
         "ends": [
             {
@@ -64,22 +67,37 @@ def _label(body: str) -> str:
     return label[:1].lower() + label[1:]
 
 
-def _joint(result: Result, mechanism: Mechanism, name: str) -> dict[str, Any]:
-    """Return a joint's place and properties."""
-    record = result.joints[name]
-    joint = next(joint for joint in mechanism.joints if joint.name == name)
+def _joint(result: Result, mechanism: Mechanism, joint: Joint) -> dict[str, Any]:
+    """Return a joint's place and properties; the force of an ideal one may not be determined."""
+    record = result.joints.get(joint.name)
     (body, point), (bearing, bearing_point) = mechanism.ends(joint)
     if body == GROUND:
         body, point = bearing, bearing_point
     return {
-        "name": name,
-        "label": joint_in_words(name),
+        "name": joint.name,
+        "label": joint_in_words(joint.name),
         "body": [mechanism_body.name for mechanism_body in mechanism.bodies].index(body),
         "turns": joint.journal != GROUND,
         "at": [*map(float, point)],
-        "kind": record.kind,
-        "ball": record.spherical,
-        "clearance": float(record.clearance),
+        "kind": result.scene.joints[joint.name].kind,
+        "ball": joint.spherical,
+        "clearance": 0.0 if record is None else float(record.clearance),
+    }
+
+
+def _spring(mechanism: Mechanism, spring: SpringBetween, size: float) -> dict[str, Any]:
+    """Return a spring's ends, by the index of their body, -1 of the frame, and its picture.
+
+    Points of the picture are a share of the length and a distance across, m.
+    """
+    names = [body.name for body in mechanism.bodies]
+    return {
+        "name": spring.name,
+        "ends": [
+            {"body": -1 if body == GROUND else names.index(body), "at": [*map(float, point)]}
+            for body, point in spring_ends(mechanism, spring)
+        ],
+        "symbol": [[share, across * HALF_WIDTH * size] for share, across in spring.symbol],
     }
 
 

@@ -114,6 +114,9 @@ def _draw(axes: Axes, examined: Examination) -> None:
         ends = [at + sign * 0.16 * mechanism.size * np.array(guide.direction) for sign in (-1, 1)]
         colour = WRONG if guide.name in examined.wrong_guides else GREY
         axes.plot(*np.array(ends).T, color=colour, linewidth=1.2, linestyle="-.", zorder=0.8)
+    for spring in mechanism.springs:
+        outline = spring.outline(np.array(spring.at), mechanism.size)
+        axes.plot(*outline.T, color=EDGE, linewidth=0.9, zorder=2.5)
     for outline in pitch_circles(mechanism):
         axes.plot(*outline.T, color=GREY, linewidth=0.9, linestyle=(0, (6, 3)), zorder=0.8)
     axes.autoscale_view()
@@ -147,7 +150,7 @@ def _draw_paths(axes: Axes, examined: Examination) -> None:
 
 
 def _draw_names(axes: Axes, examined: Examination) -> None:
-    """Name joints at the left and bodies at the right, each with a line to its place."""
+    """Name joints and springs at the left and bodies at the right, with lines to their places."""
     mechanism = examined.mechanism
     places: dict[tuple[float, float], list[str]] = {}
     for joint in mechanism.joints:
@@ -155,6 +158,8 @@ def _draw_names(axes: Axes, examined: Examination) -> None:
     for guide in mechanism.guides:
         if guide.at is not None:
             places.setdefault(guide.at, []).append(guide.name)
+    for spring in mechanism.springs:
+        places.setdefault(tuple(np.mean(spring.at, axis=0)), []).append(spring.name)
     joints = {", ".join(names): np.array(at) for at, names in places.items()}
     wrong_joints = [n for n in joints if set(n.split(", ")) & set(examined.wrong_joints)]
     labels = {body.name: body.name for body in mechanism.bodies}

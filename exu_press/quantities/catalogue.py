@@ -19,6 +19,7 @@ from exu_press.quantities.quantity import PREFIXES, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.sheet import SHEETS
 from exu_press.quantities.slider import SLIDER, STROKES
+from exu_press.quantities.springs import SPRINGS
 from exu_press.quantities.start_stop import START_STOP
 from exu_press.quantities.wear import WEAR
 from exu_press.scene import Scene, mechanism_of
@@ -39,7 +40,7 @@ __all__ = [
 GROUPS: dict[str, tuple[Quantity, ...]] = {
     "motion": (*SLIDER, *STROKES),
     "joints": (*JOINTS, *OIL, *WEAR),
-    "forces": (*SHAKING, *LOADS, *SHEETS, *GUIDES, *GEARS),
+    "forces": (*SHAKING, *LOADS, *SHEETS, *GUIDES, *GEARS, *SPRINGS),
     "drive and energy": (*DRIVE, *START_STOP, *BALANCE),
     "bodies": BODIES,
     "the run itself": COSTS,
@@ -79,7 +80,7 @@ class QuantityAt:
 
     Attributes:
         quantity: as it is declared.
-        owner: name of the joint, guide, gear, load or body; "" of the run.
+        owner: name of the joint, guide, gear, spring, load or body; "" of the run.
     """
 
     quantity: Quantity
@@ -204,6 +205,7 @@ def _owners(scene: Scene) -> dict[Owner, tuple[str, ...]]:
         Owner.JOINT: tuple(joint.name for joint in mechanism.joints),
         Owner.GUIDE: tuple(guide.name for guide in mechanism.guides),
         Owner.GEAR: tuple(gear.name for gear in mechanism.gears),
+        Owner.SPRING: tuple(spring.name for spring in mechanism.springs),
         Owner.LOAD: tuple(applied_loads(scene)),
         Owner.BODY: tuple(scene.bodies),
     }

@@ -19,6 +19,7 @@ class Owner(Enum):
     JOINT = "joints"
     GUIDE = "guides"
     GEAR = "gears"
+    SPRING = "springs"
     LOAD = "loads"
     BODY = "bodies"
 

@@ -76,6 +76,7 @@ OWNERS = {
     "wearing": "joints whose wear is asked for",
     "guide": "guides; that of the slider is `guide`",
     "gear": "gears whose torque is determined",
+    "spring": "springs between bodies",
     "load": "loads",
     "body": "flexible bodies",
     "pivoted": "joints of flexible bodies that turn on the frame",

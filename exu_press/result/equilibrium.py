@@ -3,19 +3,21 @@
 Such a body has one coordinate (`exu_press.model.rigid_body`), so that no constraint has the force.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from exu_press.mechanism import Point
 from exu_press.mechanism.guide_motion import guide_direction
+from exu_press.mechanism.spring_motion import spring_ends
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result import ideal_joints
 from exu_press.result.channel import Channel, guide_channel
 from exu_press.result.guides import guide_channels
 from exu_press.result.recording import Record, Recording
+from exu_press.result.springs import force_on_second_end
 
 if TYPE_CHECKING:
     from exu_press.joints.history import JointHistory
@@ -90,7 +92,7 @@ def _guide_actions(run: Recording, name: str) -> Array:
 def _force(
     model: Model, name: str, joints: Sequence[JointOnBody], channels: Mapping[str, Channel]
 ) -> Array:
-    """Return the force of joints and loads on a body, (n, 2)."""
+    """Return the force of joints, loads and springs on a body, (n, 2)."""
     force = np.zeros((len(channels["time"].values), 2))
     for joint, sign, _ in joints:
         force += sign * channels[f"{joint}_force"].values[:, :2]
@@ -98,6 +100,8 @@ def _force(
         load = acting.applied
         if load.body == name:
             force += np.outer(channels[f"load_{key}_force"].values, load.direction)
+    for spring_force, _ in _spring_forces(model, name, channels):
+        force += spring_force
     return force
 
 
@@ -109,7 +113,7 @@ def _moment(
     channels: Mapping[str, Channel],
     histories: "Mapping[str, JointHistory]",
 ) -> Array:
-    """Return the moment about its centre, (n,), of joints and loads on a body at an angle (n,)."""
+    """Return the moment of joints, loads and springs about a body's centre at angles (n,)."""
     cos, sin = np.cos(angle), np.sin(angle)
     moment = np.zeros(len(angle))
     for joint, sign, (x, y) in joints:
@@ -121,4 +125,17 @@ def _moment(
         load = acting.applied
         if load.body == name:
             moment += load.moment(channels[f"load_{key}_force"].values, angle)
+    for force, (x, y) in _spring_forces(model, name, channels):
+        moment += (x * cos - y * sin) * force[:, 1] - (x * sin + y * cos) * force[:, 0]
     return moment
+
+
+def _spring_forces(
+    model: Model, name: str, channels: Mapping[str, Channel]
+) -> Iterator[tuple[Array, Point]]:
+    """Yield the forces of springs on a body, (n, 2), and their points in its frame."""
+    for spring in model.mechanism.springs:
+        ends = spring_ends(model.mechanism, spring)
+        for sign, (body, point) in zip((-1.0, 1.0), ends, strict=True):
+            if body == name:
+                yield sign * force_on_second_end(model, spring.name, channels), point

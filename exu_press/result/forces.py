@@ -11,11 +11,14 @@ from exu_press.numerics.arrays import Array
 from exu_press.result.channel import UNBALANCED, Channel, Declaration, Declarations, guide_channel
 from exu_press.result.motion import point_acceleration
 from exu_press.result.recording import Record, Recording
+from exu_press.result.springs import force_on_second_end
 
 __all__ = ["CHANNELS", "record"]
 
 CHANNELS = Declarations(
-    Declaration("frame_force", "N", "force of shaft, pivots and guides on the frame", "plane"),
+    Declaration(
+        "frame_force", "N", "force of shaft, pivots, guides and springs on the frame", "plane"
+    ),
     Declaration("shaking_force", "N", "shaking force: minus the rate of momentum", "plane"),
     Declaration(
         "shaking_force_without_counterweight",
@@ -36,7 +39,7 @@ def record(run: Recording) -> Record:
 def _frame_force(
     model: Model, channels: Mapping[str, Channel], motions: Mapping[str, Motion]
 ) -> Array:
-    """Return the force of shaft, pivots and guides together on the frame, (n, 2), N."""
+    """Return the force of shaft, pivots, guides and springs on the frame, (n, 2), N."""
     on_bodies = np.zeros((len(channels["time"].values), 2))
     signs = {joint.name: 1.0 for joint in model.mechanism.joints if joint.bearing == GROUND}
     signs |= {joint.name: -1.0 for joint in model.mechanism.joints if joint.journal == GROUND}
@@ -54,6 +57,10 @@ def _frame_force(
                     on_bodies += force.values[:, None] * turned
                 else:
                     on_bodies += np.outer(force.values, direction)
+    for spring in model.mechanism.springs:
+        for sign, body in zip((1.0, -1.0), spring.between, strict=True):
+            if body == GROUND:
+                on_bodies += sign * force_on_second_end(model, spring.name, channels)
     return -on_bodies
 
 

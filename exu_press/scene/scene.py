@@ -21,6 +21,7 @@ from exu_press.mechanism import (
 )
 from exu_press.mechanism import Joint as Drawn
 from exu_press.mechanism.kinematics import MotionError
+from exu_press.mechanism.spring_motion import joint_at
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.changes import asked_mechanism, changed_keys, drop, gives_key
 from exu_press.scene.custom import UnresolvedJoint
@@ -325,6 +326,13 @@ class Scene(Table):
                     f"gears.{gear.name}: bodies.{body} is flexible; allowed is a gear between "
                     "rigid bodies, or from the crank"
                 )
+        for spring in mechanism.springs:
+            for body, at in zip(spring.between, spring.at, strict=True):
+                if body in bodies and joint_at(mechanism, body, at) is None:
+                    raise InputError(
+                        f"springs.{spring.name}: bodies.{body} is flexible; allowed is an end in "
+                        "the centre of one of its joints"
+                    )
         for drawn in mechanism.joints:
             worn = self.joints[drawn.name].worn
             for body in (drawn.journal, drawn.bearing):

@@ -9,9 +9,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
 from exu_press.mechanism import Mechanism
-from exu_press.mechanism.parts import Point
+from exu_press.mechanism.parts import GROUND, Point
 from exu_press.mechanism.pitch_circles import pitch_circles
 from exu_press.mechanism.shapes import FrontView, Mark, transform_points
+from exu_press.mechanism.spring_motion import spring_ends
 from exu_press.numerics.arrays import Array
 from exu_press.plots.scales import spread
 from exu_press.plots.style import COLOURS, GREY
@@ -34,6 +35,7 @@ LINE = 0.04
 """Height of a label over that of a panel."""
 
 EDGE = "#333333"
+
 FIXED: dict[str, Any] = {
     "facecolor": "white", "edgecolor": "#8A8A8A", "hatch": "/////", "linewidth": 0.6
 }  # fmt: skip
@@ -93,11 +95,21 @@ class MechanismPanel:
         )
         marked.set_markeredgewidth(2.2)
         self._pins, self._marked, self._split = pins, marked, len(ideal) + len(pins_in_slots)
+        self._springs = [
+            (
+                spring,
+                spring_ends(mechanism, spring),
+                axes.plot([], [], color=EDGE, linewidth=0.9)[0],
+            )
+            for spring in mechanism.springs
+        ]
+        self._unit = front.unit
         patches = [
             patch for name, body in self._bodies.items() for patch in (body, *self._slots[name])
         ]
-        leaders = [line for line, _ in self._leaders.values()]
-        self.artists = mark_animated(*patches, pins, marked, *leaders)
+        lines = [line for line, _ in self._leaders.values()]
+        lines += [line for *_, line in self._springs]
+        self.artists = mark_animated(*patches, pins, marked, *lines)
 
     def show(self, frame: int) -> None:
         """Bring every body to its pose."""
@@ -108,14 +120,17 @@ class MechanismPanel:
                 slot.set_xy(transform_points(corners, pose))
         for name, (line, (x, y)) in self._leaders.items():
             line.set_data(*np.array([self._poses[name][frame][:2], (x, y)]).T)
-        places = np.array(
-            [
-                transform_points(np.array([point]), self._poses[body][frame])[0]
-                for body, point in self._joints
-            ]
-        )
+        for spring, spring_points, line in self._springs:
+            ends = np.array([self._point(frame, *end) for end in spring_points])
+            line.set_data(*spring.outline(ends, self._unit).T)
+        places = np.array([self._point(frame, body, point) for body, point in self._joints])
         self._pins.set_data(*places[: self._split].T)
         self._marked.set_data(*places[self._split :].T)
+
+    def _point(self, frame: int, body: str, point: Point) -> Array:
+        """Return the position of a point of a body, or of the frame."""
+        pose = np.zeros(3) if body == GROUND else self._poses[body][frame]
+        return np.asarray(transform_points(np.array([point]), pose)[0])
 
 
 def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str, Array]:

@@ -69,7 +69,7 @@ def test_a_softer_press_tilts_towards_the_load():
         joints={"wrist_pins": pins},
         contact={"length": 0.1},
         guide={"lateral_stiffness": 1e9, "length": 0.4},
-        revolutions=0.005,
+        revolutions=0.002,
     )
     result = simulate(scene)
     assert result.completed, result.info["reason"]
@@ -94,6 +94,11 @@ def test_an_ideal_drawing_has_no_force_per_point_and_says_why():
     (reason,) = (text for text in summary(result)["warnings"] if "not determined" in text)
     assert "wrist_pin_left" in reason
     assert "[guide]" in reason
+
+
+def test_friction_of_an_undetermined_force_is_refused():
+    with pytest.raises(InputError, match=r"guide\.friction: the force of guides\.slide"):
+        simulate(two_point(guide={"friction": "coulomb", "mu_kinetic": 0.1}))
 
 
 def test_a_planets_gear_does_no_work():

@@ -89,6 +89,27 @@ def check_optimise_counterweight(found):
     assert found["force"] == pytest.approx(16_888.0, rel=1e-3)
 
 
+def check_two_point_press(found):
+    """The load rises slowly against its vibrations: the points bear what statics says."""
+    for side, share in found["shares"].items():
+        assert found["peaks"][side] == pytest.approx(share, rel=0.04)
+    assert found["tilt"] == pytest.approx(27.4e-6, rel=0.05)
+
+
+def check_counterbalance(found):
+    """At 30 rpm the weight is most of the torque; the air's pressure rises by its polytropic."""
+    assert found["torques"]["with"] < 0.25 * found["torques"]["without"]
+    stroke = found["result"].quantity("stroke").value
+    rise = (0.2 / (0.2 - 0.03 * stroke)) ** 1.3
+    assert found["pressure"] == pytest.approx(found["cylinder"].pressure * rise, rel=1e-6)
+
+
+def check_cycloidal_press(found):
+    assert found["deviation"] < 1e-12
+    assert found["rest"] == pytest.approx(65e-6, rel=0.02)
+    assert found["torque"] == pytest.approx(112.0, rel=0.02)
+
+
 def check_own_friction_law(found):
     """Friction brakes; without it the pendulum is a uniform rod on a fixed pin."""
     angles = found["angles"]

@@ -50,6 +50,11 @@ class Mechanism {
       }
       drawn("title", {}, body.group).textContent = body.name;
     }
+    this.springs = scenery.springs.map(spring => ({...spring}));
+    for (const spring of this.springs) {
+      spring.line = drawn("polyline", {class: "spring"}, svg);
+      drawn("title", {}, spring.line).textContent = spring.name;
+    }
     const size = 0.034 * unit;
     for (const body of this.bodies.filter(one => one.label)) {
       body.leader = drawn("line", {class: "leader"}, svg);
@@ -86,15 +91,28 @@ class Mechanism {
       body.group.setAttribute("transform", `translate(${body.x} ${-body.y}) rotate(${degrees})`);
     }
     this.name();
+    for (const spring of this.springs) this.stretch(spring);
     for (const joint of this.joints) {
-      const body = this.bodies[joint.body], [px, py] = joint.at;
-      const c = Math.cos(body.angle), s = Math.sin(body.angle);
-      joint.x = body.x + c * px - s * py;
-      joint.y = body.y + s * px + c * py;
+      [joint.x, joint.y] = this.point(joint.body, joint.at);
       joint.pin.setAttribute("cx", joint.x);
       joint.pin.setAttribute("cy", -joint.y);
       if (joint.arrow) this.force(joint, place, since, unit);
     }
+  }
+
+  // The position of a point of a body, by its index, or of the frame.
+  point(index, [px, py]) {
+    if (index < 0) return [px, py];
+    const {x, y, angle} = this.bodies[index], c = Math.cos(angle), s = Math.sin(angle);
+    return [x + c * px - s * py, y + s * px + c * py];
+  }
+
+  // Draw a spring between its ends.
+  stretch({ends, symbol, line}) {
+    const [[x1, y1], [x2, y2]] = ends.map(({body, at}) => this.point(body, at));
+    const dx = x2 - x1, dy = y2 - y1, length = Math.hypot(dx, dy) || 1;
+    line.setAttribute("points", corners(symbol.map(([share, across]) =>
+      [x1 + share * dx - across * dy / length, y1 + share * dy + across * dx / length])));
   }
 
   // Put the names beside their bodies, none over another.

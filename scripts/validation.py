@@ -94,7 +94,8 @@ def cells(row):
 
 def difference(value, is_relative, sign):
     """Return a deviation with its unit, that of the row where it is not relative."""
-    text = f"{100.0 * value if is_relative else value:{sign}.2g}"
+    text = significant(100.0 * value if is_relative else value, 2)
+    text = f"{sign}{text}" if value >= 0.0 else text
     return f"{text} %" if is_relative else text
 
 

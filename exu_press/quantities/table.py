@@ -8,6 +8,7 @@ from typing import Any
 
 from exu_press.quantities.catalogue import CATALOGUE, GROUPS
 from exu_press.quantities.kind import LOAD
+from exu_press.quantities.observed import with_observed
 from exu_press.quantities.quantity import Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.uncertain import BRACKETS, bracket_text, uncertain
@@ -97,7 +98,14 @@ def lines_by_heading(results: Mapping[str, Result]) -> dict[str, list[QuantityLi
     own = [quantity for quantity in CATALOGUE if quantity not in in_group]
     lines: dict[str, list[QuantityLine]] = {}
     for heading, quantities in {**GROUPS, OWN: own}.items():
-        titled = [quantity for quantity in quantities if quantity.title]
+        titled = [
+            observed
+            for quantity in quantities
+            for observed in dict.fromkeys(
+                o for run in results.values() for o in with_observed([quantity], run.scene)
+            )
+            if observed.title
+        ]
         of_run = [quantity for quantity in titled if quantity.owner is Owner.RUN]
         lines[heading] = _lines(of_run, runs, [""])
         for kind in dict.fromkeys(q.owner for q in titled if q.owner is not Owner.RUN):

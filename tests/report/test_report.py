@@ -81,7 +81,7 @@ def test_pages_are_whole_and_load_nothing(parsed, name):
                 "Scene",
                 "Assumptions",
             ],
-            4,
+            6,
         ),
         (
             "compare",

@@ -44,14 +44,14 @@ SCREEN_SIZE, PRINTED_SIZE = 9.5, 7.0
 
 COLOURS = {
     "blue": "#005A9E",
-    "vermilion": "#C84E00",
     "green": "#2BA84A",
-    "purple": "#430B55",
     "orange": "#F9C74F",
+    "vermilion": "#C84E00",
     "sky blue": "#6FB7EE",
+    "purple": "#430B55",
 }
 """Hues of Okabe and Ito's colour-blind-safe palette, less black (the ideal's) and yellow (too
-pale), with lightnesses apart from each other, for grey prints."""
+pale), with lightnesses apart from each other, for grey prints: most for the first ones."""
 
 RUN = COLOURS["blue"]
 IDEAL = "#000000"

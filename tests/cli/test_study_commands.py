@@ -193,7 +193,7 @@ WRITTEN = {
         ("attractor", ["--revolutions", "30"],
          "--revolutions 30: allowed are at least 48, for periods up to 16"),
         ("attractor", ["--set", "joints.crank_pin=ideal"], "joints: none has clearance"),
-        ("attractor", ["--format", ".bmp"], "--format .bmp: allowed are .png"),
+        ("attractor", ["--format", ".bmp"], "--format .bmp: allowed are png"),
         ("stability", ["--key", "nothing"], "--key nothing: allowed are"),
         ("sweep", ["--workers", "0"], "workers = 0"),
         ("sweep", ["--over", "film.length"], "--over film.length: allowed are speed_rpm"),

@@ -86,6 +86,9 @@ class InterfaceLaw:
         by_e, by_e_dot = self.partials(response, e, omega_j, omega_b)[0][:2]
         return by_e, by_e_dot
 
+    def orient(self, angle: float) -> None:
+        """Take the angle of the eccentricity in the bearing, rad, before `load`."""
+
     def arms(self, e: float) -> Arms:
         """Return a_J, a_B (m) and their derivatives; of the point half-way between the centres."""
         return -0.5 * e, -0.5 * e, -0.5, -0.5

@@ -23,6 +23,10 @@ class GroovedInterface(FilmInterface):
         """Fill the gap between two surfaces; arguments as of `FilmInterface`."""
         super().__init__(law, scale, clearance)
 
+    def orient(self, angle: float) -> None:
+        """Take the angle of the eccentricity in the bearing, rad, before `load`."""
+        self.law.angle = angle
+
     def turn_partials(
         self, load: Load, motion: tuple[float, float, float, float, float]
     ) -> tuple[float, float, float, float]:
@@ -69,8 +73,7 @@ class OrientedJoint(PlanarJoint):
         angle = atan2(y, x) - self._turned - q[self.indices[5]]
         self.orientation = (angle,)
         for interface in self.interfaces:
-            if isinstance(interface, GroovedInterface):
-                interface.law.angle = angle
+            interface.orient(angle)
         n_x, n_y = self._directions[0], self._directions[1]
         for load in self._load(motion):
             if load is not None:

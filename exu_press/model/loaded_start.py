@@ -8,6 +8,7 @@ on its history. One in contact moves along the surface, as the force turns, with
 penetration: a strong damper would turn its rate into a force many times the one that it bears.
 """
 
+import cmath
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -34,6 +35,9 @@ __all__ = ["loaded_start", "moved_start"]
 ANGLES = 1e-4 * np.array([-1.0, 0.0, 1.0])
 """Crank angles from the start, rad; the journals' velocities are differences over them. Over 1e-3
 rad these are off by some 0.1 um/s, which a thin film of 1e10 N s/m turns into kilonewtons."""
+
+ORIENTATIONS = 10
+"""Iterations for the angle of a journal in a bearing with grooves."""
 
 LARGEST_RATIO = 0.98
 """Largest eccentricity ratio at which a film may bear its load without squeezing."""
@@ -238,7 +242,8 @@ class _Instant:
             assert not isinstance(kind, IdealJoint)
             turning = self._omega[joints[k].journal], self._omega[joints[k].bearing]
             interfaces = interfaces_of(kind, self._problem.system.scene)
-            e = _equilibrium(interfaces, complex(self.forces[k]), *turning)
+            turned = self._angle[joints[k].bearing]
+            e = _equilibrium(interfaces, complex(self.forces[k]), *turning, turned)
             eccentricities[k] = (math.nan, math.nan) if e is None else (e.real, e.imag)
         return eccentricities
 
@@ -281,20 +286,30 @@ class _Instant:
 
 
 def _equilibrium(
-    interfaces: list[InterfaceLaw], force: complex, omega_j: float, omega_b: float
+    interfaces: list[InterfaceLaw], force: complex, omega_j: float, omega_b: float, turned: float
 ) -> complex | None:
-    """Return the eccentricity at which interfaces exert a force on a journal at rest, or None."""
+    """Return the eccentricity at which interfaces exert a force on a journal at rest, or None.
+
+    A bearing with grooves, turned by an angle, rad, has its force at the angle of the eccentricity
+    in it, which is found by iteration.
+    """
 
     def surface_force(e: float) -> complex:
         """Return the force along the eccentricity and a quarter turn from it, at rest."""
         loads = [interface.load(e, 0.0, 0.0, omega_j, omega_b) for interface in interfaces]
         return sum((complex(f[0], f[1]) for f in loads if f is not None), 0j)
 
-    size = _equilibrium_size(surface_force, interfaces, abs(force))
-    if size is None:
-        return None
-    direction = force / surface_force(size)
-    return size * direction / abs(direction)
+    is_oriented = any(interface.is_oriented for interface in interfaces)
+    e = -force
+    for _ in range(ORIENTATIONS if is_oriented else 1):
+        for interface in interfaces:
+            interface.orient(cmath.phase(e) - turned)
+        size = _equilibrium_size(surface_force, interfaces, abs(force))
+        if size is None:
+            return None
+        direction = force / surface_force(size)
+        e = size * direction / abs(direction)
+    return e
 
 
 def _equilibrium_size(

@@ -1,15 +1,18 @@
 """A joint whose film depends on the angle in its bearing: balance, Jacobian, rotation."""
 
+import cmath
 import math
 import random
 
 import numpy as np
+import pytest
 from differences import assert_partials, forces
 
 from exu_press.joints.oriented import GroovedInterface, OrientedJoint
 from exu_press.joints.planar import PlanarEnd
 from exu_press.laws.film.grooved_table import DIRECTIONS, LEVELS, GroovedFilm
 from exu_press.laws.film.grooves import Groove, GroovedBearing
+from exu_press.model.loaded_start import _equilibrium
 
 CLEARANCE, SCALE = 1e-4, 50.0
 
@@ -89,3 +92,12 @@ def test_momentum_and_a_bearing_that_turns_with_its_journal():
     )
     assert np.allclose(again[:2], rotation @ out[:2], rtol=1e-6)
     assert np.allclose(again[[2, 5]], out[[2, 5]], rtol=1e-6, atol=1e-9 * np.abs(out).max())
+
+
+def test_a_loaded_start_knows_where_the_grooves_are():
+    """The joint bears the load where the start puts the journal, with the bearing turned."""
+    interface, load, turned = GroovedInterface(film(), SCALE, CLEARANCE), 300.0 - 200.0j, 0.4
+    e = _equilibrium([interface], load, 60.0, 10.0, turned)
+    interface.orient(cmath.phase(e) - turned)
+    f_n, f_t, *_ = interface.load(abs(e), 0.0, 0.0, 60.0, 10.0)
+    assert complex(f_n, f_t) * e / abs(e) == pytest.approx(load, rel=1e-3)

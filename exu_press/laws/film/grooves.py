@@ -199,8 +199,7 @@ class GroovedFilmState:
             half_w: eps W / 2, 1/s.
             wet: (n, m), a guess of where the film is unbroken.
         """
-        shape = (eps_dot * np.cos(self._local) - half_w * np.sin(self._local)) * self._w_theta
-        source = np.outer(shape, self._w_zeta)
+        source = self._source(eps_dot, half_w)
         unbroken = (source > 0.0 if wet is None else wet) & ~self._groove
         for _ in range(ITERATIONS):
             p = self._pressure(source, unbroken)
@@ -217,6 +216,18 @@ class GroovedFilmState:
                 return f_r, f_t, float(self._along[:, -1] @ p[:, -1]), unbroken
             unbroken = now
         raise RuntimeError(f"the cavitated set did not settle in {ITERATIONS} iterations")
+
+    def largest_pressure(self, eps_dot: float, half_w: float) -> tuple[Array, Array]:
+        """Return angles from the narrowest gap, (n,), and the largest pressure over the length.
+
+        Arguments as of `solve`; the pressure is over 12 mu R^2 / c^2, 1/s.
+        """
+        wet = self.solve(eps_dot, half_w)[3]
+        return self._local, self._pressure(self._source(eps_dot, half_w), wet).max(axis=1)
+
+    def _source(self, eps_dot: float, half_w: float) -> Array:
+        shape = (eps_dot * np.cos(self._local) - half_w * np.sin(self._local)) * self._w_theta
+        return np.outer(shape, self._w_zeta)
 
     def _pressure(self, source: Array, wet: Mask) -> Array:
         """Return the pressure (n, m) with that of broken places 0."""

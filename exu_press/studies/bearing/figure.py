@@ -7,6 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.laws.film.contract import film_scale
+from exu_press.laws.film.grooved_table import CELLS, GroovedFilm
+from exu_press.laws.film.grooves import GroovedFilmState
 from exu_press.laws.film.reynolds import solve_reynolds
 from exu_press.numerics.arrays import Array
 from exu_press.plots.style import COLOURS, GREY, RUN, colour_of, with_style
@@ -41,28 +43,34 @@ def bearing_figure(report: BearingReport) -> Figure:
 
 
 def _pressure(panel: Axes, report: BearingReport) -> None:
-    """Draw Reynolds' pressure in the middle of the bearing at the equilibria."""
+    """Draw Reynolds' pressure at the equilibria."""
     for k, row in enumerate(report.rows[:MOST_CURVES]):
-        angle, pressure = _middle_pressure(report, row)
+        angle, pressure = _largest_pressure(report, row)
         label = f"{math.hypot(*row.load):g} N, {row.speed_rpm:g} rpm"
         panel.plot(angle, 1e-6 * pressure, color=colour_of(k), label=label)
-    panel.set_title("pressure in the middle")
+    panel.set_title("largest pressure over the length")
     panel.set(xlabel="angle from the x axis, deg", ylabel="MPa", xlim=(-180.0, 180.0))
     panel.set_xticks([-180, -90, 0, 90, 180])
     panel.legend(loc="best")
 
 
-def _middle_pressure(report: BearingReport, row: BearingCoefficients) -> tuple[Array, Array]:
-    """Return angles in the drawing, deg, and the pressure half-way between the ends, Pa."""
+def _largest_pressure(report: BearingReport, row: BearingCoefficients) -> tuple[Array, Array]:
+    """Return angles in the drawing, deg, and the largest pressure over the length there, Pa."""
     kind, sizes = journal_joint(report.scene, row.joint)
     length, radius = sizes.length, kind.radius
     eps, turning = min(row.eccentricity_ratio, 0.999), row.speed_rpm * math.tau / 60.0
-    film = solve_reynolds(eps, 0.0, eps * turning, length / (2.0 * radius), math.pi)
+    direction = math.atan2(row.eccentricity[1], row.eccentricity[0])
+    law = kind.film_law()
+    if isinstance(law, GroovedFilm):
+        state = GroovedFilmState(law.bearing, eps, direction, CELLS)
+        theta, pressure = state.largest_pressure(0.0, 0.5 * eps * turning)
+    else:
+        film = solve_reynolds(eps, 0.0, eps * turning, length / (2.0 * radius), math.pi)
+        theta, pressure = film.theta, film.p.max(axis=1)
     scale = film_scale(row.viscosity, length, radius, kind.clearance) / (length * radius)
-    angle = film.theta + math.atan2(row.eccentricity[1], row.eccentricity[0])
-    degrees = np.degrees(np.remainder(angle + math.pi, math.tau) - math.pi)
+    degrees = np.degrees(np.remainder(theta + direction + math.pi, math.tau) - math.pi)
     order = np.argsort(degrees)
-    return degrees[order], 12.0 * scale * film.p[order, 0]
+    return degrees[order], 12.0 * scale * pressure[order]
 
 
 def _locus(panel: Axes, report: BearingReport) -> None:

@@ -160,8 +160,7 @@ class Journal:
     def _loads(self, e: Vector) -> list[Load | None]:
         length = math.hypot(*e)
         for interface in self._interfaces:
-            if isinstance(interface, GroovedInterface):
-                interface.law.angle = math.atan2(e[1], e[0])
+            interface.orient(math.atan2(e[1], e[0]))
         return [i.load(length, 0.0, 0.0, self._turning, 0.0) for i in self._interfaces]
 
     def _eccentricity_at(self, x: float, angle: float) -> Vector:

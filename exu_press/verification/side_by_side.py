@@ -85,6 +85,7 @@ def simulate_side_by_side(
     ):
         for _ in runs:
             run, outcome = cores.next_outcome(lambda: _show(progress, cores, scale))
+            _show(progress, cores, scale)
             results[run.label][run.ratio] = outcome
             if len(results[run.label]) == expected[run.label]:
                 yield run.label, _result_with_errors(results.pop(run.label), errors)

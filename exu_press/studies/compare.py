@@ -1,10 +1,15 @@
 """The variants of one scene, and the keys in which scenes differ."""
 
+import math
 from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
+from itertools import combinations
 from typing import Any
 
+import numpy as np
+
 from exu_press.errors import InputError
+from exu_press.mechanism import Mechanism
 from exu_press.scene import LubricatedJoint, Scene, mechanism_of
 from exu_press.schema.csv_table import flat
 
@@ -55,19 +60,11 @@ def variants(scene: Scene) -> tuple[dict[str, Scene], list[str]]:
     }
     rigid = scene.replace({"bodies": {}}) if scene.bodies else scene
     kinds, left_out = {"": rigid}, []
-    bodies: Mapping[str, Any] = scene.bodies or {
-        name: {"flexible": solid, "flexibility_error": FLEXIBILITY_ERROR}
-        for name, solid in usual.get("bodies", {}).items()
-    }
-    if not bodies:
-        why = f"neither scene nor {mechanism_of(scene).name} has flexible bodies"
-    elif find_spec("ngsolve") is None:
-        why = "NGSolve is not installed"
-    else:
-        why = ""
-        kinds = {"rigid ": rigid, "flexible ": scene.replace({"bodies": bodies})}
-    if why:
+    flexible, why = _flexible_scene(scene)
+    if flexible is None:
         left_out.append(f"flexible: left out, as {why}")
+    else:
+        kinds = {"rigid ": rigid, "flexible ": flexible}
     scenes_by_label = {"ideal": rigid.replace(_changed_kinds(joints["ideal"]))}
     for bodies_kind, base in kinds.items():
         change = _changed_kinds(joints["dry"])
@@ -82,6 +79,40 @@ def variants(scene: Scene) -> tuple[dict[str, Scene], list[str]]:
     if not any(label.endswith("lubricated") for label in scenes_by_label):
         left_out.append("lubricated: left out, as the scene has no film")
     return scenes_by_label, left_out
+
+
+def _flexible_scene(scene: Scene) -> tuple[Scene | None, str]:
+    """Return a scene with its flexible bodies or its mechanism's usual ones, or why it has none."""
+    mechanism = mechanism_of(scene)
+    usual = mechanism.defaults.get("bodies", {})
+    if scene.bodies:
+        return scene, ""
+    if not usual:
+        return None, f"neither scene nor {mechanism.name} has flexible bodies"
+    if find_spec("ngsolve") is None:
+        return None, "NGSolve is not installed"
+    drawn_for = mechanism_of(Scene(mechanism=scene.mechanism, joints={}))
+    for body in usual:
+        if not np.allclose(*(_joint_distances(m, body) for m in (mechanism, drawn_for)), atol=1e-4):
+            return None, f"the solid of {body} is that of other dimensions"
+    bodies = {
+        name: {"flexible": solid, "flexibility_error": FLEXIBILITY_ERROR}
+        for name, solid in usual.items()
+    }
+    try:
+        return scene.replace({"bodies": bodies}), ""
+    except InputError as error:
+        return None, str(error)
+
+
+def _joint_distances(mechanism: Mechanism, body: str) -> list[float]:
+    """Return the distances between a body's joints, m, but for those of a counterweight.
+
+    That may be missing: the solid then carries nothing there.
+    """
+    weights = set(mechanism.counterweight)
+    joints = [j for j in mechanism.joints_of(body) if weights.isdisjoint((j.journal, j.bearing))]
+    return [math.dist(a.at, b.at) for a, b in combinations(joints, 2)]
 
 
 def _changed_kinds(kinds: Mapping[str, str]) -> dict[str, Any]:

@@ -74,3 +74,14 @@ def test_a_joint_that_a_mechanism_has_not_has_no_kind():
     found = rows({"press": press, "dry": dry, "other": other})
     assert found["joints.slide_pin.kind"] == ["ideal", "dry", "-"]
     assert "joints.slide_pin.kind" not in rows({"dry": dry, "other": other})
+
+
+def test_solids_of_other_dimensions_are_left_out():
+    """So are those on which a load would press at a point; a counterweight is no part of them."""
+    press = Scene()
+    assert "flexible dry" in variants(press.replace({"press.counterweight": False}))[0]
+    load = {"load.a": {"kind": "blanking", "force": 1e4, "body": "crank"}}
+    for change, reason in (({"press.crank_radius": 0.04}, "other dimensions"), (load, "dent")):
+        scenes, (left_out,) = variants(press.replace(change))
+        assert list(scenes) == ["ideal", "dry", "lubricated"]
+        assert left_out.startswith("flexible: left out") and reason in left_out

@@ -91,9 +91,10 @@ def _flexible_scene(scene: Scene) -> tuple[Scene | None, str]:
         return None, f"neither scene nor {mechanism.name} has flexible bodies"
     if find_spec("ngsolve") is None:
         return None, "NGSolve is not installed"
-    drawn_for = mechanism_of(Scene(mechanism=scene.mechanism, joints={}))
+    drawn_for = mechanism_of(Scene.from_dict({"mechanism": scene.mechanism, "joints": {}}))
     for body in usual:
-        if not np.allclose(*(_joint_distances(m, body) for m in (mechanism, drawn_for)), atol=1e-4):
+        solid, drawn = (_joint_distances(m, body) for m in (drawn_for, mechanism))
+        if not np.allclose(solid, drawn, atol=1e-4):
             return None, f"the solid of {body} is that of other dimensions"
     bodies = {
         name: {"flexible": solid, "flexibility_error": FLEXIBILITY_ERROR}

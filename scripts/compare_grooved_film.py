@@ -6,6 +6,7 @@ stay in the bearing, as they do.
 Run it with: python scripts/compare_grooved_film.py
 """
 
+import argparse
 import csv
 import math
 from pathlib import Path
@@ -92,6 +93,7 @@ def rows():
 
 def main():
     """Print the table."""
+    argparse.ArgumentParser(description=__doc__).parse_args()
     print("table   L/D  eps    S       attitude  K      B")
     for source, ratio, eps, s, attitude, k, b in rows():
         print(

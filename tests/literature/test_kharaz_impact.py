@@ -72,7 +72,7 @@ def rebound(angle_deg, tolerance):
     "oblique impact of a sphere of aluminium oxide, 5 mm, on glass, 3.9 m/s",
     "A. H. Kharaz, D. A. Gorham, A. D. Salman, Powder Technology 120 (2001) 281-291, as digitised "
     "in chaos-polymtl/lethe (examples/dem/3d-oblique-wall-impact)",
-    "numbers as there, Apache-2.0 or LGPL-2.1",
+    "measured numbers as there; its code is LGPL-3.0",
     "Restitution 0.98 and friction 0.092 are the authors'; all else follows from sizes and moduli. "
     "Below 32 degrees the surfaces stick: the elastic deformation along the plate then makes the "
     "sphere spin faster than rolling, by up to 43 %. The package's contact has none along the "

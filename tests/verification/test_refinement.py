@@ -138,7 +138,8 @@ def test_ctrl_c_ends_both_at_once(tmp_path):
     os.killpg(run.pid, signal.SIGINT)
     _, said = run.communicate(timeout=30)
     assert "Traceback" not in said
-    assert run.returncode in (3, 130)
+    # Python ends by the signal itself where it caught that one inside exec, as of a dataclass
+    assert run.returncode in (3, 130, -signal.SIGINT)
     assert refinements
     for number in refinements:
         with pytest.raises(ProcessLookupError):

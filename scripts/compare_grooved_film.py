@@ -74,7 +74,7 @@ def coefficients(width, ratio, eps, grooves_turn):
 
 
 def rows():
-    """Yield source, L/D, eps and the deviations: S (part), attitude (deg), K and B (part)."""
+    """Yield source, L/D, eps, and theirs and ours: S, attitude (deg), K and B (2, 2) each."""
     with TABLES.open(encoding="utf-8") as file:
         lines = [line for line in file if not line.startswith("#")]
     for row in csv.DictReader(lines):
@@ -83,19 +83,20 @@ def rows():
         if not LEAST < r["E"] < LARGEST:
             continue
         ratio = r["length_to_diameter"]
-        s, attitude, *matrices = coefficients(WIDTHS[source], ratio, r["E"], source == "Someya")
-        off = []
-        for letter, matrix in zip("KB", matrices, strict=True):
-            published = np.array([r[letter + axes] for axes in ("xx", "xy", "yx", "yy")])
-            off.append(np.abs(matrix.ravel() - published).max() / np.abs(published).max())
-        yield source, ratio, r["E"], s / r["S"] - 1.0, attitude - r["Phi"], *off
+        ours = coefficients(WIDTHS[source], ratio, r["E"], source == "Someya")
+        k, b = (np.array([[r[m + i + j] for j in "xy"] for i in "xy"]) for m in "KB")
+        yield source, ratio, r["E"], (r["S"], r["Phi"], k, b), ours
 
 
 def main():
     """Print the table."""
     argparse.ArgumentParser(description=__doc__).parse_args()
     print("table   L/D  eps    S       attitude  K      B")
-    for source, ratio, eps, s, attitude, k, b in rows():
+    for source, ratio, eps, theirs, ours in rows():
+        s, attitude = ours[0] / theirs[0] - 1.0, ours[1] - theirs[1]
+        k, b = (
+            np.abs(o - t).max() / np.abs(t).max() for o, t in zip(ours[2:], theirs[2:], strict=True)
+        )
         print(
             f"{source:6}  {ratio:3.1f}  {eps:5.3f}  {100 * s:+5.2f}%  {attitude:+5.2f} deg "
             f"{100 * k:5.1f}% {100 * b:5.1f}%"

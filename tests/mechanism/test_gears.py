@@ -14,6 +14,11 @@ from exu_press.mechanism.mobility import mobility_of
 TURN = np.linspace(0.0, 4.0 * np.pi, 333)
 
 
+CLOSED_FORM = pytest.mark.validation(
+    "closed form", "motion of geared presses", "trigonometry of their drawings", "equation"
+)
+
+
 def geared(name, **changes):
     mechanism = shipped_mechanism(name)
     (gear,) = mechanism.gears
@@ -30,15 +35,23 @@ def test_angles_keep_their_ratio(ratio):
         assert planet == pytest.approx(ratio * crank, abs=1e-12 * scale)
 
 
-def test_a_planet_describes_a_hypocycloid():
+@CLOSED_FORM
+def test_a_planet_describes_a_hypocycloid(compare):
     """The rod's end at a exp(i t) + b exp(-2 i t) from the vertical, and the ram below it."""
     mechanism = shipped_mechanism("cycloidal_press")
     end = 1j * (0.08 * np.exp(1j * TURN) + 0.0276 * np.exp(-2j * TURN))
     point = mechanism.body("planet").local((0.0, 0.1076))
     path = mechanism.motion(TURN, 1.0)["planet"].point_motion(point).position
-    assert path[:, 0] + 1j * path[:, 1] == pytest.approx(end, abs=1e-12)
-    ram = end.imag - np.sqrt(0.6**2 - end.real**2)
-    assert mechanism.ideal_slider(TURN, 1.0)[0] == pytest.approx(ram, abs=1e-12)
+    for name, theirs, ours in (
+        ("hypocycloid of the rod's end, x", end.real, path[:, 0]),
+        ("hypocycloid of the rod's end, y", end.imag, path[:, 1]),
+        (
+            "height of the ram below a hypocycloid",
+            end.imag - np.sqrt(0.6**2 - end.real**2),
+            mechanism.ideal_slider(TURN, 1.0)[0],
+        ),
+    ):
+        compare(name, theirs, ours, error=None, abs=1e-12, unit="m")
 
 
 def test_the_cycloidal_press_rests_in_its_bottom_dead_centre():
@@ -47,11 +60,13 @@ def test_the_cycloidal_press_rests_in_its_bottom_dead_centre():
     assert abs(position[2][1]) < 1e-4
 
 
-def test_two_points_descend_alike():
+@CLOSED_FORM
+def test_two_points_descend_alike(compare):
     mechanism = shipped_mechanism("two_point_press")
     slide = mechanism.motion(TURN, 1.0)["slide"].position
     arm = 0.05 * np.exp(1j * TURN)
-    assert slide[:, 1] == pytest.approx(0.8 + arm.real - np.sqrt(0.25 - arm.imag**2), abs=1e-12)
+    height = 0.8 + arm.real - np.sqrt(0.25 - arm.imag**2)
+    compare("slide on two points", height, slide[:, 1], error=None, abs=1e-12, unit="m")
     assert np.abs(slide[:, [0, 2]]).max() < 1e-12
     mobility = mobility_of(mechanism)
     assert (mobility.degrees_of_freedom, mobility.redundant) == (1, 1)

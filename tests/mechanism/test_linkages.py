@@ -85,12 +85,23 @@ LINKAGES = [
 ]
 
 
+CLOSED_FORM = pytest.mark.validation(
+    "closed form",
+    "motion of linkages with slides and slots between moving bodies",
+    "trigonometry of their drawings",
+    "equation",
+)
+
+
+@CLOSED_FORM
 @pytest.mark.parametrize("form", LINKAGES)
-def test_slides_between_moving_bodies_follow_their_closed_forms(form):
+def test_slides_between_moving_bodies_follow_their_closed_forms(form, compare):
     mechanism = shipped_mechanism(form.__name__)
     position = mechanism.ideal_slider(ANGLE, 1.0)[0]
     stroke = examine(mechanism).stroke.length
-    assert position == pytest.approx(form(), abs=1e-9 * stroke)
+    name = f"{form.__name__.replace('_', ' ')}, output over its stroke"
+    unit = "rad" if mechanism.output.rotation else "m"
+    compare(name, form(), position, error=None, rel=1e-9, scale=stroke, unit=unit)
 
 
 @pytest.mark.parametrize("name", ["whitworth", "crank_shaper", "scotch_yoke"])
@@ -157,11 +168,13 @@ def curved_yoke(**slot):
     )
 
 
-def test_a_circular_slot_moves_its_body_as_a_rod_does():
+@CLOSED_FORM
+def test_a_circular_slot_moves_its_body_as_a_rod_does(compare):
     pin = 0.1j * np.exp(1j * ANGLE)
     expected = pin.real + np.sqrt(0.4**2 - (pin.imag - 0.1) ** 2) - 0.4
     drawn = curved_yoke()
-    assert drawn.ideal_slider(ANGLE, 1.0)[0] == pytest.approx(expected, abs=1e-12)
+    position = drawn.ideal_slider(ANGLE, 1.0)[0]
+    compare("yoke with a circular slot", expected, position, error=None, abs=1e-12, unit="m")
     angle = examine(drawn).transmission["arc"][:360:90]
     assert np.cos(angle) == pytest.approx([0.0, 0.25, 0.5, 0.25], abs=1e-9)
     result = simulate(Scene(mechanism=drawn, revolutions=0.5, gravity=0.0))

@@ -41,13 +41,17 @@ def test_force_is_the_slope_of_the_energy(spring):
     assert -quad(spring.static_force, 0.7, 0.4)[0] == pytest.approx(stored, rel=1e-9)
 
 
-def test_gas_follows_its_polytropic():
+@pytest.mark.validation(
+    "closed form", "gas spring, compressed to half its volume", "p V^n constant", "equation"
+)
+def test_gas_follows_its_polytropic(compare):
     """Half the volume: 2^n times the pressure, and for n = 1 the work p V ln 2."""
     gas = GasSpring("s", *ENDS, area=0.01, pressure=5e5, volume=0.006, exponent=1.4, ambient=0.0)
     assert gas.gas_volume(0.4) == pytest.approx(0.003)
-    assert gas.static_force(0.4) == pytest.approx(0.01 * 5e5 * 2.0**1.4)
-    isothermal = replace(gas, exponent=1.0)
-    assert isothermal.energy(np.array([0.4]))[0] == pytest.approx(3e3 * np.log(2.0))
+    force = 0.01 * 5e5 * 2.0**1.4
+    compare("force, n = 1.4", force, gas.static_force(0.4), error=0.0, rel=1e-12, unit="N")
+    work = replace(gas, exponent=1.0).energy(np.array([0.4]))
+    compare("work, n = 1", 3e3 * np.log(2.0), work, error=0.0, rel=1e-12, unit="J")
     nearly = replace(gas, exponent=1.0 + 1e-9)
     assert nearly.energy(np.array([0.4]))[0] == pytest.approx(3e3 * np.log(2.0), rel=1e-8)
 

@@ -3,6 +3,7 @@
 import argparse
 import sys
 import textwrap
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -27,7 +28,7 @@ from exu_press.result.checkpoint import (
     remove,
     set_aside,
 )
-from exu_press.scene import Scene
+from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.assumptions import assumed_line
 from exu_press.scene.warnings import scene_warnings
 from exu_press.verification.refine import refinements
@@ -116,6 +117,11 @@ def _start_of(options: argparse.Namespace, scene: Scene) -> State | None:
     if not previous.completed or "state" not in previous.info:
         why = previous.info["reason"] or "it was written without the state at its end"
         raise InputError(f"--from {options.start}: allowed is a run that reached its end; {why}")
+    for key, asked, began in _shared_keys(scene, previous.scene):
+        if asked != began:
+            raise InputError(
+                f"--from {options.start}: {key} = {asked!r}; allowed is {began!r}, as in that run"
+            )
     for key in OF_THE_START:
         asked, began = getattr(scene, key), getattr(previous.scene, key)
         if asked != began:
@@ -124,6 +130,16 @@ def _start_of(options: argparse.Namespace, scene: Scene) -> State | None:
                 f"allowed is {began!r}, with which that run began"
             )
     return previous.info["state"]
+
+
+def _shared_keys(scene: Scene, previous: Scene) -> Iterator[tuple[str, object, object]]:
+    """Yield names and both values of what a run that goes on shares with the one before it."""
+    yield "mechanism", mechanism_of(scene).name, mechanism_of(previous).name
+    yield "joints", [*scene.joints], [*previous.joints]
+    for name, joint in scene.joints.items():
+        began = previous.joints[name].kind
+        if "ideal" in (joint.kind, began):
+            yield f"joints.{name}.kind", joint.kind, began
 
 
 def execute(options: argparse.Namespace) -> int:

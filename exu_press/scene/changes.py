@@ -38,6 +38,9 @@ def changed_keys(
     Raises:
         InputError: a name is in no table of a scene.
     """
+    for name in changes:
+        if not all(name.split(".")):
+            raise InputError(f"{name!r}: allowed is the name of a key, as in contact.damping")
     data = {**scene, **{name: value for name, value in changes.items() if "." not in name}}
     inner: dict[str, dict[str, Any]] = {"joints": {}, "bodies": {}, "load": {}}
     for name, value in changes.items():

@@ -285,6 +285,11 @@ def _check_names(path: str, law: str, own: Any, laws: LawKeys, spherical: bool) 
     if not isinstance(own, Mapping | Table):
         raise InputError(f"{path}.{law} = {own!r:.200}: allowed is a table of keys")
     keys = given_keys(own)
+    if law == "contact" and spherical and keys.get("shape") == "cylindrical":
+        raise InputError(
+            f"{path}.contact.shape = 'cylindrical': a ball has Hertz's point contact; allowed is "
+            "'point', or [contact] shape, which is that of the pins"
+        )
     with error_prefix(f"{path}."):
         merged = changed_table(kind, laws.keys_of(law), keys)
         refuse_unknown_keys([*LAWS[law].values()], law, keys, used_names(kind, law, merged))

@@ -149,6 +149,11 @@ class Choice:
         return f"{place_of(key)} is {name_text}; it belongs to {' or '.join(holders)}"
 
 
+def _is_there(value: Any) -> bool:
+    """Return whether the value of a key is neither None nor an empty list."""
+    return value is not None and not (isinstance(value, list | tuple) and not value)
+
+
 @dataclasses.dataclass(frozen=True)
 class Alternatives:
     """A part of a table that the first of some keys chooses which is there.
@@ -165,7 +170,7 @@ class Alternatives:
     ) -> type[Any] | None:
         """Return the dataclass that a table's keys choose, or None; arguments as of `Choice`."""
         home = next(
-            (home for name, home in self.homes.items() if keys.get(name) not in (None, [], ())),
+            (home for name, home in self.homes.items() if _is_there(keys.get(name))),
             self.homes.get("", ""),
         )
         return load_object(home) if home else None

@@ -429,7 +429,7 @@ def plain_value(value: Any) -> Any:
 
 def given_keys(table: Any) -> dict[str, Any]:
     """Return the keys that a table gives, as a mapping or as its dataclass; none of None."""
-    keys = table.given_values if isinstance(table, Table) else table or {}
+    keys = table.given_values if isinstance(table, Table) else table
     return dict(keys) if isinstance(keys, Mapping) else {}
 
 

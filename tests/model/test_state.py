@@ -169,8 +169,13 @@ def test_the_command(tmp_path, capsys):
     assert main([*command, str(tmp_path / "two"), "--from", first, "--within", "1%"]) == 2
     assert "--from: not together with --within" in capsys.readouterr().err
     assert main([*command, str(tmp_path / "three"), "--from", str(tmp_path / "no.nc")]) == 2
-    for change in ("start_angle_deg=90", "start=centred"):
+    for change, message in (
+        ("start_angle_deg=90", "start_angle_deg = 90.0 does nothing"),
+        ("start=centred", "start = 'centred' does nothing"),
+        ("joints.crank_pin=ideal", "joints.crank_pin.kind = 'ideal'; allowed is 'lubricated'"),
+        ("mechanism=press", "mechanism = 'press'; allowed is 'slider_crank', as in that run"),
+    ):
         went_on = [*command, str(tmp_path / "three"), "--from", first, "--set", change]
         assert main(went_on) == 2
-        assert f"{change.partition('=')[0]} = " in capsys.readouterr().err
+        assert message in capsys.readouterr().err
     assert not (tmp_path / "three").exists()

@@ -1,6 +1,8 @@
 """A key that is set takes the place of the keys that it excludes."""
 
+import numpy as np
 import pytest
+from refused import refused
 
 from exu_press import Scene
 
@@ -39,3 +41,10 @@ def test_the_other_alternative_goes(table, keys, change, replaced):
         changed = changed[name]
     assert {key: changed[key] for key in change} == change
     assert not replaced & changed.keys()
+
+
+def test_numbers_of_numpy_are_numbers_also_where_a_key_chooses():
+    keys = {"revolutions": np.int64(2), "solver": {"step": np.float64(1e-4)}}
+    assert Scene.from_dict(keys) == Scene(revolutions=2, solver={"step": 1e-4})
+    message = refused(Scene.from_dict, {"solver": {"step": np.full(2, 1e-4)}})
+    assert message.startswith("solver.step = array([0.0001, 0.0001]): allowed is a number > 0")

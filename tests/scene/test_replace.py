@@ -166,6 +166,8 @@ def test_a_body_that_is_not_there_cannot_be_left_out():
     [
         (5, "5: allowed is a mapping of dotted names"),
         ({5: 5}, "allowed is a mapping of dotted names"),
+        ({".": 1}, r"^'\.': allowed is the name of a key"),
+        ({"contact..length": 1}, r"^'contact\.\.length': allowed is the name of a key"),
         ({"contact": 5, "contact.length": 0.1}, "^contact = 5: allowed is a table of keys"),
     ],
 )

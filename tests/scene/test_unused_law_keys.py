@@ -43,6 +43,13 @@ def test_keys_of_a_group_may_be_used_by_some_of_its_joints():
         Scene.from_dict({"joints": {"balls": {"kind": "dry", "contact": {"length": 0.1}}}})
 
 
+def test_a_ball_has_no_cylindrical_contact_of_its_own():
+    with pytest.raises(InputError, match=r"joints\.balls\.contact\.shape = 'cylindrical': a ball"):
+        Scene().replace({"joints.balls": "dry", "joints.balls.contact.shape": "cylindrical"})
+    scene = Scene(joints={"balls": "dry", "crank_pin": "dry"}, contact={"shape": "cylindrical"})
+    assert Scene.from_dict(scene.to_dict()) == scene, "that of the pins may stand in [contact]"
+
+
 def test_every_choice_says_which_keys_it_uses():
     assert set(DAMPING) == set(DAMPING_LAWS)
 

@@ -37,7 +37,7 @@ from exu_press.studies.curve_comparison import (
     comparison_rows,
 )
 from exu_press.studies.curve_file import CurveFile, read_curve
-from exu_press.studies.equal_windows import with_equal_windows
+from exu_press.studies.equal_windows import require_common_window, with_equal_windows
 from exu_press.terminal.columns import columns
 from exu_press.verification.side_by_side import simulate_side_by_side
 
@@ -92,8 +92,9 @@ def execute(options: argparse.Namespace) -> int:
         # they are refused here, where their files keep too little
         figures = comparison_figures(stored) if stored else {}
     measured = _compare_curves(curves, stored, {})
+    require_common_window(compared)  # before anything is run or written
     if len(stored) > 1:
-        with_equal_windows(stored)  # refused before anything is written
+        with_equal_windows(stored)
     if options.csv is not None and not options.csv.parent.is_dir():
         raise InputError(f"--csv {options.csv}: allowed is a file in a folder that there is")
     target = directory_of(options, options.given[0] if len(options.given) == 1 else "compare")

@@ -226,13 +226,12 @@ def _summary(examined: Examination) -> list[tuple[str, str]]:
         position = f"position {units.position_scale * centre.position:.3f} {units.position}"
         which = "top" if centre.top else "bottom"
         rows.append((f"{which} dead centre", f"{math.degrees(centre.angle):.3f} deg, {position}"))
-    fastest = int(np.abs(stroke.velocity).argmax())
-    most = float(np.abs(stroke.velocity[fastest]))
-    if most > 0.0:
-        velocity = f"{units.velocity_scale * most:.3f} {units.velocity}"
-        rows.append(("velocity, max", f"{velocity} at {fastest} deg"))
-        advantage = f"{1 / most:.3f} {units.advantage} at {fastest} deg"
-        rows.append(("mechanical advantage, min", advantage))
+    peak = stroke.peak_velocity
+    if peak > 0.0:
+        angle = f"at {math.degrees(stroke.peak_angle):.1f} deg"
+        velocity = f"{units.velocity_scale * peak:.3f} {units.velocity}"
+        rows.append(("velocity, max", f"{velocity} {angle}"))
+        rows.append(("mechanical advantage, min", f"{1 / peak:.3f} {units.advantage} {angle}"))
     for name, values in group_equal_angles(examined.transmission):
         degrees = np.degrees(values)
         low = f"{degrees.min():.2f} deg at {degrees.argmin()} deg"
@@ -261,7 +260,7 @@ def _table(examined: Examination, speed: float | None) -> list[str]:
         rows.append(
             (
                 f"{angle}",
-                f"{units.position_scale * stroke.position[angle]:.3f}",
+                f"{round(units.position_scale * float(stroke.position[angle]), 3) + 0.0:.3f}",
                 f"{round(scale * float(stroke.velocity[angle]), 4) + 0.0:.4f}",
                 f"{advantage:.2f}" if math.isfinite(advantage) else "infinite",
                 f"{min(values[angle] for values in least):.2f}" if least else "-",

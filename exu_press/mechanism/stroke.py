@@ -75,12 +75,16 @@ class Stroke:
         position: of the output, (n,), m or rad.
         velocity: per angular velocity of the crank, (n,), m/rad or rad/rad.
         dead_centres: in the order of their crank angles.
+        peak_angle: of the crank at the largest velocity, rad, to 1e-5.
+        peak_velocity: magnitude there, m/rad or rad/rad, to rounding.
     """
 
     angle: Array
     position: Array
     velocity: Array
     dead_centres: tuple[DeadCentre, ...]
+    peak_angle: float
+    peak_velocity: float
 
     @property
     def length(self) -> float:
@@ -106,7 +110,21 @@ def stroke_of(mechanism: Mechanism, angle: Array) -> Stroke:
         InputError: the crank does not turn through a revolution.
     """
     position, velocity, _ = mechanism.ideal_slider(angle, 1.0)
-    return Stroke(angle, position, velocity, _dead_centres(mechanism))
+    peak = _peak_velocity(mechanism)
+    return Stroke(angle, position, velocity, _dead_centres(mechanism), *peak)
+
+
+def _peak_velocity(mechanism: Mechanism) -> tuple[float, float]:
+    """Return the crank angle and the magnitude of the largest velocity, on ever finer grids."""
+    angle = np.arange(STEPS) * 2.0 * np.pi / STEPS
+    step = angle[1]
+    while True:
+        speed = np.abs(mechanism.ideal_slider(angle, 1.0)[1])
+        largest = int(speed.argmax())
+        if step < 1e-5:
+            return float(angle[largest]) % (2.0 * np.pi), float(speed[largest])
+        angle = angle[largest] + np.linspace(-step, step, 21)
+        step *= 0.1
 
 
 def _dead_centres(mechanism: Mechanism) -> tuple[DeadCentre, ...]:

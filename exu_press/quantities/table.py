@@ -41,6 +41,7 @@ SINGULAR = {
     Owner.JOINT: "joint",
     Owner.GUIDE: "guide of",
     Owner.GEAR: "gear",
+    Owner.SPRING: "spring",
     Owner.LOAD: "load",
     Owner.BODY: "body",
 }

@@ -175,4 +175,4 @@ def _bound_text(value: float, largest: float) -> str:
 
 
 def _places(value: float, places: int) -> str:
-    return f"{round(value, places):.{max(places, 0)}f}"
+    return f"{round(value, places) + 0.0:.{max(places, 0)}f}"

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError
-from exu_press.mechanism import Mechanism
+from exu_press.mechanism import Mechanism, mechanism_to_dict
 from exu_press.scene import LubricatedJoint, Scene, mechanism_of
 from exu_press.schema.csv_table import flat
 
@@ -23,8 +23,8 @@ FLEXIBILITY_ERROR = 0.02
 
 ABSENT, IDEAL = "-", "ideal"
 
-OPTIONAL = ("bodies.", "drive.", "guide.", "load.")
-"""Tables that a scene has or has not, by its user's choice."""
+OPTIONAL = {"bodies": 2, "drive": 1, "guide": 1, "load": 2, "mechanism": 3}
+"""Tables that a scene has or has not, by its user's choice -> parts of their names."""
 
 
 def variants(scene: Scene) -> tuple[dict[str, Scene], list[str]]:
@@ -124,13 +124,16 @@ def _changed_kinds(kinds: Mapping[str, str]) -> dict[str, Any]:
 def different_keys(scenes: Mapping[str, Scene]) -> list[list[str]]:
     """Return the keys in which scenes differ as a table: the head, then a line for each key.
 
-    A table that only some scenes have is one line. Laws and dimensions that a scene does not use
-    follow from its joints and its mechanism, and have none.
+    A table that only some scenes have is one line. Drawings of the same name are compared key by
+    key, others by their names. Laws and dimensions that a scene does not use follow from its joints
+    and its mechanism, and have none.
 
     Returns:
         the head alone where the scenes are the same.
     """
-    keys_of_scenes = [_keys(scene) for scene in scenes.values()]
+    same_name = len({mechanism_of(scene).name for scene in scenes.values()}) == 1
+    drawn = any(isinstance(scene.to_dict()["mechanism"], Mapping) for scene in scenes.values())
+    keys_of_scenes = [_keys(scene, drawing=same_name and drawn) for scene in scenes.values()]
     rows: dict[str, list[str]] = {}
     for key in sorted(dict.fromkeys(key for keys in keys_of_scenes for key in keys)):
         values = [
@@ -139,9 +142,15 @@ def different_keys(scenes: Mapping[str, Scene]) -> list[list[str]]:
         ]
         if len({value for value in values if value != ABSENT}) > 1:
             rows[key] = values
-        elif ABSENT in values and key.startswith(OPTIONAL):
-            parts = key.split(".")[: 1 if key.startswith(("drive", "guide")) else 2]
-            rows[f"[{'.'.join(parts)}]"] = [ABSENT if v == ABSENT else "given" for v in values]
+        elif ABSENT in values and (parts := key.split("."))[0] in OPTIONAL:
+            table_name = ".".join(parts[: OPTIONAL[parts[0]]])
+            has_table = [
+                any(name.startswith(f"{table_name}.") for name in k) for k in keys_of_scenes
+            ]
+            if all(has_table):
+                rows[key] = values
+            else:
+                rows[f"[{table_name}]"] = ["given" if has else ABSENT for has in has_table]
     table = [[key, *values] for key, values in rows.items()]
     if (further := len(table) - MOST_KEYS) > 0:
         table = [*table[:MOST_KEYS], [f"{further} more keys", *["..."] * len(keys_of_scenes)]]
@@ -156,10 +165,12 @@ def _usual(key: str, scene: Scene) -> str:
     return IDEAL if has else ABSENT
 
 
-def _keys(scene: Scene) -> dict[str, Any]:
-    """Return the keys of a scene by their dotted names; a mechanism by its name alone."""
+def _keys(scene: Scene, *, drawing: bool) -> dict[str, Any]:
+    """Return the keys of a scene by their dotted names; a mechanism by its drawing or its name."""
     data = scene.to_dict()
-    if isinstance(data["mechanism"], Mapping):
+    if drawing:
+        data["mechanism"] = mechanism_to_dict(mechanism_of(scene))
+    elif isinstance(data["mechanism"], Mapping):
         data["mechanism"] = data["mechanism"]["name"]
     return flat(data)
 

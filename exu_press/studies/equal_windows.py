@@ -10,13 +10,26 @@ from exu_press.errors import InputError
 from exu_press.quantities.reading import Reading
 from exu_press.result import Result
 from exu_press.result.windows import up_to
+from exu_press.scene import Scene
 
-__all__ = ["with_equal_windows"]
+__all__ = ["require_common_window", "with_equal_windows"]
 
 NEARLY = 1e-3
 """Revolutions by which windows may differ."""
 
 CURE = "compare runs of the same settle and revolutions"
+
+
+def require_common_window(items: Mapping[str, Scene | Result]) -> None:
+    """Raise InputError unless scenes and results by label have revolutions in common."""
+    spans = {
+        label: (item.settle_revolutions, item.revolutions)
+        if isinstance(item, Scene)
+        else Reading(item).span
+        for label, item in items.items()
+    }
+    if not _are_equal(list(spans.values())):
+        _common_span(spans)
 
 
 def with_equal_windows(results: Mapping[str, Result]) -> tuple[Mapping[str, Result], str]:
@@ -32,14 +45,23 @@ def with_equal_windows(results: Mapping[str, Result]) -> tuple[Mapping[str, Resu
     spans = [Reading(result).span for result in results.values()]
     if _are_equal(spans) or _are_equal(list(map(_asked_span, results.values(), spans))):
         return results, ""
-    begin, end = max(begin for begin, _ in spans), min(end for _, end in spans)
-    if end - begin < NEARLY:
-        raise InputError(f"the runs have no revolutions in common; {CURE}")
+    begin, end = _common_span(dict(zip(results, spans, strict=True)))
     text = (
         f"The runs have different windows: figures are read from revolutions {begin:.4g} to "
         f"{end:.4g}, which all have, and their errors are not known. For errors, {CURE}."
     )
     return {label: _restrict(label, run, begin, end) for label, run in results.items()}, text
+
+
+def _common_span(spans: Mapping[str, tuple[float, float]]) -> tuple[float, float]:
+    """Return the revolutions that all runs by label have."""
+    begin, end = max(begin for begin, _ in spans.values()), min(end for _, end in spans.values())
+    if end - begin < NEARLY:
+        texts = [
+            f"{label} is read from {first:g} to {last:g}" for label, (first, last) in spans.items()
+        ]
+        raise InputError(f"the runs have no revolutions in common: {', '.join(texts)}; {CURE}")
+    return begin, end
 
 
 def _are_equal(spans: Sequence[tuple[float, float]]) -> bool:

@@ -225,6 +225,7 @@ def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
         ([str(result)], "a result alone; allowed are two or more, or a scene alone"),
         ([str(curve)], "a measurement alone; allowed are scenes or results beside it"),
         ([str(result)] * 2 + ["--set", "gravity=0"], "--set gravity=0: changes scenes, and none"),
+        (["press", "drag_link_shop"], "press is read from 0 to 2, drag_link_shop is read from 2"),
     ):
         assert main(["compare", *arguments, "--out", str(out)]) == 2
         error = capsys.readouterr().err

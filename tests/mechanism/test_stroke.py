@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from drawings import four_bar, slider_crank, stephenson
 
-from exu_press.mechanism import Press, SliderCrank, press
+from exu_press.mechanism import Press, SliderCrank, press, shipped_mechanism
 from exu_press.mechanism import slider_crank as shipped_slider_crank
 from exu_press.mechanism.stroke import stroke_of
 from exu_press.mechanism.transmission import group_equal_angles, transmission_angles
@@ -53,6 +53,13 @@ def test_velocity_is_the_derivative_of_the_position():
     change = np.diff(found.position)
     mean = 0.5 * (found.velocity[1:] + found.velocity[:-1]) * np.diff(ANGLES)
     assert change == pytest.approx(mean, abs=1e-5 * np.ptp(found.position))
+
+
+def test_the_largest_velocity_lies_between_whole_degrees():
+    """A trammel's tracer (0.03, 0.01): x = 0.03 cos - 0.01 sin of the crank's angle."""
+    found = stroke_of(shipped_mechanism("elliptic_trammel"), ANGLES)
+    assert found.peak_velocity == pytest.approx(math.hypot(0.03, 0.01), rel=1e-10)
+    assert math.tan(found.peak_angle) == pytest.approx(-3.0, rel=1e-4)
 
 
 def test_dead_centres_are_those_of_the_mechanism():

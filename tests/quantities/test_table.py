@@ -6,7 +6,8 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.quantities.catalogue import CATALOGUE
-from exu_press.quantities.table import difference_lines, lines_by_heading, run_lines
+from exu_press.quantities.quantity import Owner
+from exu_press.quantities.table import SINGULAR, difference_lines, lines_by_heading, run_lines
 
 
 def test_guides_without_friction_say_what_friction_would_take():
@@ -59,6 +60,21 @@ def test_a_small_machine_has_units_of_its_size():
     (line,) = (x.strip() for x in run_lines(result) if "joint force, max, " in x)
     peak = max(result.quantity(f"joints.{name}.peak_force").value for name in result.joints)
     assert line.startswith("joint force, max, uN ") and f" {1e6 * peak:.3g}" in line, (line, peak)
+
+
+def test_every_owner_has_its_quantities_under_its_name():
+    drawing = Scene(mechanism="six_bar", joints={}).replace({"mechanism.bodies.ram.mass": 1.0})
+    spring = {
+        "between": ["ram", "frame"],
+        "at": [[0, -1], [0, 1]],
+        "stiffness": 1.0,
+        "preload": 9.0,
+    }
+    mechanism = {**drawing.to_dict()["mechanism"], "springs": {"counter_balance": spring}}
+    scene = drawing.replace({"mechanism": mechanism, "speed_rpm": 60.0, "revolutions": 0.01})
+    lines = lines_by_heading({"": simulate(scene)})["spring counter balance"]
+    assert any(line.title.startswith("spring force, max") for line in lines)
+    assert {*SINGULAR, Owner.RUN} == set(Owner)
 
 
 def test_every_title_fits_in_its_column():

@@ -85,3 +85,15 @@ def test_solids_of_other_dimensions_are_left_out():
         scenes, (left_out,) = variants(press.replace(change))
         assert list(scenes) == ["ideal", "dry", "lubricated"]
         assert left_out.startswith("flexible: left out") and reason in left_out
+
+
+def test_drawings_of_the_same_name_differ_in_their_keys():
+    shipped = Scene(mechanism="six_bar", joints={}, speed_rpm=60.0)
+    heavy = shipped.replace({"mechanism.bodies.ram.mass": 1.5e3})
+    drawing = heavy.to_dict()["mechanism"]
+    spring = {"between": ["ram", "frame"], "at": [[0, 0], [0, 1]], "stiffness": 1e3, "preload": 0.0}
+    sprung = heavy.replace({"mechanism": {**drawing, "springs": {"counterbalance": spring}}})
+    found = rows({"shipped": shipped, "heavy": heavy, "sprung": sprung})
+    assert found["mechanism.bodies.ram.mass"][1:] == ["1500", "1500"]
+    assert found["[mechanism.springs.counterbalance]"] == ["-", "-", "given"]
+    assert len(found) == 2

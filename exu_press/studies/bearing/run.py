@@ -31,7 +31,11 @@ class BearingCommand(SceneCommand):
             "--speed", metavar="RPM", dest="speeds", help="of the journal; or several", **several
         )
         parser.add_argument(
-            "--direction", type=float, default=-90.0, metavar="DEG", help="of the load (-90)"
+            "--direction",
+            type=float,
+            default=-90.0,
+            metavar="DEG",
+            help="of the load, from the drawing's x axis (-90, down)",
         )
 
     @staticmethod

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from exu_press.errors import InputError
 from exu_press.schema.checks import key
 from exu_press.studies.base.command import SceneStudy
 
@@ -17,6 +18,12 @@ class BearingStudy(SceneStudy):
     loads: tuple[float, ...] = ()
     speeds: tuple[float, ...] = ()
     direction: float = key(-90.0, "of the loads, from the drawing's x axis", "deg")
+
+    def __post_init__(self) -> None:
+        for load in self.loads:
+            if not 0.0 < load < math.inf:
+                text = f"load = {load:g}: allowed is a number > 0 (N)"
+                raise InputError(f"{text}; direction turns it")
 
     def load_vector(self, load: float) -> tuple[float, float]:
         """Return a load's components, N, exact along the axes."""

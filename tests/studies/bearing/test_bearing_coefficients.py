@@ -128,6 +128,12 @@ def test_what_is_no_bearing_is_refused():
             bearing_coefficients(scene, joint, load=load, speed_rpm=speed)
 
 
+def test_a_load_has_its_sign_from_the_direction(tmp_path, capsys):
+    words = ["--load", "-5", "--speed", "240", "--out", str(tmp_path / "out")]
+    assert main(["bearing", "press", "crank_pin", *words]) == 2
+    assert "load = -5: allowed is a number > 0 (N)" in capsys.readouterr().err
+
+
 def test_command(tmp_path, capsys):
     words = ["--set", "film.law=short", "--load", "1e4", "1e5", "--speed", "240"]
     assert main(["bearing", "press", "crank_pin", *words, "--out", str(tmp_path)]) == 0

@@ -9,7 +9,14 @@ from pathlib import Path
 
 from exu_press.errors import InputError
 
-__all__ = ["file_digest", "files_read", "locate", "note_content", "recorded_files"]
+__all__ = [
+    "file_digest",
+    "files_read",
+    "locate",
+    "note_content",
+    "note_digests",
+    "recorded_files",
+]
 
 PACKAGE = Path(__file__).parents[1]
 SHIPPED = "exu_press:"
@@ -41,9 +48,15 @@ def files_read() -> dict[str, str]:
 
 def note_content(path: Path, content: bytes) -> None:
     """Record a file's content as read."""
+    if _READ.get() is not None:
+        note_digests({_name_of(path): hashlib.sha256(content).hexdigest()})
+
+
+def note_digests(digests: Mapping[str, str]) -> None:
+    """Record files as read, of which the digests are known."""
     files = _READ.get()
     if files is not None:
-        files[_name_of(path)] = hashlib.sha256(content).hexdigest()
+        files.update(digests)
 
 
 def _name_of(path: Path) -> str:

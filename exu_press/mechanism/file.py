@@ -37,6 +37,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError, error_prefix
+from exu_press.files.digests import note_digests, recorded_files
 from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output
@@ -118,10 +119,18 @@ def load_mechanism(path: str | Path) -> Mechanism:
         return mechanism_from_dict(data)
 
 
-@lru_cache
 def shipped_mechanism(name: str) -> Mechanism:
     """Return a shipped mechanism by its name, one of `SHIPPED`."""
-    return load_mechanism(FILES / f"{name}.toml")
+    mechanism, digests = _load_shipped(name)
+    note_digests(digests)
+    return mechanism
+
+
+@lru_cache
+def _load_shipped(name: str) -> tuple[Mechanism, dict[str, str]]:
+    """Return a shipped mechanism, and the digests of the files that it is read from."""
+    with recorded_files() as digests:
+        return load_mechanism(FILES / f"{name}.toml"), dict(digests)
 
 
 def mechanism_from_dict(data: Mapping[str, Any]) -> Mechanism:

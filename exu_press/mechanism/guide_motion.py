@@ -11,7 +11,8 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.mechanism.motion import Motion
-from exu_press.mechanism.parts import GROUND, Body, Guide, Point
+from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Point
+from exu_press.mechanism.springs import SpringBetween
 from exu_press.numerics.arrays import Array
 
 __all__ = ["Drawing", "guide_direction", "guide_path", "motion_in_guide", "pose_in_guide"]
@@ -28,8 +29,19 @@ class Drawing(Protocol):
     def guides(self) -> tuple[Guide, ...]:
         """Guides and slots."""
 
+    @property
+    def springs(self) -> tuple[SpringBetween, ...]:
+        """Springs between two points."""
+
+    @property
+    def size(self) -> float:
+        """Largest distance of two joints along x or y, m."""
+
     def body(self, name: str) -> Body:
         """Return a body by its name."""
+
+    def joints_of(self, body: str) -> list[Joint]:
+        """Return the joints of a body."""
 
     def guided_end(self, guide: Guide) -> tuple[str, Point]:
         """Return a guided body, and in its frame its pin in a slot, or its centre."""

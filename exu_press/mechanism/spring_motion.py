@@ -3,17 +3,14 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from exu_press.mechanism.guide_motion import Drawing
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import GROUND, PRECISION, Point
 from exu_press.mechanism.springs import SpringBetween
 from exu_press.numerics.arrays import Array
-
-if TYPE_CHECKING:
-    from exu_press.mechanism.mechanism import Mechanism
 
 __all__ = ["SpringMotion", "impossible_spring", "joint_at", "spring_ends", "spring_motion"]
 
@@ -51,7 +48,7 @@ class SpringMotion:
         return np.asarray((self.direction * self.velocity).sum(axis=1))
 
 
-def spring_ends(mechanism: "Mechanism", spring: SpringBetween) -> list[tuple[str, Point]]:
+def spring_ends(mechanism: Drawing, spring: SpringBetween) -> list[tuple[str, Point]]:
     """Return (body, point in its frame) of both ends of a spring."""
     return [
         (name, at if name == GROUND else mechanism.body(name).local(at))
@@ -60,7 +57,7 @@ def spring_ends(mechanism: "Mechanism", spring: SpringBetween) -> list[tuple[str
 
 
 def spring_motion(
-    mechanism: "Mechanism", spring: SpringBetween, motions: Mapping[str, Motion]
+    mechanism: Drawing, spring: SpringBetween, motions: Mapping[str, Motion]
 ) -> SpringMotion:
     """Return the motion of a spring with that of the bodies."""
     count = len(next(iter(motions.values())).position)
@@ -77,14 +74,14 @@ def spring_motion(
     )
 
 
-def joint_at(mechanism: "Mechanism", body: str, at: Point) -> str | None:
+def joint_at(mechanism: Drawing, body: str, at: Point) -> str | None:
     """Return the name of a body's joint at a point of the drawing, None where there is none."""
     close = PRECISION * mechanism.size
     joints = mechanism.joints_of(body)
     return next((joint.name for joint in joints if math.dist(joint.at, at) <= close), None)
 
 
-def impossible_spring(mechanism: "Mechanism") -> tuple[SpringBetween, float, str] | None:
+def impossible_spring(mechanism: Drawing) -> tuple[SpringBetween, float, str] | None:
     """Return a spring, a crank angle, rad, and why the spring cannot be there; None without one.
 
     The extreme lengths over a revolution of the ideal mechanism decide.

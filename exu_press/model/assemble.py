@@ -13,11 +13,9 @@ from exu_press.joints.states import States
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
 from exu_press.model.drive import add_drive, crank_angle_of, hold_flexible_bodies, turned_body
-from exu_press.model.gears import add_gear
 from exu_press.model.guides import add_guide
 from exu_press.model.ideal_joints import add_ideal_joint
 from exu_press.model.model import Model, count_items
-from exu_press.model.springs import add_spring
 from exu_press.model.stall import Stall, holding_torque
 from exu_press.model.system import System
 from exu_press.scene import IdealJoint, Scene
@@ -96,12 +94,18 @@ def _assemble(
         for guide in mechanism.guides
         if guide.name in constraints.guides
     }
-    gears = {
-        gear.name: add_gear(system, gear)
-        for gear in mechanism.gears
-        if gear.name in constraints.gears
-    }
-    springs = {spring.name: add_spring(system, spring) for spring in mechanism.springs}
+    gears: dict[str, int] = {}
+    if constraints.gears:
+        from exu_press.model.gears import add_gear
+
+        gears = {
+            g.name: add_gear(system, g) for g in mechanism.gears if g.name in constraints.gears
+        }
+    springs: dict[str, int] = {}
+    if mechanism.springs:
+        from exu_press.model.springs import add_spring
+
+        springs = {spring.name: add_spring(system, spring) for spring in mechanism.springs}
     guideways = _guideways(system)
     friction = _guide_friction(system, guides)
     start_stop: StartStop | None = None

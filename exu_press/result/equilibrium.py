@@ -10,14 +10,12 @@ import numpy as np
 
 from exu_press.mechanism import Point
 from exu_press.mechanism.guide_motion import guide_direction
-from exu_press.mechanism.spring_motion import spring_ends
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result import ideal_joints
 from exu_press.result.channel import Channel, guide_channel
 from exu_press.result.guides import guide_channels
 from exu_press.result.recording import Record, Recording
-from exu_press.result.springs import force_on_second_end
 
 if TYPE_CHECKING:
     from exu_press.joints.history import JointHistory
@@ -134,6 +132,11 @@ def _spring_forces(
     model: Model, name: str, channels: Mapping[str, Channel]
 ) -> Iterator[tuple[Array, Point]]:
     """Yield the forces of springs on a body, (n, 2), and their points in its frame."""
+    if not model.mechanism.springs:
+        return
+    from exu_press.mechanism.spring_motion import spring_ends
+    from exu_press.result.springs import force_on_second_end
+
     for spring in model.mechanism.springs:
         ends = spring_ends(model.mechanism, spring)
         for sign, (body, point) in zip((-1.0, 1.0), ends, strict=True):

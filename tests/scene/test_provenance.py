@@ -42,7 +42,8 @@ def test_a_scene_knows_its_files_and_keeps_them_when_it_is_changed(folder):
     scene = Scene.load("scene.toml")
     assert scene.files == {name: digest(folder / name) for name in names}
     assert scene.replace({"speed_rpm": 100.0}).files == scene.files
-    assert Scene(mechanism="six_bar").files.keys() == {"exu_press:mechanism/files/six_bar.toml"}
+    for _ in range(2):  # it is read once
+        assert Scene(mechanism="six_bar").files.keys() == {"exu_press:mechanism/files/six_bar.toml"}
 
 
 def test_a_changed_missing_or_new_input_is_named(folder):

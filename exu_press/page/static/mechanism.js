@@ -43,8 +43,7 @@ class Mechanism {
     this.bodies = scenery.bodies.map((body, index) => ({...body, index}));
     for (const body of [...this.bodies].sort((a, b) => a.layer - b.layer)) {
       body.group = drawn("g", {class: "body"}, svg);
-      drawn("polygon", {points: corners(body.outline), fill: body.colour, class: "body"},
-        body.group);
+      drawn("polygon", {points: corners(body.outline), fill: body.colour}, body.group);
       for (const slot of body.slots) {
         drawn("polygon", {points: corners(slot), class: "fixed"}, body.group);
       }

@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--changed",
         action="store_true",
-        help="run with the inputs as they are now, where they are others than the run had",
+        help="run with the inputs as they are now, where they differ from those of the run",
     )
     add_code_argument(parser)
     parser.add_argument("--out", metavar="FILE.nc", help="keep the repeated run")
@@ -72,7 +72,7 @@ def execute(options: argparse.Namespace) -> int:
 
 
 def _changes(provenance: Provenance, scene: Scene, options: argparse.Namespace) -> dict[str, str]:
-    """Return the inputs that are others now; raise InputError unless --changed allows it."""
+    """Return the inputs that have changed; raise InputError unless --changed allows it."""
     changes = changed_inputs(provenance, scene)
     if changes and not options.changed:
         raise InputError(
@@ -108,9 +108,9 @@ def _scene_of(run: Result, provenance: Provenance, options: argparse.Namespace) 
 
 
 def _change_lines(changes: dict[str, str]) -> list[str]:
-    """Return which inputs are others now, in a line, or nothing."""
+    """Return which inputs have changed, in a line, or nothing."""
     texts = ", ".join(f"{name} ({how})" for name, how in changes.items())
-    return [f"inputs are others than the run had: {texts}"] if changes else []
+    return [f"inputs differ from those of the run: {texts}"] if changes else []
 
 
 def _lines(compared: Agreement, run: Result) -> list[str]:

@@ -41,7 +41,7 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     drawn, rest = busiest(everyone, _joints(everyone), "force", MOST_JOINTS)
     heading = "Joint forces and drive torque"
     if rest:
-        heading += f" ({len(rest)} joints with smaller forces are not drawn)"
+        heading += " (not all joints are drawn)"
     figure = new_figure(heading, results, (13.0, 7.6))
     panel_of = {title: (f"{name}_force", "force, kN", 1e-3) for name, title in drawn.items()}
     panel_of["Drive torque"] = "drive_torque", "torque, N m", 1.0

@@ -18,6 +18,9 @@ ONE_LINE = math.inf
 FEW = 3
 """Joints or groups with clearance that are named one by one."""
 
+OF_ALL_LOADS, OF_ALL_SCENES = "load ", ("drive", "guides", "counterweight")
+"""Keys of phrases that are common only where every scene has them."""
+
 SEPARATOR = "  ·  "
 CROSS = "\N{MULTIPLICATION X}"  # as it marks the end of the curves
 
@@ -36,10 +39,12 @@ def describe(scenes: Iterable[Scene], width: float = 130) -> str:
     keys = dict.fromkeys(key for parts in phrases_of_scene for key in parts)
     shared: list[str] = []
     for key in keys:
-        texts = {parts[key] for parts in phrases_of_scene if key in parts}
+        texts = {parts.get(key) for parts in phrases_of_scene}
+        if key not in OF_ALL_SCENES and not key.startswith(OF_ALL_LOADS):
+            texts.discard(None)
         if len(texts) == 1:
-            shared += texts
-    return _join_wrapped(shared, width)
+            shared += filter(None, texts)
+    return _join_wrapped(dict.fromkeys(shared), width)
 
 
 def early_stops(results: Mapping[str, Result], width: int = 130) -> str:

@@ -158,8 +158,8 @@ def _redundancy_warnings(scene: Scene) -> Iterator[str]:
         names = ", ".join(sorted(name.partition(".")[2] for name in constraints.undetermined))
         yield (
             f"{names}: gears and ideal joints hold the same as ideal guides, so that their forces "
-            "are not determined and have no figures; the motion and the torque of the drive have; "
-            "give the guide clearance or stiffness ([guide]), or one of the joints clearance"
+            "are not determined and have no figures. The motion and the torque of the drive have. "
+            "Give the guide clearance or stiffness ([guide]), or one of the joints clearance."
         )
 
 
@@ -172,7 +172,7 @@ def _solid_warnings(result: Result) -> Iterator[str]:
         body, away = mechanism.body(name), math.hypot(*solid["centre_of_mass"])
         flywheel = 0.0 if scene.drive is None or name != mechanism.crank else scene.drive.on_crank
         differences = [
-            f"{what} {solid[what]:.4g} {unit} for {meant:.4g}"
+            f"{what} {solid[what]:.4g} {unit} instead of {meant:.4g}"
             for what, unit, meant in (
                 ("mass", "kg", body.mass),
                 ("inertia", "kg m^2", body.inertia - flywheel),
@@ -182,4 +182,4 @@ def _solid_warnings(result: Result) -> Iterator[str]:
         if away > ALIKE * mechanism.size:
             differences.append(f"a centre of mass {1e3 * away:.3g} mm from the mechanism's")
         if differences:
-            yield f"bodies.{name}: the solid's own values are taken: {', '.join(differences)}"
+            yield f"bodies.{name}: its solid has {', '.join(differences)}"

@@ -41,7 +41,7 @@ class GroovedLaw(FilmLaw):
     flows_out: ClassVar[bool] = True
 
     grooves: tuple[SupplyGroove, ...] | None = list_of_tables(
-        "scene.grooved:SupplyGroove", "supply grooves of the bearing"
+        "scene.grooved:SupplyGroove", "supply grooves of the bearing, each a table [[film.grooves]]"
     )
 
     def film(self, length_to_diameter: float) -> JournalLaw:

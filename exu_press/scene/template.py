@@ -10,6 +10,7 @@ from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import Load
 from exu_press.scene.oil import Oil
+from exu_press.scene.readings import Readings
 from exu_press.scene.save import (
     body_lines,
     joint_lines,
@@ -71,6 +72,9 @@ def _lines(scene: Scene) -> Iterator[str]:
             yield from ("", *_not_in_use(lines))
         if field.name == "film" and "oil" not in (scene.film or {}):
             yield from ("", *_not_in_use(_an_oil()))
+        if field.name == "output":
+            readings = Readings(average=(5e-4,), average_deg=(1.0,), sampled=(5000.0,))
+            yield from ("", *_not_in_use(_inner_table(readings)))
 
 
 EXAMPLES: dict[str, dict[str, Any]] = {
@@ -95,7 +99,11 @@ def _not_in_use(lines: Iterable[str]) -> Iterator[str]:
 def _an_oil() -> Iterator[str]:
     fields = {field.name: field for field in dataclasses.fields(Oil)}
     example = Oil(**{name: fields[name].metadata["example"] for name in Oil.needed})
-    yield f"[film.oil]  # {(Oil.__doc__ or '').splitlines()[0]}"
+    yield from _inner_table(example)
+
+
+def _inner_table(example: Oil | Readings) -> Iterator[str]:
+    yield f"[{example.table}]  # {(type(example).__doc__ or '').splitlines()[0]}"
     yield from table_lines(example, True, absent=True)
 
 

@@ -37,6 +37,9 @@ def test_scenes_share_what_they_have_in_common():
     assert "dry" not in words
     assert "ideal" not in words
     assert "rpm" not in describe([Scene(), Scene(speed_rpm=300)])
+    elastic = {"guide": {"lateral_stiffness": 1e9}}
+    assert "guides elastic" in describe([Scene().replace(elastic)] * 2)
+    assert "guides" not in describe([Scene(), Scene().replace(elastic)])
 
 
 def test_early_stops_are_named(results):

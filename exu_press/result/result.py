@@ -61,6 +61,7 @@ class Result(Contents):
             cure = ""
             if "figures" in self.info:
                 cure = "was not kept; keep it by [output] channels, and run again: "
+            cure = cure or f"is not recorded{nearest(name, self.channels)}; "
             names = ", ".join(sorted(self.channels))
             raise InputError(f"channel {name!r}: {cure}this run has {names}")
         return self.channels[name].values

@@ -50,6 +50,12 @@ class Block:
         return named[1] if named else None
 
     @property
+    def added_to(self) -> str | None:
+        """The mechanism file that a reader may add it to."""
+        named = re.search(r"<!-- added to: (\S+) -->", self.notes)
+        return named[1] if named else None
+
+    @property
     def printed_by(self) -> str | None:
         """The command that printed it."""
         named = re.search(r"<!-- printed by: (.+) -->", self.notes)
@@ -176,8 +182,9 @@ def read(block: Block, place: Path) -> None:
     from exu_press.studies.base import load_study
 
     path = place / (block.file or "block.toml")
-    path.write_text(block.text, encoding="utf-8")
-    if "bodies" in tomllib.loads(block.text) and "crank" in tomllib.loads(block.text):
+    above = (place / block.added_to).read_text("utf-8") if block.added_to else ""
+    path.write_text(above + block.text, encoding="utf-8")
+    if block.added_to or {"bodies", "crank"} <= set(tomllib.loads(block.text)):
         load_mechanism(path)
     elif "scene" in tomllib.loads(block.text):
         load_study(path, kind_of(tomllib.loads(block.text)))

@@ -158,7 +158,7 @@ def test_a_rod_from_a_step_file_bends_in_the_six_bar_press(rod):
     summary = result.summary()
     assert summary["quantities"]["energy.residual"]["value"] < 2e-3
     assert 1e-9 < np.abs(result["rod_elongation"]).max() < 1e-4
-    assert any("bodies.rod: the solid's own values" in text for text in summary["warnings"])
+    assert any("bodies.rod: its solid has" in text for text in summary["warnings"])
 
 
 def test_the_shipped_rod_is_what_its_script_draws():

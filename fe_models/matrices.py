@@ -33,6 +33,9 @@ OPTIONAL = ("triangles",)
 MOST_LETTERS = 20_000_000
 """Largest description, bytes: a million nodes in interfaces."""
 
+MOST_WEIGHT = 1e30
+"""Largest weight of a node, whose square is a number, too."""
+
 ENDING = ".mtx"
 
 
@@ -236,7 +239,9 @@ def _interfaces(path: Path, table: Any) -> dict[str, NodeSet]:
         keys = value if isinstance(value, Mapping) else {"nodes": value}
         where = f"matrices {path}: interfaces.{name}"
         numbers, weights = keys.get("nodes"), keys.get("weights")
-        is_list = isinstance(numbers, list) and all(type(n) is int and n > 0 for n in numbers)
+        is_list = isinstance(numbers, list) and all(
+            type(n) is int and 0 < n < 2**63 for n in numbers
+        )
         if not is_list or not keys.keys() <= {"nodes", "weights"}:
             raise InputError(f"{where}: allowed are nodes, a list of numbers from 1, and weights")
         if not numbers or len(set(numbers)) < len(numbers):
@@ -246,9 +251,12 @@ def _interfaces(path: Path, table: Any) -> dict[str, NodeSet]:
         if (
             not isinstance(weights, list)
             or len(weights) != len(numbers)
-            or not all(type(w) in (int, float) and 0.0 <= w < np.inf for w in weights)
+            or not all(type(w) in (int, float) and 0.0 <= w <= MOST_WEIGHT for w in weights)
             or not sum(weights) > 0.0
         ):
-            raise InputError(f"{where}.weights: allowed are numbers from 0, one a node, not all 0")
+            raise InputError(
+                f"{where}.weights: allowed are numbers from 0 to {MOST_WEIGHT:g}, one a node, "
+                "not all 0"
+            )
         sets[name] = NodeSet(tuple(n - 1 for n in numbers), tuple(map(float, weights)))
     return sets

@@ -68,9 +68,11 @@ def _array(file: Path, columns: int, kind: type) -> NDArray[Any]:
     rows, across, entries, _, field, _ = _header(file)
     if across != columns or field not in ("real", "integer") or entries != rows * columns:
         raise InputError(f"{file}: allowed is a dense array of {columns} real columns")
-    array = np.asarray(scipy.io.mmread(file), dtype=kind)
+    array = np.asarray(_content(file))
     _refuse_infinite(file, array)
-    return array
+    if kind is int and (array != array.round()).any():
+        raise InputError(f"{file}: allowed are whole numbers")
+    return array.astype(kind)
 
 
 def _matrix(file: Path, size: int) -> sp.csr_matrix:
@@ -81,7 +83,7 @@ def _matrix(file: Path, size: int) -> sp.csr_matrix:
             f"{file}: {rows} x {columns} of {field} entries; allowed is a real matrix of {size} x "
             f"{size}, three displacements a node"
         )
-    matrix = sp.csr_matrix(scipy.io.mmread(file), dtype=float)
+    matrix = sp.csr_matrix(_content(file), dtype=float)
     _refuse_infinite(file, matrix.data)
     difference = abs(matrix - matrix.T)
     largest = float(abs(matrix).max())
@@ -108,6 +110,14 @@ def _header(file: Path) -> tuple[Any, ...]:
             f"are {MOST_UNKNOWNS} rows and {MOST_ENTRIES} entries, all in the file"
         )
     return rows, columns, entries, *kind
+
+
+def _content(file: Path) -> Any:
+    """Return the matrix or array of a file."""
+    try:
+        return scipy.io.mmread(file)
+    except (ValueError, OverflowError) as error:
+        raise InputError(f"{file}: is damaged ({error})") from None
 
 
 def _refuse_infinite(file: Path, values: NDArray[Any]) -> None:

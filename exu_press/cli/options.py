@@ -138,9 +138,9 @@ def picture_format_of(options: argparse.Namespace) -> PictureFormat:
         getattr(options, "pictures", "default"),
     )
     if chosen.style is not None:
-        from exu_press.plots.style import read_style  # loads matplotlib
+        from exu_press.plots.style import check_drawable  # loads matplotlib
 
-        read_style(chosen.style)
+        check_drawable(chosen.style)
     return chosen
 
 

@@ -4,6 +4,7 @@ import argparse
 import shlex
 import textwrap
 from pathlib import Path
+from typing import NoReturn
 
 from exu_press.cli.options import add_code_argument, scene_path
 from exu_press.errors import InputError
@@ -48,6 +49,8 @@ def execute(options: argparse.Namespace) -> int:
         raise InputError(f"{options.path}: allowed is a run.nc, or the directory that run wrote to")
     if options.out is not None:
         check_writable(Path(options.out))
+        if Path(options.out).resolve() == file.resolve():
+            raise InputError(f"--out {options.out}: is the run itself; allowed is another file")
     run = Result.load(file)
     provenance = run.info.get("provenance")
     if provenance is None:
@@ -91,20 +94,34 @@ def _scene_in(run: Result, options: argparse.Namespace) -> Scene:
 
 def _scene_of(run: Result, provenance: Provenance, options: argparse.Namespace) -> Scene:
     """Return a run's scene from its changed files, solved as the run was."""
-    words = shlex.split(provenance["command"])
-    if words[:2] != ["exu-press", "run"]:
+    if not provenance["command"].startswith("exu-press run "):
         return _scene_in(run, options)  # its files are read again when it is built
-    from exu_press.cli import run as command
-
-    parser = argparse.ArgumentParser(prog="exu-press run", exit_on_error=False)
-    command.add_arguments(parser)
-    earlier = parser.parse_args(words[2:])
+    earlier = _arguments_of(provenance["command"])
     scene = Scene.load(scene_path(earlier.scene), earlier.set, allow_code=options.allow_code)
     solver = run.scene.solver
     assert solver is not None
     if solver.tolerance is not None:  # --within or errors may have made it finer
         scene = scene.replace({"solver.tolerance": solver.tolerance})
     return scene
+
+
+def _arguments_of(command_line: str) -> argparse.Namespace:
+    """Return the arguments of a run's command; raise InputError if it is none."""
+    from exu_press.cli import run as command
+
+    class Parser(argparse.ArgumentParser):
+        def error(self, message: str) -> NoReturn:
+            raise ValueError(message)
+
+    parser = Parser(prog="exu-press run", add_help=False, allow_abbrev=False)
+    command.add_arguments(parser)
+    try:
+        return parser.parse_args(shlex.split(command_line)[2:])
+    except ValueError as error:
+        raise InputError(
+            f"the command of the run, {command_line!r:.200}, is none of this version: "
+            f"{error!s:.200}"
+        ) from None
 
 
 def _change_lines(changes: dict[str, str]) -> list[str]:

@@ -76,8 +76,10 @@ def file_digest(path: str | Path) -> str:
     """Return the sha256 of a file as it is.
 
     Raises:
-        InputError: it cannot be read.
+        InputError: it cannot be read, or is no regular file (a device or a pipe may never end).
     """
+    if not Path(path).is_file():
+        raise InputError(f"{path}: is no file that can be read")
     try:
         about = Path(path).stat()
         return _digest_of(str(path), about.st_ino, about.st_size, about.st_mtime_ns)

@@ -231,6 +231,11 @@ def _check_connections(
     guided = {name for pair in pairs for name in pair}
     moves_guides = any(crank in pair and GROUND not in pair for pair in pairs)
     size = drawing_size(joints, guides)
+    if size == 0.0:
+        raise InputError(
+            f"crank = {crank!r}: all joints and pins lie on its shaft, so that it moves nothing; "
+            "allowed is one beside the shaft"
+        )
     for body in bodies:
         ends = [joint.at for joint in joints if body.name in (joint.journal, joint.bearing)]
         ends += [guide.at for guide in guides if guide.body == body.name and guide.at is not None]

@@ -9,6 +9,7 @@ from typing import Any, ParamSpec
 
 import matplotlib
 import matplotlib.style
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import Colormap, ListedColormap
 from matplotlib.figure import Figure
 
@@ -25,6 +26,7 @@ __all__ = [
     "PATH_COLOURS",
     "RUN",
     "SHADE",
+    "check_drawable",
     "colour_of",
     "look",
     "points",
@@ -152,6 +154,21 @@ def read_style(path: Path) -> dict[str, Any]:
         text = " ".join(complaints[0].split())
         raise InputError(f"--style {path}: is no matplotlib style ({text:.200})")
     return dict(settings)
+
+
+def check_drawable(path: Path) -> None:
+    """Raise InputError where matplotlib cannot draw with a style file, as without LaTeX."""
+    with matplotlib.style.context(["default", LOOK, read_style(path)]):
+        figure = Figure()
+        figure.add_subplot(title="Force, N")
+        figure.text(0.0, 0.0, "N")
+        try:
+            FigureCanvasAgg(figure).draw()
+        except (OSError, RuntimeError, ValueError) as error:
+            text = " ".join(str(error).split())
+            raise InputError(
+                f"--style {path}: matplotlib cannot draw with it ({text:.200})"
+            ) from None
 
 
 def points(size: float) -> float:

@@ -55,3 +55,29 @@ def test_figures_of_a_finer_run_agree_within_both_errors():
     assert compared.agrees and compared.within and compared.identical
     without = simulate(fine.scene)
     assert set(agreement(coarse, without).different) >= {"peak_acceleration.resolved"}
+
+
+@pytest.mark.parametrize(
+    ("name", "foreign", "words", "text"),
+    [
+        ("files", {"/dev/zero": "0"}, [], "/dev/zero (missing)"),
+        ("files", {"a\0b": "0"}, [], "(missing)"),
+        ("command", "exu-press run 'scene", ["--changed"], "none of this version: No closing"),
+        ("command", "exu-press run s --help", ["--changed"], "unrecognized arguments: --help"),
+    ],
+)
+def test_what_a_foreign_result_says_is_refused(folder, capsys, name, foreign, words, text):
+    """A device that never ends, and commands that are none."""
+    assert main([*RUN, "--no-error"]) == 0
+    run = Result.load("o/run.nc")
+    run.info["provenance"] = {**run.info["provenance"], name: foreign}
+    run.save("foreign.nc")
+    (folder / "scene.toml").write_text(SCENE + "\n")
+    assert main(["rerun", "foreign.nc", *words]) == 2
+    assert text in capsys.readouterr().err
+
+
+def test_a_run_is_not_replaced_by_its_repetition(capsys):
+    assert main([*RUN, "--no-error"]) == 0
+    assert main(["rerun", "o", "--out", "o/run.nc"]) == 2
+    assert "is the run itself; allowed is another file" in capsys.readouterr().err

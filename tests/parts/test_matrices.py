@@ -123,6 +123,7 @@ def turning(model):
         (lambda model: {"nodes": model.nodes[1:]}, r"stiffness.mtx: \d+ x \d+ of real entries; al"),
         (lambda model: {"stiffness": np.nan * model.stiffness}, "mtx: allowed are finite numbers"),
         (lambda model: {"triangles": [[0, 1, len(model.nodes)]]}, "triangles.mtx: allowed are nod"),
+        (lambda model: {"triangles": [[0.0, 1.5, 2.0]]}, "triangles.mtx: allowed are whole numb"),
     ],
     ids=lambda value: getattr(value, "__name__", ""),
 )
@@ -141,6 +142,8 @@ def test_matrices_of_no_free_body_are_refused(bar_files, bar_model, damage, mess
         ("nodes = [", "nodes = [1, 1]  # [", "interfaces.left: a node is in it twice"),
         ("nodes = [", "nodes = [0]  # [", "interfaces.left: allowed are nodes, a list of numbers"),
         ("nodes = [", "nodes = [9999]  # [", "interfaces.left.weights: allowed are numbers"),
+        ("nodes = [", f"nodes = [{10**30}]  # [", "interfaces.left: allowed are nodes, a list"),
+        ("weights = [", f"weights = [{10**400},", "left.weights: allowed are numbers from 0 to"),
         ("left", "top", "there is no node set 'left'; interfaces are 'top', 'right'"),
         ("bar_nodes.mtx", "../bar_nodes.mtx", "nodes = '../bar_nodes.mtx': allowed is the name"),
         ("bar_nodes.mtx", "/etc/passwd", "nodes = '/etc/passwd': allowed is the name of a file"),
@@ -163,6 +166,7 @@ def test_a_wrong_description_is_refused(bar_files, text, instead, message):
         (b"\x80\x04K\x01.", "is no Matrix Market file"),
         (b"%%MatrixMarket matrix coordinate real general\n9999999 9999999 1\n1 1 1\n", "states"),
         (b"%%MatrixMarket matrix coordinate real general\n9 9 99999999\n1 1 1\n", "states 9 x 9"),
+        (b"%%MatrixMarket matrix coordinate real general\n459 459 2\n1 1 1\n", "is damaged"),
     ],
 )
 def test_a_file_that_states_too_much_is_not_read(bar_files, content, message):

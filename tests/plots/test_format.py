@@ -105,6 +105,7 @@ def test_svg_has_text_and_a_style_file_goes_before_our_settings(results, tmp_pat
         (["--width", "3mm"], "allowed are 2 to 20 inch"),
         (["--style", "none.mplstyle"], "--style none.mplstyle: no such file"),
         (["--style", "bad.mplstyle"], "is no matplotlib style"),
+        (["--style", "huge.mplstyle"], "matplotlib cannot draw with it"),
     ],
 )
 def test_what_is_no_format_is_refused_before_anything_runs(
@@ -112,6 +113,7 @@ def test_what_is_no_format_is_refused_before_anything_runs(
 ):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "bad.mplstyle").write_text("no.such.key: 1\n")
+    (tmp_path / "huge.mplstyle").write_text("font.size: 1e9\n")
     assert main(["run", "press", *words, "--out", "o"]) == 2
     assert said in capsys.readouterr().err and not (tmp_path / "o").exists()
 

@@ -23,8 +23,16 @@ class SupplyGroove(Table):
     table: ClassVar[str] = "film.grooves"
     required: ClassVar[tuple[str, ...]] = ("width_deg",)
 
-    angle_deg: float = key(0.0, "of its middle, in the bearing, from its body's x axis", "deg")
-    width_deg: float = key(None, "around the bearing; 360 all around", "deg", above=0, at_most=360)
+    angle_deg: float = key(
+        0.0,
+        "of its middle, in the bearing, from its body's x axis",
+        "deg",
+        at_least=-360,
+        at_most=360,
+    )
+    width_deg: float = key(
+        None, "around the bearing; 360 all around", "deg", at_least=0.1, at_most=360
+    )
     length: float | None = key(
         None, "along the axis; all of the bearing's unless given", "m", above=0
     )

@@ -28,6 +28,10 @@ def test_a_file_has_them_again(tmp_path):
         (None, "film.grooves: missing; allowed is one"),
         ([], "film.grooves = .*allowed is a list of tables"),
         ([{}], "film.grooves.width_deg: missing"),
+        ([{"width_deg": 1e-20}], "film.grooves.width_deg = 1e-20"),
+        ([{"width_deg": 5.0, "angle_deg": 1e30}], "film.grooves.angle_deg = 1e"),
+        ([AXIAL[0], AXIAL[0]], "film.grooves at 90 and 90 deg overlap"),
+        ([{"width_deg": 359.9999}], "1 deg of bearing between them"),
         ([{"width_deg": 361.0}], "film.grooves.width_deg = 361.0"),
         ([{"width_deg": 10.0, "length": 0.051}], "film.grooves.0.length = 0.051"),
         (

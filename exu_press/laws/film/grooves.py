@@ -18,6 +18,9 @@ TURN = 2.0 * math.pi
 MOST_ALIKE = 12
 """Grooves in equal steps around a bearing, at most."""
 
+NARROWEST = math.radians(1.0)
+"""Least bearing between two grooves, rad: less is not resolved."""
+
 Mask = NDArray[np.bool_]
 
 ROUNDING = 1e-9
@@ -72,12 +75,12 @@ class GroovedBearing:
     def _refuse_overlaps(self) -> None:
         by_angle = sorted(self.grooves, key=lambda groove: groove.angle % TURN)
         for first, second in pairwise([*by_angle, by_angle[0]]):
-            apart = (second.angle - first.angle) % TURN or TURN
-            if apart <= 0.5 * (first.width + second.width):
+            apart = TURN if len(by_angle) == 1 else (second.angle - first.angle) % TURN
+            if apart < 0.5 * (first.width + second.width) + NARROWEST:
                 at = sorted(round(math.degrees(g.angle), 6) for g in (first, second))
                 raise InputError(
                     f"grooves at {at[0]:g} and {at[1]:g} deg overlap; allowed are grooves with "
-                    "bearing between them"
+                    "1 deg of bearing between them at least"
                 )
 
     @property

@@ -4,12 +4,12 @@ import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache, wraps
+from io import BytesIO
 from pathlib import Path
 from typing import Any, ParamSpec
 
 import matplotlib
 import matplotlib.style
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import Colormap, ListedColormap
 from matplotlib.figure import Figure
 
@@ -163,7 +163,7 @@ def check_drawable(path: Path) -> None:
         figure.add_subplot(title="Force, N")
         figure.text(0.0, 0.0, "N")
         try:
-            FigureCanvasAgg(figure).draw()
+            figure.savefig(BytesIO(), format="png")
         except (OSError, RuntimeError, ValueError) as error:
             text = " ".join(str(error).split())
             raise InputError(

@@ -76,7 +76,7 @@ def test_the_content_of_a_step_file_tells_runs_apart(scene, tmp_path):
     with pytest.raises(InputError, match=r"rod\.step: has been changed while the study goes on"):
         scene_from(first)
     (tmp_path / "rod.step").unlink()
-    with pytest.raises(InputError, match=r"rod\.step: cannot be read"):
+    with pytest.raises(InputError, match=r"rod\.step: is no file that can be read"):
         scene_from(first)
 
 

@@ -95,7 +95,7 @@ def test_a_run_from_the_start_is_the_attractor(monkeypatch):
 
 @pytest.mark.long
 def test_the_command(tmp_path, capsys):
-    FILM.replace({"solver.tolerance": 1e-2}).save(tmp_path / "film.toml")
+    FILM.replace({"solver.tolerance": 1e-3}).save(tmp_path / "film.toml")
     study = tmp_path / "speed.toml"
     study.write_text(
         'scene = "film.toml"\n[keys]\nspeed_rpm = [240.0]\n'

@@ -52,6 +52,7 @@ MODULES = [
     "joints/guideway",
     "joints/guideway_film",
     "joints/moving_guideway",
+    "joints/oriented",
     "joints/worn",
     "laws/contact_damping",
     "laws/contact_stiffness",

@@ -60,6 +60,9 @@ IDEAL = "#000000"
 GREY = "#767676"
 SHADE = "#F1F4F7"
 
+LARGEST_FONT = 1000
+"""Points; of larger letters not every version of matplotlib says that it cannot draw them."""
+
 PATH_COLOURS: Colormap = ListedColormap(
     matplotlib.colormaps["viridis"].resampled(256)(range(232)), "viridis without its yellow end"
 )
@@ -163,6 +166,8 @@ def check_drawable(path: Path) -> None:
         figure.add_subplot(title="Force, N")
         figure.text(0.0, 0.0, "N")
         try:
+            if (size := matplotlib.rcParams["font.size"]) > LARGEST_FONT:
+                raise ValueError(f"font.size = {size:g}: allowed are {LARGEST_FONT} points at most")
             figure.savefig(BytesIO(), format="png")
         except (OSError, RuntimeError, ValueError) as error:
             text = " ".join(str(error).split())

@@ -48,6 +48,8 @@ def _imported_names(package: str) -> "dict[str, str]":
     return {
         alias.name: node.module
         for node in ast.walk(ast.parse(loader.get_source(package)))
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(f"{package}.")
+        if isinstance(node, ast.ImportFrom)
+        and node.module
+        and node.module.startswith(f"{package}.")
         for alias in node.names
     }

@@ -184,7 +184,7 @@ def write_matrices(
     if triangles is not None:
         arrays["triangles"] = np.asarray(triangles) + 1
     files = {name: f"{path.stem}_{name}{ENDING}" for name in arrays}
-    sets = {}
+    sets: dict[str, dict[str, Any]] = {}
     for name, given_set in interfaces.items():
         numbers, weights = given_set if isinstance(given_set, tuple) else (given_set, None)
         sets[name] = {"nodes": [int(number) + 1 for number in numbers]}
@@ -218,8 +218,12 @@ def _units(path: Path, table: Any) -> dict[str, float]:
 
 def _file(path: Path, name: str, file: Any) -> Path:
     """Return the path of a Matrix Market file, which lies beside the description."""
-    beside = isinstance(file, str) and Path(file).name == file and "\\" not in file
-    if not beside or not file.endswith(ENDING):
+    if not (
+        isinstance(file, str)
+        and Path(file).name == file
+        and "\\" not in file
+        and file.endswith(ENDING)
+    ):
         raise InputError(
             f"matrices {path}: {name} = {file!r:.200}: allowed is the name of a file that ends "
             f"with {ENDING} and lies beside this one, without a folder"

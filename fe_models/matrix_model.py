@@ -201,7 +201,7 @@ def _surface(description: Description, nodes: Array) -> NDArray[np.int64]:
     """Return the triangles of the surface; without a file those of the nodes' convex hull."""
     if "triangles" not in description.files:
         hull = ConvexHull(nodes)
-        corners = hull.simplices.astype(np.int64)
+        corners: NDArray[np.int64] = hull.simplices.astype(np.int64)
         a, b, c = nodes[corners].transpose(1, 0, 2)
         inwards = (np.cross(b - a, c - a) * hull.equations[:, :3]).sum(axis=1) < 0.0
         corners[inwards] = corners[inwards, ::-1]

@@ -58,7 +58,7 @@ def execute(options: argparse.Namespace) -> int:
     changes = _changes(provenance, run.scene, options)
     if options.allow_code:
         import_kinds(run.scene.to_dict())
-    scene = _scene_of(run, provenance, options) if changes else _scene_in(run, options)
+    scene = _scene_of(run, provenance, options) if changes else _scene_in(run)
     start = Result.load(locate(provenance["start"])) if "start" in provenance else None
     repeated = simulate(
         scene,
@@ -85,7 +85,7 @@ def _changes(provenance: Provenance, scene: Scene, options: argparse.Namespace) 
     return changes
 
 
-def _scene_in(run: Result, options: argparse.Namespace) -> Scene:
+def _scene_in(run: Result) -> Scene:
     """Return the scene that a result holds, complete."""
     if not run.scene.has_unresolved_kinds:
         return run.scene
@@ -95,7 +95,7 @@ def _scene_in(run: Result, options: argparse.Namespace) -> Scene:
 def _scene_of(run: Result, provenance: Provenance, options: argparse.Namespace) -> Scene:
     """Return a run's scene from its changed files, solved as the run was."""
     if not provenance["command"].startswith("exu-press run "):
-        return _scene_in(run, options)  # its files are read again when it is built
+        return _scene_in(run)  # its files are read again when it is built
     earlier = _arguments_of(provenance["command"])
     scene = Scene.load(scene_path(earlier.scene), earlier.set, allow_code=options.allow_code)
     solver = run.scene.solver

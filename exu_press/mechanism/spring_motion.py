@@ -8,7 +8,7 @@ import numpy as np
 
 from exu_press.mechanism.guide_motion import Drawing
 from exu_press.mechanism.motion import Motion
-from exu_press.mechanism.parts import GROUND, PRECISION, Point
+from exu_press.mechanism.parts import GROUND, PRECISION, Joint, Point
 from exu_press.mechanism.springs import SpringBetween
 from exu_press.numerics.arrays import Array
 
@@ -74,11 +74,11 @@ def spring_motion(
     )
 
 
-def joint_at(mechanism: Drawing, body: str, at: Point) -> str | None:
-    """Return the name of a body's joint at a point of the drawing, None where there is none."""
+def joint_at(mechanism: Drawing, body: str, at: Point) -> Joint | None:
+    """Return a body's joint at a point of the drawing, None where there is none."""
     close = PRECISION * mechanism.size
     joints = mechanism.joints_of(body)
-    return next((joint.name for joint in joints if math.dist(joint.at, at) <= close), None)
+    return next((joint for joint in joints if math.dist(joint.at, at) <= close), None)
 
 
 def impossible_spring(mechanism: Drawing) -> tuple[SpringBetween, float, str] | None:

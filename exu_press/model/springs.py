@@ -48,6 +48,6 @@ def _marker(system: System, body: str, point: Point, at: Point) -> int:
     """Add a marker on an end; on a flexible body it follows the faces of the joint there."""
     if body not in system.flexible:
         return system.marker(body, point)
-    name = joint_at(system.mechanism, body, at)
-    joint = next(joint for joint in system.mechanism.joints if joint.name == name)
+    joint = joint_at(system.mechanism, body, at)
+    assert joint is not None  # the scene has checked it
     return system.joint_marker(joint, body, point)

@@ -3,8 +3,10 @@
 import argparse
 import sys
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
+from importlib import import_module
 from pathlib import Path
 
 from exu_press.cli.options import (
@@ -185,7 +187,12 @@ def _make_room(unfinished: Path, options: argparse.Namespace) -> None:
 
 
 def _run_refined(
-    scene: Scene, start: State | None, unfinished: Path, *, quiet: bool
+    scene: Scene,
+    start: State | None,
+    unfinished: Path,
+    *,
+    quiet: bool,
+    meanwhile: Callable[[], None],
 ) -> tuple[Result, bool, str]:
     """Run a scene, and at finer tolerances where that is needed.
 
@@ -201,7 +208,12 @@ def _run_refined(
     interrupted = False
     try:
         for outcome in refinements(
-            scene, start=start, unfinished=unfinished, quiet=quiet, announce=announce
+            scene,
+            start=start,
+            unfinished=unfinished,
+            quiet=quiet,
+            announce=announce,
+            meanwhile=meanwhile,
         ):
             finished.append(outcome)
     except KeyboardInterrupt:
@@ -210,6 +222,12 @@ def _run_refined(
         interrupted = True
     result, remark = finished[-1]
     return result, interrupted, remark
+
+
+def _load_pictures(options: argparse.Namespace) -> None:
+    """Load what draws pictures, if there are to be any: it takes a fifth of a short run's time."""
+    if not options.no_pictures:
+        import_module("exu_press.plots.save")
 
 
 def _run(scene: Scene, start: State | None, directory: Path, options: argparse.Namespace) -> int:
@@ -230,7 +248,13 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
             scene, errors=errors, start=start, unfinished=unfinished, quiet=options.quiet
         )
     else:
-        result, interrupted, remark = _run_refined(scene, start, unfinished, quiet=options.quiet)
+        result, interrupted, remark = _run_refined(
+            scene,
+            start,
+            unfinished,
+            quiet=options.quiet,
+            meanwhile=partial(_load_pictures, options),
+        )
         remarks = [remark] if remark else []
     if options.start is not None:
         result = _with_start(result, _start_path(options.start))

@@ -5,15 +5,30 @@ import hashlib
 import html
 import json
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from exu_press.plots.typesetting import typeset
+import numpy as np
 
-__all__ = ["Live", "data_element", "document_of", "escape", "has_library", "scripts", "styles"]
+from exu_press.installation.versions import version_of
+from exu_press.plots.typesetting import typeset
+from fe_models.array_file import cache_folder, load_arrays, save_arrays
+
+__all__ = [
+    "Live",
+    "cached_figures",
+    "data_element",
+    "document_of",
+    "escape",
+    "has_library",
+    "scripts",
+    "styles",
+]
 
 HERE = Path(__file__).parent / "static"
 
@@ -68,11 +83,31 @@ def document_of(figures: Sequence[Any]) -> dict[str, Any]:
     }
 
 
+def cached_figures(function: str, *arguments: Any) -> dict[str, Any]:
+    """Return the document of a function of `exu_press.page.figures`, from a cache on disk.
+
+    Its empty figures are the same in every page; to load Bokeh and make them takes two seconds.
+    """
+    source = Path(__file__).with_name("figures.py").read_text(encoding="utf-8")
+    made_of = json.dumps([function, arguments, version_of("bokeh"), source])
+    digest = hashlib.sha256(made_of.encode()).hexdigest()
+    file = cache_folder("pages") / f"{function}-{digest[:32]}.npz"
+    stored = load_arrays(file)
+    if stored is not None:
+        document: dict[str, Any] = json.loads(bytes(stored["text"]))
+        return document
+    document = getattr(import_module("exu_press.page.figures"), function)(*arguments)
+    text = np.frombuffer(json.dumps(document).encode(), dtype=np.uint8)
+    with suppress(OSError):  # the next page makes them again
+        save_arrays({"text": text}, file)
+    return document
+
+
 @cache
 def _library() -> str:
-    import bokeh
-
-    path = Path(bokeh.__file__).parent / "server" / "static" / "js" / "bokeh.min.js"
+    package = find_spec("bokeh")
+    assert package is not None and package.origin is not None
+    path = Path(package.origin).parent / "server" / "static" / "js" / "bokeh.min.js"
     return _inline(path.read_text(encoding="utf-8"))
 
 

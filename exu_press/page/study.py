@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.page.blocks import Blocks
-from exu_press.page.document import Live, data_element, has_library, scripts, styles
+from exu_press.page.document import Live, cached_figures, data_element, has_library, scripts, styles
 from exu_press.plots.typesetting import typeset
 from exu_press.studies.base.report import Column, Points
 
@@ -20,8 +20,6 @@ def study_viewer(points: Points) -> Live | None:
     """Return the live part of a study's page; nothing without the extra `page`."""
     if not has_library():
         return None
-    from exu_press.page.figures import points_and_lines
-
     blocks = Blocks()
     keys, quantities = points.keys, points.quantities
     columns = [*keys, *quantities]
@@ -34,7 +32,7 @@ def study_viewer(points: Points) -> Live | None:
         "up": points.up or (quantities or keys)[0].name,
         "colour": points.colour or next((key.name for key in keys if key.name != across), ""),
         "told": list(points.labels),
-        **points_and_lines(),
+        **cached_figures("points_and_lines"),
     }
     body = "\n".join([LAYOUT, blocks.html(), data_element("page-data", data)])
     return Live(body, scripts("data", "theme", "study"), styles())

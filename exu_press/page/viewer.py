@@ -8,7 +8,7 @@ import numpy as np
 from exu_press.numerics.arrays import Array
 from exu_press.page.blocks import Blocks
 from exu_press.page.curves import Curve, curves_of, shown_unit
-from exu_press.page.document import Live, data_element, has_library, scripts, styles
+from exu_press.page.document import Live, cached_figures, data_element, has_library, scripts, styles
 from exu_press.page.marks import dead_centres, impacts, peaks, values_on
 from exu_press.page.scenery import scenery
 from exu_press.page.surfaces import surfaces
@@ -39,8 +39,6 @@ def viewer(
     """
     if not has_library():
         return None
-    from exu_press.page.figures import curve_panels
-
     blocks = Blocks()
     windowed = {n: run if spans is None else window(run, *spans[n]) for n, run in results.items()}
     curves = {label: curves_of(result) for label, result in results.items()}
@@ -63,7 +61,7 @@ def viewer(
         "runs": runs,
         "groups": _groups(windowed, curves),
         "first": _first(results, curves),
-        **curve_panels(tuple(run["colour"] for run in runs)),
+        **cached_figures("curve_panels", tuple(run["colour"] for run in runs)),
     }
     body = "\n".join([LAYOUT, blocks.html(), data_element("page-data", data)])
     return Live(body, scripts(*SCRIPTS), styles())

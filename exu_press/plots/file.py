@@ -1,7 +1,9 @@
 """A picture as a file."""
 
 import json
-from collections.abc import Mapping
+import os
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
 from datetime import datetime
 from pathlib import Path
 from types import MappingProxyType
@@ -19,8 +21,16 @@ from exu_press.files.output_directory import FORMATS, replacing
 from exu_press.plots.format import picture_format
 from exu_press.plots.style import DPI, look
 from exu_press.scene.provenance import Provenance, provenance_of
+from fe_models.processes import Child, may_copy
 
-__all__ = ["check_picture", "png_texts", "read_sources", "save_figure", "save_figures"]
+__all__ = [
+    "check_picture",
+    "draw_figures",
+    "png_texts",
+    "read_sources",
+    "save_figure",
+    "save_figures",
+]
 
 
 def check_picture(path: Path) -> None:
@@ -55,7 +65,7 @@ def save_figure(
         canvas.draw()
         image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
         texts, dots = png_texts(sources), (figure.dpi, figure.dpi)
-        image.save(partial, format="png", dpi=dots, compress_level=4, pnginfo=texts)
+        image.save(partial, format="png", dpi=dots, compress_level=1, pnginfo=texts)
     return path
 
 
@@ -106,3 +116,32 @@ def save_figures(
         save_figure(figure, Path(directory) / f"{name}{picture_format().ending}", sources)
         for name, figure in figures.items()
     ]
+
+
+def draw_figures(
+    draws: Mapping[str, Callable[[], Figure]],
+    directory: str | Path,
+    sources: Mapping[str, Provenance] = MappingProxyType({}),
+) -> list[Path]:
+    """Draw and write each figure under its name, beside each other on the cores; return the files.
+
+    Args:
+        draws: functions that return the figures, by name.
+        directory: of the files.
+        sources: as of `save_figure`.
+
+    Raises:
+        InputError: a file cannot be written.
+    """
+
+    def write(name: str) -> Path:
+        return save_figures({name: draws[name]()}, directory, sources)[0]
+
+    beside = list(draws)[1:] if (os.cpu_count() or 1) > 1 and may_copy() else []
+    with ExitStack() as stack:
+        children = {name: stack.enter_context(Child(write)) for name in beside}
+        for name, child in children.items():
+            child.request(name)
+        written = {name: write(name) for name in draws if name not in children}
+        written |= {name: child.answer() for name, child in children.items()}
+    return [written[name] for name in draws]

@@ -1,11 +1,12 @@
 """The pictures of a run or a comparison, as files."""
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from exu_press.plots.file import read_sources, save_figures
+from exu_press.plots.file import draw_figures, read_sources, save_figures
 from exu_press.plots.force import force_figure
 from exu_press.plots.format import picture_format
 from exu_press.plots.orbit import orbit_figure
@@ -31,18 +32,18 @@ def save_pictures(result: Result, directory: str | Path) -> list[Path]:
         InputError: a file cannot be written.
     """
     run = {RUN: result}
-    figures = {"slider": slider_figure(run)}
+    draws = {"slider": partial(slider_figure, run)}
     if result.clearance_joints:
-        figures["orbit"] = orbit_figure(result)
-    figures["force"] = force_figure(run)
+        draws["orbit"] = partial(orbit_figure, result)
+    draws["force"] = partial(force_figure, run)
     if picture_format().everything:
         from exu_press.plots.energy import energy_figure
         from exu_press.plots.press import press_figure
 
-        figures["press"] = press_figure(result)
+        draws["press"] = partial(press_figure, result)
         if has_balance(result):
-            figures["energy"] = energy_figure(result)
-    return save_figures(figures, directory, sources_of(run))
+            draws["energy"] = partial(energy_figure, result)
+    return draw_figures(draws, directory, sources_of(run))
 
 
 def drawn_pictures(result: Result, directory: Path) -> list[Path]:

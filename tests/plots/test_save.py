@@ -1,3 +1,5 @@
+from functools import partial
+
 import pytest
 from matplotlib.figure import Figure
 from PIL import Image
@@ -5,7 +7,7 @@ from PIL import Image
 from exu_press.errors import InputError
 from exu_press.files.output_directory import PICTURES
 from exu_press.plots import save_comparison, save_pictures
-from exu_press.plots.file import save_figure, save_figures
+from exu_press.plots.file import draw_figures, read_sources, save_figure
 from exu_press.plots.format import PictureFormat, drawn_as
 from exu_press.studies.curve_comparison import MEASURED_PICTURE
 
@@ -25,10 +27,10 @@ def assert_pictures(paths):
 def test_pictures_of_a_run(results, tmp_path, monkeypatch):
     """Of which one is written: each costs half a second."""
 
-    def save_one(figures, folder, _):
-        return [*figures, *save_figures({"force": figures["force"]}, folder)]
+    def save_one(draws, folder, _):
+        return [*draws, *draw_figures({"force": draws["force"]}, folder)]
 
-    monkeypatch.setattr("exu_press.plots.save.save_figures", save_one)
+    monkeypatch.setattr("exu_press.plots.save.draw_figures", save_one)
     with drawn_as(PictureFormat(everything=True)):
         *names, path = save_pictures(results["stopped at once"], tmp_path)
     assert [f"{name}.png" for name in names] == EVERY
@@ -38,7 +40,7 @@ def test_pictures_of_a_run(results, tmp_path, monkeypatch):
 
 
 def test_ideal_joints_have_no_orbits(results, tmp_path, monkeypatch):
-    monkeypatch.setattr("exu_press.plots.save.save_figures", lambda figures, *_: list(figures))
+    monkeypatch.setattr("exu_press.plots.save.draw_figures", lambda draws, *_: list(draws))
     wanted = [name.removesuffix(".png") for name in DEFAULT if name != "orbit.png"]
     assert save_pictures(results["ideal"], tmp_path) == wanted
 
@@ -54,3 +56,23 @@ def test_pictures_of_a_comparison(results, tmp_path):
 def test_a_directory_that_is_not_there(tmp_path):
     with pytest.raises(InputError, match="cannot be written"):
         save_figure(Figure(), tmp_path / "missing" / "force.png")
+
+
+def draw_blank(number):
+    if number < 0:
+        raise InputError("no figure of a number below zero")
+    return Figure(figsize=(number, 1.0))
+
+
+def test_figures_are_drawn_beside_each_other(tmp_path):
+    """Sizes, order and provenance are those of one after the other; an error is the picture's."""
+    sources = {"simulated": {"version": "1.0"}}
+    draws = {f"width{number}": partial(draw_blank, number) for number in (3, 1, 2)}
+    paths = draw_figures(draws, tmp_path, sources)
+    assert [path.name for path in paths] == ["width3.png", "width1.png", "width2.png"]
+    for path, number in zip(paths, (3, 1, 2), strict=True):
+        with Image.open(path) as image:
+            assert image.width == 150 * number
+        assert read_sources(path) == sources
+    with pytest.raises(InputError, match="below zero"):
+        draw_figures({**draws, "wrong": partial(draw_blank, -1)}, tmp_path)

@@ -66,7 +66,7 @@ def test_the_user_s_own_load_leaves_no_balance(tmp_path, monkeypatch):
     result = Result.load(tmp_path / "run.nc")
     assert not any(name.startswith("energy_") for name in result)
     assert any("no energy balance" in warning for warning in summary["warnings"])
-    monkeypatch.setattr("exu_press.plots.save.save_figures", lambda figures, *_: list(figures))
+    monkeypatch.setattr("exu_press.plots.save.draw_figures", lambda draws, *_: list(draws))
     assert save_pictures(result, tmp_path) == ["slider", "force"]
 
 

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from scipy.linalg import solveh_banded  # type: ignore[import-untyped,unused-ign
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 
-__all__ = ["Groove", "GroovedBearing", "GroovedFilmState", "solve_grooved"]
+__all__ = ["FilmFlow", "Groove", "GroovedBearing", "GroovedFilmState", "solve_grooved"]
 
 TURN = 2.0 * math.pi
 
@@ -26,7 +27,28 @@ Mask = NDArray[np.bool_]
 ROUNDING = 1e-9
 """Part of a cell's source by which its flow may be short before the cell counts as wet."""
 
+FAINT = 1e-3
+"""Part of the supply pressure whose flow through a cell counts like its source for `ROUNDING`."""
+
 ITERATIONS = 100
+
+
+class FilmFlow(NamedTuple):
+    """What Reynolds' equation says of a film.
+
+    Attributes:
+        f_r, f_t: force, 1/s.
+        side_flow: out of both ends, over L R c, 1/s.
+        feed: out of the grooves, each by its pressure over the largest, over L R c, 1/s. Times the
+            largest pressure it is the power of the pump.
+        unbroken: where the film is, (n, m).
+    """
+
+    f_r: float
+    f_t: float
+    side_flow: float
+    feed: float
+    unbroken: Mask
 
 
 @dataclass(frozen=True)
@@ -37,11 +59,13 @@ class Groove:
         angle: of its middle, in the bearing, rad.
         width: around the bearing, rad; 2 pi of one that goes all around.
         length: along the axis, over the bearing's, 0 to 1.
+        pressure: of its oil above ambient, over the largest of the bearing's grooves, 0 to 1.
     """
 
     angle: float
     width: float
     length: float
+    pressure: float = 0.0
 
     @property
     def is_circumferential(self) -> bool:
@@ -84,6 +108,11 @@ class GroovedBearing:
                 )
 
     @property
+    def is_pressurized(self) -> bool:
+        """Whether a groove has oil under pressure."""
+        return any(groove.pressure for groove in self.grooves)
+
+    @property
     def period(self) -> float:
         """Angle after which the grooves repeat themselves, rad; 0 where all go around."""
         if all(groove.is_circumferential for groove in self.grooves):
@@ -93,10 +122,15 @@ class GroovedBearing:
             TURN / count for count in range(1, MOST_ALIKE + 1) if self._places(TURN / count) == own
         )
 
-    def _places(self, turned: float) -> set[tuple[int, float, float]]:
+    def _places(self, turned: float) -> set[tuple[int, float, float, float]]:
         """Return the grooves of the turned bearing, their angles to a millionth of a turn."""
         return {
-            (round((groove.angle + turned) / TURN * 1e6) % 1_000_000, groove.width, groove.length)
+            (
+                round((groove.angle + turned) / TURN * 1e6) % 1_000_000,
+                groove.width,
+                groove.length,
+                groove.pressure,
+            )
             for groove in self.grooves
         }
 
@@ -167,7 +201,11 @@ class GroovedFilmState:
         self._along = np.outer(gap**3 * self._w_theta, 1.0 / (ratio**2 * d_zeta))
         self._diagonal = self._around + np.roll(self._around, 1, axis=0) + self._along
         self._diagonal[:, 1:] += self._along[:, :-1]
-        self._groove = _groove_mask(bearing, theta, zeta[:-1])
+        self._share = _groove_pressures(bearing, theta, zeta[:-1])
+        self._groove = ~np.isnan(self._share)
+        self._share[~self._groove] = 0.0
+        self._into = -self._net(self._share)  # of the lands' cells, from the grooves
+        self._is_pressurized = bearing.is_pressurized
         self._number_unknowns()
 
     def _number_unknowns(self) -> None:
@@ -193,48 +231,73 @@ class GroovedFilmState:
         self._band_index = apart * (n * m) + np.minimum(self._number, following)
 
     def solve(
-        self, eps_dot: float, half_w: float, wet: Mask | None = None
-    ) -> tuple[float, float, float, Mask]:
-        """Return f_r, f_t and side flow of a velocity, and where the film is unbroken.
+        self, eps_dot: float, half_w: float, wet: Mask | None = None, supply: float = 0.0
+    ) -> FilmFlow:
+        """Return force and flows of a velocity, and where the film is unbroken.
 
         Args:
             eps_dot: d eps/dt, 1/s.
             half_w: eps W / 2, 1/s.
             wet: (n, m), a guess of where the film is unbroken.
+            supply: largest pressure of the grooves, over 12 mu R^2 / c^2, 1/s.
         """
         source = self._source(eps_dot, half_w)
-        unbroken = (source > 0.0 if wet is None else wet) & ~self._groove
+        driven = source + supply * self._into
+        unbroken = (driven > 0.0 if wet is None else wet) & ~self._groove
+        rounding = ROUNDING * (np.abs(source) + supply * FAINT * self._diagonal)
         for _ in range(ITERATIONS):
-            p = self._pressure(source, unbroken)
-            short = self._diagonal * p - source
-            short -= self._around * np.roll(p, -1, axis=0)
-            short -= np.roll(self._around * p, 1, axis=0)
-            short[:, 1:] -= self._along[:, :-1] * p[:, :-1]
-            short[:, :-1] -= self._along[:, :-1] * p[:, 1:]
-            now = np.where(unbroken, p > 0.0, short < -ROUNDING * np.abs(source)) & ~self._groove
+            p = self._pressure(driven, unbroken) + supply * self._share
+            short = self._net(p) - source
+            now = np.where(unbroken, p > 0.0, short < -rounding) & ~self._groove
             if np.array_equal(now, unbroken):
-                load = (p @ self._w_zeta) * self._w_theta
-                f_r = float(-12.0 * load @ np.cos(self._local))
-                f_t = float(-12.0 * load @ np.sin(self._local))
-                return f_r, f_t, float(self._along[:, -1] @ p[:, -1]), unbroken
+                return FilmFlow(*self._loads(p), float((self._share * short).sum()), unbroken)
             unbroken = now
         raise RuntimeError(f"the cavitated set did not settle in {ITERATIONS} iterations")
 
-    def largest_pressure(self, eps_dot: float, half_w: float) -> tuple[Array, Array]:
+    def supply_force(self, wet: Mask) -> tuple[float, float, float]:
+        """Return the derivatives of f_r, f_t and side flow by the supply where a film is unbroken.
+
+        In a film that is unbroken everywhere they are force and flow of a supply of 1.
+        """
+        return self._loads(self._pressure(self._into, wet & ~self._groove) + self._share)
+
+    def _loads(self, p: Array) -> tuple[float, float, float]:
+        load = (p @ self._w_zeta) * self._w_theta
+        f_r = float(-12.0 * load @ np.cos(self._local))
+        f_t = float(-12.0 * load @ np.sin(self._local))
+        return f_r, f_t, float(self._along[:, -1] @ p[:, -1])
+
+    def _net(self, p: Array) -> Array:
+        """Return what flows out of each cell by a pressure, (n, m)."""
+        net = self._diagonal * p
+        net -= self._around * np.roll(p, -1, axis=0)
+        net -= np.roll(self._around * p, 1, axis=0)
+        net[:, 1:] -= self._along[:, :-1] * p[:, :-1]
+        net[:, :-1] -= self._along[:, :-1] * p[:, 1:]
+        return net
+
+    def largest_pressure(
+        self, eps_dot: float, half_w: float, supply: float = 0.0
+    ) -> tuple[Array, Array]:
         """Return angles from the narrowest gap, (n,), and the largest pressure over the length.
 
         Arguments as of `solve`; the pressure is over 12 mu R^2 / c^2, 1/s.
         """
-        wet = self.solve(eps_dot, half_w)[3]
-        return self._local, self._pressure(self._source(eps_dot, half_w), wet).max(axis=1)
+        wet = self.solve(eps_dot, half_w, None, supply).unbroken
+        driven = self._source(eps_dot, half_w) + supply * self._into
+        pressure = self._pressure(driven, wet) + supply * self._share
+        return self._local, pressure.max(axis=1)
 
     def _source(self, eps_dot: float, half_w: float) -> Array:
         shape = (eps_dot * np.cos(self._local) - half_w * np.sin(self._local)) * self._w_theta
         return np.outer(shape, self._w_zeta)
 
     def _pressure(self, source: Array, wet: Mask) -> Array:
-        """Return the pressure (n, m) with that of broken places 0."""
+        """Return the pressure (n, m) with that of broken places and grooves 0."""
         n, m = source.shape
+        dry = np.flatnonzero(~wet.any(axis=1))
+        if self._is_pressurized and len(dry):
+            return self._cut_pressure(source, wet, int(dry[0]))
         band = np.zeros((self._width + 1) * n * m)
         links = self._linked & wet & np.roll(wet, -1, axis=0)
         band[self._band_index[links]] = -self._around[links]
@@ -250,6 +313,22 @@ class GroovedFilmState:
         p: Array = solved[self._number]
         return p
 
+    def _cut_pressure(self, source: Array, wet: Mask, first: int) -> Array:
+        """Return the pressure of a film that is broken over all of the length at a line."""
+        n, m = source.shape
+        around, along, diagonal, right = (
+            np.roll(values, -first, axis=0)
+            for values in (self._around, self._along, self._diagonal, source)
+        )
+        wet = np.roll(wet, -first, axis=0)
+        band = np.zeros((m + 1, n, m))
+        band[0] = np.where(wet, diagonal, 1.0)
+        band[1, :, :-1] = np.where(wet[:, 1:] & wet[:, :-1], -along[:, :-1], 0.0)
+        band[m, :-1] += np.where(wet[1:] & wet[:-1], -around[:-1], 0.0)
+        right = np.where(wet, right, 0.0).ravel()
+        solved = solveh_banded(band.reshape(m + 1, -1), right, lower=True, check_finite=False)
+        return np.roll(solved.reshape(n, m), first, axis=0)
+
 
 def solve_grooved(
     bearing: GroovedBearing,
@@ -258,6 +337,7 @@ def solve_grooved(
     eps_dot: float,
     eps_w: float,
     cells: tuple[int, int] = (144, 10),
+    supply: float = 0.0,
 ) -> tuple[float, float, float]:
     r"""Return force and side flow of a bearing with grooves, by Reynolds' equation.
 
@@ -267,7 +347,7 @@ def solve_grooved(
         = -(\dot\varepsilon \cos\theta - \tfrac12 \varepsilon W \sin\theta), \qquad
         h = 1 - \varepsilon \cos\theta
 
-    with p = 0 at both ends and in the grooves, and Swift and Stieber's cavitation, as
+    with p = 0 at both ends, the grooves' pressures in them, and Swift and Stieber's cavitation, as
     `reynolds.solve_reynolds` has it: a complementarity problem with an M-matrix, solved exactly by
     policy iteration.
 
@@ -277,6 +357,7 @@ def solve_grooved(
     eps, eps_dot, eps_w : as for a film law
     angle : of the eccentricity in the bearing [rad]
     cells : cells around, and over half the length
+    supply : largest pressure of the grooves, over 12 mu R^2 / c^2 [1/s]
 
     Returns
     -------
@@ -287,7 +368,7 @@ def solve_grooved(
     .. [1] Someya, T. (ed.) Journal-Bearing Databook. Springer, 1989.
     """
     state = GroovedFilmState(bearing, eps, angle, cells)
-    return state.solve(eps_dot, 0.5 * eps_w)[:3]
+    return state.solve(eps_dot, 0.5 * eps_w, None, supply)[:3]
 
 
 def _angles(bearing: GroovedBearing, eps: float, angle: float, cells: int) -> Array:
@@ -331,10 +412,11 @@ def _heights(bearing: GroovedBearing, cells: int) -> Array:
     return np.concatenate(pieces)
 
 
-def _groove_mask(bearing: GroovedBearing, theta: Array, zeta: Array) -> Mask:
-    """Return where grooves are, (n, m)."""
-    mask = np.zeros((len(theta), len(zeta)), dtype=bool)
+def _groove_pressures(bearing: GroovedBearing, theta: Array, zeta: Array) -> Array:
+    """Return the pressures in the grooves over the largest, (n, m), and NaN beside them."""
+    pressures = np.full((len(theta), len(zeta)), np.nan)
     for groove in bearing.grooves:
         away = np.abs(np.mod(theta - groove.angle + math.pi, TURN) - math.pi)
-        mask |= np.outer(away <= 0.5 * groove.width + 1e-9, zeta <= groove.length + 1e-9)
-    return mask
+        around, along = away <= 0.5 * groove.width + 1e-9, zeta <= groove.length + 1e-9
+        pressures[np.ix_(around, along)] = groove.pressure
+    return pressures

@@ -46,8 +46,11 @@ def test_scenes_and_a_result(mine, tmp_path, capsys):
     assert Result.load(out / "mine" / "run.nc").scene == Scene.load(mine)
 
 
-def test_variants_of_the_joints_that_a_scene_has(mine, tmp_path):
-    assert main(["compare", str(mine), *QUICK, "--quiet", "--out", str(tmp_path)]) == 0
+def test_variants_of_the_joints_that_a_scene_has(mine, tmp_path, capsys):
+    assert main(["compare", str(mine), *QUICK, "--out", str(tmp_path)]) == 0
+    shown = capsys.readouterr()
+    assert "flexible: left out" in shown.err
+    assert ["ideal", "dry", "lubricated"] in [line.split() for line in shown.out.splitlines()]
     comparison = json.loads((tmp_path / "comparison.json").read_text())
     kinds = {
         label: {name: joint["kind"] for name, joint in run["scene"]["joints"].items()}
@@ -109,6 +112,7 @@ def test_a_kill_loses_only_the_run_that_is_under_way(mine, tmp_path, monkeypatch
     simulated = compare.simulate_side_by_side
     monkeypatch.setattr(compare, "simulate_side_by_side", killed_at_the_third)
     monkeypatch.setattr(compare, "_label", lambda name, labels: str(len(labels)))
+    monkeypatch.setattr("exu_press.report.comparison.save_comparison", lambda *_: [])
     out = tmp_path / "out"
     assert main(["compare", *3 * [str(mine)], *QUICK, "--quiet", "--out", str(out)]) == 130
     finished = list(json.loads((out / "comparison.json").read_text()))
@@ -124,7 +128,7 @@ def test_a_comparison_of_others_reads_nothing_outside_its_folder(tmp_path):
             comparison_report(tmp_path / "in" / "comparison.json")
 
 
-def test_a_measurement_beside_runs(mine, tmp_path, capsys):
+def test_a_measurement_beside_runs(mine, tmp_path, capsys, monkeypatch):
     """What is measured is a run that is 2 % larger, in other units, over a part of it."""
     first, out = tmp_path / "first", tmp_path / "out"
     assert main(["run", str(mine), *QUICK, "--out", str(first)]) == 0
@@ -146,9 +150,11 @@ def test_a_measurement_beside_runs(mine, tmp_path, capsys):
     assert found["first"]["largest_measured"] == pytest.approx(
         1.02 * found["first"]["largest_computed"]
     )
+    monkeypatch.setattr("exu_press.report.comparison.save_comparison", lambda *_: [])
     page = comparison_report(out / "comparison.json")
     assert f"{found['first']['rms_difference']:.3g}" in page and "Measured curves" in page
-    assert main(["compare", str(first), str(measured), "--quiet", "--out", str(out)]) == 0
+    again = ["compare", str(first), str(measured), "--no-pictures", "--quiet", "--out", str(out)]
+    assert main(again) == 0
     assert list(json.loads((out / "measured.json").read_text())["press_a"]) == ["first"]
 
 
@@ -191,6 +197,7 @@ def test_a_measurement_that_fits_no_run_is_refused_before_others(
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.long
 def test_pictures_of_two_mechanisms(mine, tmp_path):
     arguments = ["compare", str(mine), "press", "--set", "revolutions=0.01", "--quiet"]
     assert main([*arguments, "--no-error", "--out", str(tmp_path)]) == 0

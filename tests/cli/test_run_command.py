@@ -105,18 +105,6 @@ def test_directory_that_cannot_be_written(tmp_path, capsys):
     assert (tmp_path / "file").read_text() == "kept"
 
 
-def test_compare_shows_the_variants_side_by_side(tmp_path, capsys):
-    assert main(["compare", "slider_crank", *QUICK, "--out", str(tmp_path)]) == 0
-    shown = capsys.readouterr()
-    header = ["ideal", "dry", "lubricated"]
-    assert header in [line.split() for line in shown.out.splitlines()]
-    assert "flexible: left out" in shown.err
-    comparison = json.loads((tmp_path / "comparison.json").read_text())
-    assert comparison["ideal"]["scene"]["joints"] == {}
-    for label in header:
-        assert (tmp_path / label / "run.nc").exists()
-
-
 @pytest.mark.long
 def test_compare_of_a_flexible_scene_has_rigid_ones_beside(tmp_path):
     arguments = ["--set", "bodies.linkage=linkage", "--set", "revolutions=0.005"]

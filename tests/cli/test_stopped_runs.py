@@ -16,7 +16,7 @@ from exu_press.result.checkpoint import checkpoint_directory
 SCENE = Scene(
     mechanism="slider_crank",
     joints={"crank_pin": "dry"},
-    revolutions=1.25,
+    revolutions=0.25,
     solver={"tolerance": 1e-2},
 )
 
@@ -24,7 +24,7 @@ HELD = """
 import pathlib, sys, time
 from exu_press.cli import main
 from exu_press.result import blocks, run
-run.BLOCK = 0.35
+run.BLOCK = 0.07
 keep, stop = blocks.write_checkpoint, int(sys.argv[1])
 kept = []
 def kept_and_held(*arguments):
@@ -45,7 +45,7 @@ RUN = ["run", "scene.toml", "--no-error", "--no-pictures", "--quiet", "--out", "
 def folder(tmp_path, monkeypatch):
     """The working directory of runs whose blocks are short."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(run, "BLOCK", 0.35)
+    monkeypatch.setattr(run, "BLOCK", 0.07)
     SCENE.save("scene.toml")
     return tmp_path
 
@@ -77,7 +77,7 @@ def killed_once(tmp_path_factory):
 
 @pytest.fixture
 def killed(folder, killed_once):
-    """The directory of a run that was killed when it had two blocks of 0.35 revolutions."""
+    """The directory of a run that was killed when it had two blocks of 0.07 revolutions."""
     return shutil.copytree(killed_once, folder / "o")
 
 
@@ -85,7 +85,7 @@ def blocks_in(directory):
     return {file.name: file.read_bytes() for file in directory.iterdir() if file.name != ".lock"}
 
 
-@pytest.mark.parametrize("revolutions", ["1.25", "0.1"])
+@pytest.mark.parametrize("revolutions", ["0.25", "0.02"])
 def test_finished_blocks_are_neither_deleted_nor_hidden(killed, revolutions, capsys):
     left = blocks_in(killed / "run.nc.unfinished")
     assert main([*RUN, "--set", f"revolutions={revolutions}"]) == 2
@@ -99,22 +99,22 @@ def test_finished_blocks_are_neither_deleted_nor_hidden(killed, revolutions, cap
 def test_a_run_goes_on_in_its_own_directory(killed, start):
     """With a result of an earlier run beside it the directory means what is newer."""
     if start == "o":
-        assert main([*RUN[:-1], "p", "--set", "revolutions=0.1"]) == 0
+        assert main([*RUN[:-1], "p", "--set", "revolutions=0.02"]) == 0
         shutil.copy("p/run.nc", killed / "run.nc")
     left = blocks_in(killed / "run.nc.unfinished")
-    with pytest.warns(UserWarning, match=r"has 0\.7 revolutions"):
-        assert main([*RUN, "--from", start, "--set", "revolutions=0.55"]) == 0
+    with pytest.warns(UserWarning, match=r"has 0\.14 revolutions"):
+        assert main([*RUN, "--from", start, "--set", "revolutions=0.11"]) == 0
     assert blocks_in(killed / "run.nc.unfinished.1") == left
     gone_on = Result.load(killed / "run.nc")
-    assert gone_on.time[0] == pytest.approx(0.7 / 1.25 * SCENE.duration)
+    assert gone_on.time[0] == pytest.approx(0.14 / 0.25 * SCENE.duration)
     assert gone_on.time[-1] == pytest.approx(SCENE.duration)
     assert not checkpoint_directory(killed / "run.nc").exists()
-    with pytest.warns(UserWarning, match=r"has 0\.7 revolutions"):
+    with pytest.warns(UserWarning, match=r"has 0\.14 revolutions"):
         assert Result.load(killed / "run.nc.unfinished.1").completed
 
 
 def test_a_run_from_elsewhere_does_not_take_the_place_of_blocks(killed, folder, capsys):
-    assert main([*RUN[:-1], "p", "--set", "revolutions=0.1"]) == 0
+    assert main([*RUN[:-1], "p", "--set", "revolutions=0.02"]) == 0
     assert main([*RUN, "--from", "p"]) == 2
     assert "finished blocks" in capsys.readouterr().err
 

@@ -75,7 +75,7 @@ revolutions = 0.01
 speed_rpm = [200.0, 300.0]
 """,
     "precision": 'mechanism = "slider_crank"\njoints = {}\nrevolutions = 0.01\n',
-    "stability": 'mechanism = "slider_crank"\njoints.crank_pin = "dry"\nrevolutions = 0.03\n',
+    "stability": 'mechanism = "slider_crank"\njoints.crank_pin = "dry"\nrevolutions = 0.01\n',
     "attractor": 'mechanism = "slider_crank"\n',
 }
 MORE = {
@@ -317,31 +317,10 @@ def test_quiet_prints_nothing_and_the_second_time_runs_nothing(given, tmp_path, 
     assert not (out / "sweep.png").exists()
 
 
-def test_a_study_whose_runs_all_fail_is_a_table(given, capsys, processes):
-    text = STUDIES["sweep"].replace("revolutions = 0.01", "revolutions = 1.0")
-    assert main(given("sweep", f"time_limit = 0.02\n{text}", "--workers", "2")) == 3
-    shown = capsys.readouterr()
-    assert "2 runs: 2 time limit" in shown.out
-    assert "2 x time limit: stopped after 0.02 s" in shown.out
-    assert "no run reached its end" in shown.err
-
-
 def test_a_study_whose_runs_all_stop_early_fails(given, capsys):
     text = STUDIES["sweep"].replace("joints = {}", "joints = {}\nsolver.max_steps = 2")
     assert main(given("sweep", text, "--no-pictures")) == 3
     assert "no run reached its end" in capsys.readouterr().err
-
-
-@pytest.mark.long
-def test_a_printed_column_can_be_asked_for(given, capsys):
-    text = STUDIES["sweep"].replace("joints = {}\n", "")
-    assert main(given("sweep", text, "--no-pictures")) == 0
-    head, *_ = capsys.readouterr().out.splitlines()
-    printed = [column.partition(",")[0].strip() for column in head.split("  ") if column]
-    assert len(printed) > 2
-    for column in printed[1:-1]:
-        assert main(given("sweep", text, "--no-pictures", "--show", column)) == 0
-        assert column in capsys.readouterr().out.splitlines()[0]
 
 
 @pytest.mark.long

@@ -15,8 +15,8 @@ ONE_BY_ONE = pages.blocks_of(pages.ROOT / "README.md")
 README_BLOCKS = [b for b in ONE_BY_ONE if b.language in ("sh", "python", "toml")]
 
 SLOW = (
-    *("built_press", "cluster", "extending", "matrices", "own_mechanism", "own_part", "pandas"),
-    *("press_builders", "scene", "see", "tutorial", "wear"),
+    *("built_press", "cluster", "extending", "figures", "film", "flexible", "matrices", "oil"),
+    *("own_mechanism", "own_part", "pandas", "press_builders", "scene", "see", "tutorial", "wear"),
 )
 """Pages whose short blocks take more than three seconds together."""
 

@@ -1,15 +1,11 @@
 """What is written below --out: whole or not at all, never through a link, one command at a time."""
 
-import errno
 import os
-import subprocess
-import sys
 
 import pytest
 
 from exu_press import InputError
 from exu_press.cli import main
-from exu_press.errors import DiskFullError
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import output_directory, replacing, subdirectory
 
@@ -111,31 +107,3 @@ def test_a_directory_is_known_by_any_of_its_names(out, monkeypatch):
     monkeypatch.chdir(out.parent)
     with lock_directory(output_directory("out")) as first, lock_directory(out) as second:
         assert first.resolve() == second.resolve()
-
-
-LIMITED = """
-import resource, sys
-resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
-from exu_press.cli import main
-sys.exit(main(sys.argv[1:]))
-"""
-
-
-def test_a_disk_that_is_full_is_named_and_ends_with_3(out):
-    """A limit on the size of files stands for it, as a test may not make file systems."""
-    done = subprocess.run(
-        [sys.executable, "-c", LIMITED, *RUN, "--out", str(out)],
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
-    assert done.returncode == 3
-    assert done.stderr == f"exu-press: {out / 'run.nc'}: cannot be written (File too large)\n"
-    assert [file.name for file in out.iterdir() if file.name != ".lock"] == []
-
-
-@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT])
-def test_a_full_disk_is_an_error_of_its_own(tmp_path, number):
-    with pytest.raises(DiskFullError, match=r"new: cannot be written"), replacing(tmp_path / "new"):
-        raise OSError(number, os.strerror(number))
-    assert not [*tmp_path.iterdir()]

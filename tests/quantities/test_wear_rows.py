@@ -7,7 +7,6 @@ from heavy_wheel import HEAVY_WHEEL
 from exu_press import Scene, simulate
 from exu_press.quantities.wear import guideway_depths, sliding_of, wear_depths
 from exu_press.scene import mechanism_of
-from exu_press.scene.warnings import scene_warnings
 
 WEAR = {"coefficient": 1e-4, "hardness": 2e9, "length": 0.1}
 
@@ -62,14 +61,6 @@ def test_wear_changes_nothing_in_the_run_and_is_in_proportion(result):
         ratio = 1.0 if name == "pressure_velocity" else 2.0
         assert result.quantity(full).value > 0.0
         assert other.quantity(full).value == pytest.approx(ratio * result.quantity(full).value)
-
-
-def test_a_coefficient_of_a_thousand_times_steel_is_warned_of(result):
-    assert not [words for words in scene_warnings(result.scene) if "wear" in words]
-    doubtful = scene_warnings(result.scene.replace({"wear.coefficient": 0.5}))
-    assert any("wear.coefficient" in words for words in doubtful)
-    there = scene_warnings(result.scene.replace({"wear.joints.crank_pin.coefficient": 0.5}))
-    assert any("wear.joints.crank_pin.coefficient" in words for words in there)
 
 
 @pytest.fixture(scope="module")

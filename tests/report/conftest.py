@@ -28,18 +28,12 @@ def outputs(tmp_path_factory) -> dict[str, Path]:
     (folder / "study.toml").write_text(STUDY)
     (folder / "study").mkdir()
     assert main(["run", "press", *short, *quiet, "--out", str(folder / "run")]) == 0
+    quiet += ["--no-error"]
     assert main(["compare", "slider_crank", *short, *quiet, "--out", str(folder / "compare")]) == 0
-    stop = [
-        "--set",
-        "joints.crank_pin=lubricated",
-        "--set",
-        "film.viscosity=1e-7",
-        "--set",
-        "solver.step=1e-4",
-    ]
-    assert (
-        main(["run", "slider_crank", *short, *stop, *quiet, "--out", str(folder / "stopped")]) == 3
-    )
+    changes = ("joints.crank_pin=lubricated", "film.viscosity=1e-7", "solver.step=1e-4")
+    stop = [word for change in changes for word in ("--set", change)]
+    stopped = str(folder / "stopped")
+    assert main(["run", "slider_crank", *short, *stop, *quiet, "--out", stopped]) == 3
     sweep = ["sweep", str(folder / "study.toml"), "--workers", "1", "--quiet"]
     assert main([*sweep, "--out", str(folder / "sweep")]) == 0
     return {name: folder / name for name in ("run", "compare", "stopped", "sweep")}

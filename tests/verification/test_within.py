@@ -78,11 +78,6 @@ def calm():
     return dataclasses.replace(run, info={**run.info, "horizon": None, "lyapunov_exponent": None})
 
 
-def test_a_tolerance_that_delivers_is_named(calm):
-    (line,) = accuracy_lines(AchievedAccuracy(calm, 3.3e-5, {}), 0.01)
-    assert line == "every figure asked for within 1 %: tolerance 3.3e-05"
-
-
 def test_what_no_tolerance_delivers_is_told_with_its_distribution(calm):
     missed = {NAME: Distribution(63, (220.0, 5.0), (120.0, 9.0), SPREAD), "energy.dissipated": None}
     assert accuracy_lines(AchievedAccuracy(calm, 1e-6, missed), 0.001) == [

@@ -40,33 +40,16 @@ def henon(x):
     return np.array([1.0 - 1.4 * x[0] ** 2 + x[1], 0.3 * x[0]])
 
 
-MAPS = pytest.mark.parametrize(
+@pytest.mark.parametrize(
     ("step", "start", "known"),
     [(logistic, [0.3], math.log(2.0)), (henon, [0.1, 0.1], 0.4192)],
     ids=["logistic", "Henon: Sprott 2003, 5.2"],
 )
-
-
-@MAPS
 def test_a_map_has_its_exponent(step, start, known):
     growths = [grown(step, np.array(start), d, 4000) for d in (1e-6, 1e-7)]
     found = combine_exponents(growths, (1e-6, 1e-7), 1e-15)
     assert found.low < known < found.high < found.low + 0.1
     assert found.sign == "chaotic"
-
-
-@MAPS
-def test_nolds_finds_it_in_the_sampled_series(step, start, known):
-    """From one coordinate of 2000 points, by Rosenstein's method, whose own error is 5 %."""
-    nolds = pytest.importorskip("nolds")
-    x, series = np.array(start), []
-    for _ in range(2000):
-        x = step(x)
-        series.append(float(x[0]))
-    told = nolds.lyap_r(
-        np.array(series), emb_dim=2, lag=1, min_tsep=5, trajectory_len=6, fit="poly"
-    )
-    assert told == pytest.approx(known, rel=0.1)
 
 
 def test_a_contraction_is_known_down_to_the_error():

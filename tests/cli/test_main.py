@@ -1,16 +1,19 @@
-"""How any command ends: Ctrl-C, a closed pipe, and which version it is."""
+"""How any command ends: Ctrl-C, a closed pipe, its version; and what --help shows of each."""
 
 import importlib.metadata
 import os
+import shlex
 import signal
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 import exu_press
 from exu_press.cli import main
+from exu_press.cli.main import COMMANDS, load_command
 
 COMMAND = str(Path(sys.executable).with_name("exu-press"))
 
@@ -131,3 +134,34 @@ def test_paths_that_no_system_takes(arguments, said, tmp_path, monkeypatch, caps
     told = capsys.readouterr().err
     assert told.startswith("exu-press: ") and told.count("\n") == 1 and said in told
     assert len(told) < 1000 and not list(tmp_path.iterdir())
+
+
+def printed_help(capsys, *words):
+    with pytest.raises(SystemExit) as ended:
+        main([*words, "--help"])
+    assert ended.value.code == 0
+    return " ".join(capsys.readouterr().out.split())
+
+
+def test_help_names_every_command(capsys):
+    text = printed_help(capsys)
+    assert "example: exu-press" in text
+    for name, verb in zip(("run", "sweep", "fit"), ("Run one", "Run many", "Find"), strict=True):
+        assert f"{name} {verb}" in text
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_example(name, capsys, monkeypatch):
+    command = load_command(name)
+    example = shlex.split(command.EXAMPLE)
+    assert example[:2] == ["exu-press", name]
+    assert f"example: {command.EXAMPLE}" in printed_help(capsys, name)
+    asked = []
+    idle = SimpleNamespace(
+        EXAMPLE=command.EXAMPLE,
+        add_arguments=command.add_arguments,
+        execute=lambda options: asked.append(options) or 0,
+    )
+    monkeypatch.setattr(sys.modules[main.__module__], "load_command", lambda _: idle)
+    assert main(example[1:]) == 0
+    assert len(asked) == 1

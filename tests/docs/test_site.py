@@ -1,11 +1,19 @@
-"""The site is built without a warning."""
+"""The site is built without a warning, and examples in docstrings give what they show."""
 
 import ast
+import doctest
+import importlib
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+import exu_press
+import fe_models
+import paper
+import precision
+import stability
 
 ROOT = Path(__file__).parents[2]
 
@@ -44,3 +52,24 @@ def test_builds_without_a_warning(tmp_path):
     section = keys.partition('<section id="keys-of-every-table">')[2]
     assert 'id="keys-at-the-top"' in section
     assert "Without it, run" not in keys
+
+
+MODULES = [
+    ".".join((package.__name__, *file.relative_to(folder).with_suffix("").parts)).removesuffix(
+        ".__init__"
+    )
+    for package in (exu_press, fe_models, paper, precision, stability)
+    for folder in [Path(package.__path__[0])]
+    for file in sorted(folder.rglob("*.py"))
+    if ">>>" in file.read_text(encoding="utf-8")
+]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples(name):
+    try:
+        module = importlib.import_module(name)
+    except ModuleNotFoundError as error:  # an extra that is not installed
+        pytest.skip(str(error))
+    found = doctest.testmod(module)
+    assert found.attempted > 0 and found.failed == 0

@@ -76,3 +76,21 @@ def test_a_field_of_a_table_may_not_be_endless(tmp_path, capsys):
     scene.write_text('[load.a]\nkind = "table"\nfile = "force.csv"\n')
     assert main(["run", str(scene), "--out", str(tmp_path / "out")]) == 2
     assert "allowed are" in capsys.readouterr().err
+
+
+def test_a_message_shows_names_that_no_terminal_can():
+    assert str(InputError("joints.t\x1f\u2028\n is µm")) == r"joints.t\x1f\u2028\n is µm"
+
+
+def test_a_key_with_control_characters_is_named_in_one_line(tmp_path, capsys):
+    scene = tmp_path / "scene.toml"
+    scene.write_text('[joints]\n"pin\\u001b[31m" = {kind = "dry"}\n', encoding="utf-8")
+    assert main(["run", str(scene)]) == 2
+    told = capsys.readouterr().err
+    assert told.strip().isprintable() and r"pin\x1b[31m" in told
+
+
+def test_of_a_long_word_the_ends_are_shown():
+    told = str(InputError(f"mechanism = '{'x' * 5000}y': allowed is one of a, b"))
+    assert told.startswith("mechanism = 'xxx") and told.endswith("xy': allowed is one of a, b")
+    assert len(told) < 500

@@ -1,9 +1,16 @@
+"""Meshes and their pictures."""
+
+from pathlib import Path
+
 import numpy as np
 import pytest
+from matplotlib.image import imread
+from numpy.testing import assert_allclose
 
-from fe_models import Interface
+from fe_models import Interface, draw_mode_shapes
 from fe_models.elasticity import generate_mesh
 from fe_models.errors import InputError
+from fe_models.solid_view import facing, turned_view
 
 
 def points(part):
@@ -62,3 +69,37 @@ def test_a_mesh_that_fails_says_what_to_do(linkage):
     part = linkage.replace(geometry=Hollow(), interfaces=(Interface("end"),))
     with pytest.raises(InputError, match=r"meshing failed at mesh_size.*try a smaller"):
         generate_mesh(part)
+
+
+def test_picture_is_drawn_and_coloured(bar, tmp_path: Path):
+    file = tmp_path / "bar.png"
+    draw_mode_shapes(bar, file, modes=(2, 5))
+    picture = imread(file)[:, :, :3]
+    assert picture.shape[1] > 1000
+    coloured = (picture.max(axis=2) - picture.min(axis=2)) > 0.3
+    assert coloured.mean() > 0.02
+
+
+POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+OUTWARDS = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+def test_faces_behind_and_edge_on_are_left_out():
+    corners, seen, light = facing(POINTS, OUTWARDS)
+    assert seen.tolist() == [[1, 2, 3]]
+    assert_allclose(corners[0], [[1, 0], [0, 1], [0, 0]])
+    assert 0.0 < light[0] <= 1.0
+
+
+def test_near_faces_come_last():
+    both = np.vstack([POINTS + np.array([0, 0, 5]), POINTS])
+    _, seen, _ = facing(both, np.vstack([OUTWARDS, OUTWARDS + 4]))
+    assert seen.tolist() == [[5, 6, 7], [1, 2, 3]]
+
+
+def test_a_view_is_a_rotation_about_y_and_then_about_x():
+    assert_allclose(turned_view(np.pi / 2, 0.0) @ [1, 0, 0], [0, 0, -1], atol=1e-15)
+    assert_allclose(turned_view(0.0, np.pi / 2) @ [0, 1, 0], [0, 0, 1], atol=1e-15)
+    view = turned_view(-0.6, 0.4)
+    assert_allclose(view @ view.T, np.eye(3), atol=1e-15)
+    assert np.linalg.det(view) > 0.0

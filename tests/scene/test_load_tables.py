@@ -1,7 +1,8 @@
-"""[load.NAME]: what a scene allows and fills in, tables as CSV, and what is refused."""
+"""[load.NAME]: what a scene allows and fills in, tables as CSV, where loads act, refusals."""
 
 import math
 
+import numpy as np
 import pytest
 from refused import refused
 
@@ -120,3 +121,25 @@ def test_what_is_hardly_meant(load, message):
     assert any(message in told for told in scene_warnings(scene))
     usual = Scene(mechanism="eccentric_press", load={"a": HEIGHT})
     assert not any("load.a" in told for told in scene_warnings(usual))
+
+
+FORCE = np.array([100.0])
+
+
+@pytest.mark.parametrize(
+    ("offset", "direction", "turned", "moment"),
+    [
+        ((0.0, 0.2), (1.0, 0.0), 0.0, -20.0),  # to the right, above the centre: clockwise
+        ((0.0, 0.2), (1.0, 0.0), math.pi / 2.0, 0.0),  # the point lies to the left then
+        ((0.0, 0.2), (0.0, 1.0), math.pi / 2.0, -20.0),
+        ((0.3, 0.0), (0.0, 1.0), 0.0, 30.0),
+        ((0.3, 0.0), (1.0, 0.0), math.pi / 2.0, -30.0),
+        ((0.3, 0.2), (3.0, 4.0), 0.0, 0.3 * 80.0 - 0.2 * 60.0),
+    ],
+)
+def test_the_moment_of_a_load_beside_the_centre_of_mass(offset, direction, turned, moment):
+    pulse = {"kind": "table", "time": [0.0, 1.0], "force": [1.0, 1.0], "body": "slider"}
+    load = {**pulse, "offset": list(offset), "direction": list(direction)}
+    scene = Scene(mechanism="slider_crank", joints={}, load={"a": load})
+    applied = applied_loads(scene)["a"]
+    assert applied.moment(FORCE, np.array([turned]))[0] == pytest.approx(moment, abs=1e-12)

@@ -1,12 +1,12 @@
-"""Sections of a crank that a motor turns, and of fixed steps; and motions that get to none."""
+"""Sections of cranks that a motor turns, and of fixed steps; what is recorded; and no motion."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from slider_cranks import FILM
+from slider_cranks import FILM, section_points
 
-from exu_press import InputError, simulate
+from exu_press import InputError, Scene, simulate
 from exu_press.integrate import SolverStatus
 from exu_press.studies.attractor import attractor
 from exu_press.studies.attractor.orbit import Orbit
@@ -124,3 +124,24 @@ def test_no_such_channel():
     with pytest.raises(InputError, match="--quantity crank_sped: no quantity") as raised:
         attractor(FILM, revolutions=20, skip=1, most=4, names=["crank_sped"])
     assert "did you mean 'crank_speed'?" in str(raised.value)
+
+
+PRESSED = Scene(
+    mechanism="slider_crank",
+    joints={"crank_pin": {"kind": "dry", "clearance": 5e-6, "radius": 0.07}},
+    contact={"length": 0.1},
+)
+
+
+def test_it_goes_on_bit_for_bit_from_what_is_recorded():
+    coarse = PRESSED.replace({"solver.tolerance": 5e-2})
+    assert np.array_equal(
+        section_points(coarse, 2, recorded=True), section_points(coarse, 2, recorded=False)
+    )
+
+
+@pytest.mark.long
+def test_a_contact_that_lasts_does_not_creep():
+    """By a ten-thousandth of the clearance a revolution, where what steps miss is kept for good."""
+    _, first, last = section_points(PRESSED, 3, recorded=False)
+    assert np.abs(last - first).max() < 1e-5

@@ -1,14 +1,20 @@
-"""Errors of trajectories whose errors are known."""
+"""Errors of trajectories whose errors are known; their rows, floors and orders."""
+
+import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from exu_press.studies.precision.errors import (
+    Errors,
     Trajectory,
     errors_of,
     instants_until,
     whole_run_errors,
 )
+from exu_press.studies.precision.rows import order_of, orders_of, row_of, series_of
+from exu_press.studies.precision.timing import Attempt, TimedRun, time_runs
 
 TIME = np.linspace(0.0, 0.1, 401)
 
@@ -93,3 +99,55 @@ def test_impact_times_need_equally_many_impacts():
 
 def test_a_film_has_no_late_figures():
     assert whole_run_errors(wave(force=TIME), wave(force=TIME)) is None
+
+
+NO_FLOOR = Errors(0.0, 0.0, 0.0)
+
+
+def row(value, error, wall_time=1.0, case="case", solver="fixed step", floor=NO_FLOOR):
+    attempt = Attempt(solver, "step", value, lambda: TimedRun(None, (wall_time,), (wall_time,)))
+    return row_of(case, attempt, attempt.run(), Errors(error, error, error), floor, None)
+
+
+def test_errors_below_the_floor_are_raised_to_it_and_marked():
+    low = row(1e-3, 1e-9, floor=Errors(1e-8, 1e-10, None))
+    assert (low.error_position, low.error_velocity) == (1e-8, 1e-9)
+    assert low.at_most == ("error_position",)
+    assert (
+        low.resolved_error("error_position") is None
+        and low.resolved_error("error_velocity") == 1e-9
+    )
+
+
+def test_order_of_a_second_order_method():
+    assert order_of([row(h, 3.0 * h**2) for h in (1e-2, 1e-3, 1e-4)]) == pytest.approx(2.0)
+
+
+def test_order_leaves_out_what_cannot_be_told():
+    floor = Errors(1e-7, 0.0, 0.0)
+    series = [row(h, 3.0 * h**2, floor=floor) for h in (1e-1, 1e-2, 1e-3, 1e-4)]
+    assert order_of(series) == pytest.approx(2.0)
+    assert order_of(series[-1:]) is None
+
+
+def test_numbers_of_modes_have_no_order():
+    steps = [row(h, 3.0 * h**2) for h in (1e-2, 1e-3)]
+    modes = [replace(row(float(n), 1.0 / (1 + n), solver="modes"), setting="modes") for n in (0, 4)]
+    (found,) = orders_of(steps + modes)
+    assert found["solver"] == "fixed step"
+    assert found["error_position"] == pytest.approx(2.0)
+
+
+def test_series_run_from_coarse_to_fine():
+    rows = [row(1e-4, 0.0), row(1e-2, 0.0), row(1e-3, 0.0, solver="other")]
+    assert [r.value for r in series_of(rows)["case", "fixed step"]] == [1e-2, 1e-4]
+
+
+def test_long_runs_and_failed_ones_are_not_repeated():
+    def attempt(seconds, status="completed"):
+        return Attempt("s", "step", 1.0, lambda: TimedRun(None, (seconds,), (seconds,), status))
+
+    assert len(time_runs(attempt(1.0), 3).wall_times) == 3
+    assert len(time_runs(attempt(100.0), 3).wall_times) == 1
+    assert len(time_runs(attempt(100.0), 3, longest=math.inf).wall_times) == 3
+    assert len(time_runs(attempt(1.0, "failed"), 3).wall_times) == 1

@@ -1,10 +1,11 @@
-"""How far a long job is."""
+"""How far a long job is, and columns in a terminal."""
 
 import io
 import threading
 
 import pytest
 
+from exu_press.terminal.columns import columns
 from exu_press.terminal.progress import Progress
 
 
@@ -43,3 +44,21 @@ def test_a_part_goes_on_from_where_the_whole_is():
     with Progress("run", 1.0, stream=stream) as other:
         other.update(1.0)
     assert "100 %" in stream.getvalue().rpartition("\r")[2]
+
+
+def test_columns_are_as_wide_as_their_longest_cell():
+    assert columns([("a", "bcd", "e"), ("fgh", "i", "")]) == ["a    bcd  e", "fgh  i"]
+
+
+def test_lines_may_be_indented():
+    assert columns([("a", "b")], 2) == ["  a  b"]
+
+
+def test_rows_have_equally_many_cells():
+    with pytest.raises(ValueError):
+        columns([("a", "b"), ("c",)])
+
+
+def test_columns_of_numbers_end_under_each_other():
+    rows = [("axis", "cases"), ("speed", "7"), ("film", "123456")]
+    assert columns(rows, right=True) == ["axis    cases", "speed       7", "film   123456"]

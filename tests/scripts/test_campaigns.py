@@ -1,0 +1,80 @@
+"""Campaigns: a few attacks of each kind, the stiff and extreme cases, fits of synthetic data."""
+
+import json
+import random
+import re
+
+import pytest
+
+import attack_files
+import attack_scenes
+from exu_press.studies.stability.cases import PAIRS
+from fit_recovers import main
+from recovery.cases import CASES
+from stability.cases import cases, quick_cases
+
+
+def options(counts):
+    return [word for name, count in counts.items() for word in (f"--{name}", str(count))]
+
+
+@pytest.mark.parametrize("kind", ["results", "blocks", "caches"])
+def test_a_few_damages_are_refused_or_nothing(kind, capsys, monkeypatch):
+    monkeypatch.setattr("exu_press.result.run.BLOCK", 10.0)  # which the campaign shortens
+    counts = {"results": 0, "blocks": 0, "caches": 0, kind: 12}
+    assert attack_files.main([*options(counts), "--seed", "7000"]) == 0
+    printed = capsys.readouterr().out
+    assert "FAULT" not in printed and f"\n12 damaged {kind}" in f"\n{printed}"
+
+
+def test_every_damage_is_one():
+    content = random.Random(1).randbytes(50_000)
+    seeds = map(random.Random, range(200))
+    assert all(attack_files.damage(draw, content) != content for draw in seeds)
+
+
+@pytest.mark.parametrize(
+    ("kind", "count"),
+    [("scenes", 4), ("results", 2), pytest.param("step", 4, marks=pytest.mark.long)],
+)
+def test_a_few_inputs_end_without_a_fault(kind, count, capsys):
+    counts = {"scenes": 0, "results": 0, "step": 0, kind: count}
+    assert attack_scenes.main([*options(counts), "--seed", "7000"]) == 0
+    printed = capsys.readouterr().out
+    assert "FAULT" not in printed and f"\n{count} " in f"\n{printed}"
+
+
+@pytest.mark.long
+def test_forty_measurements_of_three_scenes(tmp_path, capsys):
+    assert sum(case.measurements for case in CASES.values()) == 40
+    assert main(["--quiet", "--out", str(tmp_path)]) == 0
+    printed = capsys.readouterr().out
+    assert 36.0 <= float(re.search(r"hold the true key: ([\d.]+) of 40", printed)[1]) <= 40.0
+
+
+@pytest.fixture(scope="module")
+def table():
+    return cases()
+
+
+def test_at_least_200_cases_with_names_of_their_own(table):
+    assert len(table) >= 200
+    assert len({case.name for case in table}) == len(table)
+    assert len({json.dumps(case.scene.to_dict()) for case in table}) > 0.9 * len(table)
+
+
+def test_the_table_reaches_from_end_to_end(table):
+    scenes = [case.scene for case in table]
+    speeds = [scene.speed_rpm for scene in scenes]
+    viscosities = [
+        film["viscosity"] for film in (s.film or {} for s in scenes) if "viscosity" in film
+    ]
+    assert (min(speeds), max(speeds)) == (1.0, 3000.0)
+    assert min(viscosities) <= 1e-5 and max(viscosities) >= 10.0
+
+
+def test_the_quick_sample_holds_every_axis(table):
+    sample = quick_cases()
+    assert {case.axis for case in sample} == {case.axis for case in table}
+    assert set(sample) <= set(table)
+    assert sum(case.axis == PAIRS for case in sample) >= 15

@@ -89,10 +89,7 @@ def test_a_file_has_its_springs(keys):
     ("keys", "text"),
     [
         ({"stiffness": 1e4, "free_length": -0.1}, r"free_length = -0\.1: .* length >= 0"),
-        (
-            {"stiffness": 1e3, "preload": -1e3},
-            r"preload = -1000\.0: its free length would be -0\.3",
-        ),
+        ({"stiffness": 1e3, "preload": -1e3}, r"preload = -1000\.0: its free length"),
         ({"stiffness": 1e4}, r"has neither free_length and preload"),
         ({**LINEAR, "free_length": 0.1}, r"has both free_length and preload"),
         ({**LINEAR, "stiffness": 0.0}, r"stiffness = 0\.0: allowed is a number > 0"),
@@ -114,14 +111,7 @@ def test_refused(keys, text):
 @pytest.mark.parametrize(
     ("keys", "angle", "text"),
     [
-        (
-            {
-                **LINEAR,
-                "at": ((0.1, -0.4924), (0.1, -0.6)),
-            },
-            None,
-            "has no length",
-        ),
+        ({**LINEAR, "at": ((0.1, -0.4924), (0.1, -0.6))}, None, "has no length"),
         ({**GAS, "volume": 1e-3}, 180.0, r"has a volume of -0\.0006 m\^3"),
     ],
 )

@@ -185,15 +185,9 @@ def test_over_the_height_that_of_the_flexible_output_counts(rocker):
 @pytest.mark.parametrize(
     ("face", "message"),
     [
-        (
-            {"y": [0.6, 0.7]},
-            r"rocker: .*no face for load one lies wholly within y = \[0\.6",
-        ),
+        ({"y": [0.6, 0.7]}, r"rocker: .*no face for load one lies wholly within y = \[0\.6"),
         ("top", r"bodies\.rocker: .*no face named 'top'"),
-        (
-            {"x": [0.35, 0.37], "y": [0.29, 0.31]},
-            r"bodies\.rocker: .*knuckle and load one hold the same face; allowed are different",
-        ),
+        ({"x": [0.35, 0.37], "y": [0.29, 0.31]}, r"knuckle and load one hold the same face"),
     ],
 )
 def test_faces_that_are_not_there_are_refused(rocker, face, message):

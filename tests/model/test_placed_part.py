@@ -93,11 +93,7 @@ def test_a_forked_rod_holds_its_pin_by_both_eyes(rod):
 @pytest.mark.parametrize(
     ("solid", "keys", "message"),
     [
-        (
-            bar(LENGTH + 5.0),
-            {},
-            r"bodies\.rod: STEP file .*no cylinder along z lies about wrist_pin, .* 5 mm away",
-        ),
+        (bar(LENGTH + 5.0), {}, r"no cylinder along z lies about wrist_pin, .* 5 mm away"),
         (Box(Pnt(0, 0, 0), Pnt(9, 9, 9)), {}, r"no cylinder.*it has none at all"),
         (
             bar(),
@@ -113,7 +109,7 @@ def test_a_forked_rod_holds_its_pin_by_both_eyes(rod):
         (
             bar(),
             {"faces": {"rod_pin": ["bore", "bore"]}},
-            r"joints\.rod_pin and joints\.rod_pin hold the same face 'bore'",
+            r"rod_pin and joints\.rod_pin hold the same",
         ),
         (
             bar() - Cylinder(Pnt(0, 0, 5), Z, r=25, h=20),
@@ -140,10 +136,7 @@ def test_a_step_file_that_is_not_there_is_refused(tmp_path):
     [
         ({"press.linkage_length": 0.4}, r"bodies\.linkage: face 'big bore' .* lies 8\.5 mm from"),
         ({"bodies.linkage": "wheel"}, r"bodies\.linkage: 'wheel': there is no such flexible part"),
-        (
-            {"bodies.linkage": "crank"},
-            r"'crank' has no face for slide_pin; allowed as faces\.slide_pin is one of",
-        ),
+        ({"bodies.linkage": "crank"}, r"'crank' has no face for slide_pin; allowed as faces"),
     ],
 )
 def test_shipped_parts_that_do_not_fit_are_refused(change, message):

@@ -66,42 +66,16 @@ def test_pages_are_whole_and_load_nothing(parsed, name):
         assert len(image["alt"]) > 10
 
 
+LAST = ["Provenance", "Scene", "Assumptions"]
+FIRST = ["In motion", "Warnings", "Results", "Pictures"]
+
+
 @pytest.mark.parametrize(
     ("name", "headings", "pictures"),
     [
-        (
-            "run",
-            [
-                "In motion",
-                "Warnings",
-                "Results",
-                "Pictures",
-                "Energy and solver",
-                "Provenance",
-                "Scene",
-                "Assumptions",
-            ],
-            6,
-        ),
-        (
-            "compare",
-            [
-                "Differences of the scenes",
-                "In motion",
-                "Warnings",
-                "Results",
-                "Pictures",
-                "Provenance",
-                "Scene",
-                "Assumptions",
-            ],
-            3,
-        ),
-        (
-            "sweep",
-            ["Points", "Runs", "Warnings", "Pictures", "Provenance", "Scene", "Assumptions"],
-            1,
-        ),
+        ("run", [*FIRST, "Energy and solver", *LAST], 6),
+        ("compare", ["Differences of the scenes", *FIRST, *LAST], 3),
+        ("sweep", ["Points", "Runs", "Warnings", "Pictures", *LAST], 1),
     ],
 )
 def test_what_a_report_has(parsed, name, headings, pictures):

@@ -34,10 +34,7 @@ def test_a_file_has_them_again(tmp_path):
         ([{"width_deg": 359.9999}], "1 deg of bearing between them"),
         ([{"width_deg": 361.0}], "film.grooves.width_deg = 361.0"),
         ([{"width_deg": 10.0, "length": 0.051}], "film.grooves.0.length = 0.051"),
-        (
-            [AXIAL[0], {"angle_deg": 99.0, "width_deg": 9.0}],
-            "film.grooves at 90 and 99 deg overlap",
-        ),
+        ([AXIAL[0], {"angle_deg": 99.0, "width_deg": 9.0}], "at 90 and 99 deg overlap"),
         ([{"width_deg": 360.0}], "film.grooves: .*shorter than the bearing"),
         ([{"width_deg": 10.0, "angel": 1.0}], "film.grooves.0.angel = 1.0: unknown key"),
     ],

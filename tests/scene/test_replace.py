@@ -88,14 +88,8 @@ def test_another_mechanism():
     ("change", "message"),
     [
         ({"joints.crank_pin": "dry", "film.viscosity": 0.1}, r"\[film\]: not used"),
-        (
-            {"joints.crank_pin": "ideal", "joints.crank_pin.clearance": 1e-4},
-            r"joints\.crank_pin\.clearance: not used",
-        ),
-        (
-            {"joints.crank_pin": "dry", "joints.crank_pin.film.law": "short"},
-            r"joints\.crank_pin\.film: not used",
-        ),
+        ({"joints.crank_pin": "ideal", "joints.crank_pin.clearance": 1e-4}, "clearance: not used"),
+        ({"joints.crank_pin": "dry", "joints.crank_pin.film.law": "short"}, "film: not used"),
         ({"mechanism": "slider_crank", "joints.balls": "dry"}, "slider_crank has no such joint"),
         ({"mechanism": "slider_crank", "press.slider_mass": 1.0}, r"\[press\]: not used"),
     ],

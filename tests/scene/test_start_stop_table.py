@@ -24,10 +24,7 @@ def test_a_press_that_stands_has_no_speed_and_does_not_settle():
     ("changes", "message"),
     [
         ({"clutch_on": [0.02, 0.06]}, r"clutch_on = \[0\.02, 0\.06\] overlaps drive\.brake_off"),
-        (
-            {"brake_on": [0.01, 0.05]},
-            r"drive\.brake_on = .* overlaps drive\.clutch_off .*at once",
-        ),
+        ({"brake_on": [0.01, 0.05]}, r"brake_on = .* overlaps drive\.clutch_off .*at once"),
         ({"stop_time": [0.1]}, r"stop_time = 0\.1 overlaps drive\.start_time = 0\.05"),
         ({"stop_time": [0.6, 0.7]}, r"stop_time = 0\.7 after 0\.6: allowed is a start in between"),
         ({"start_time": [0.05, 0.62], "stop_time": [0.6]}, r"start_time = 0\.62 overlaps"),
@@ -40,24 +37,18 @@ def test_a_press_that_stands_has_no_speed_and_does_not_settle():
         ({"brake_on_deg": [1.0, 3.0]}, r"brake_on and drive\.brake_on_deg: allowed is one"),
         (
             {"brake_on": None, "brake_on_deg": [1.0, 3.0]},
-            r"clutch_off and drive\.brake_on_deg: allowed are both over time",
+            "brake_on_deg: allowed are both over time",
         ),
         (
             {"stop_time": None, "stop_angle_deg": 200.0, "start_time": [0.05, 2.0]},
             "allowed is one start, of a press that stands",
         ),
         ({"clutch_torque": None}, r"drive\.begins = 'standing' needs drive\.clutch_torque"),
-        (
-            {"clutch_torque": None, "begins": "rest"},
-            r"not used by this scene \(drive\.clutch_torque is not given\)",
-        ),
-        (
-            {"brake_torque": None},
-            r"drive\.brake_o.* = .*not used by this scene \(drive\.brake_torque is not given\)",
-        ),
+        ({"clutch_torque": None, "begins": "rest"}, r"not used .*clutch_torque is not given"),
+        ({"brake_torque": None}, r"drive\.brake_o.* not used .*brake_torque is not given"),
         (
             {"stop_time": None, "brake_on": None},
-            r"drive\.clutch_off = .*not used .*neither drive\.stop_time nor",
+            r"clutch_off = .*not used .*neither drive\.stop_time",
         ),
         ({"begins": "jogging"}, r"drive\.begins = 'jogging': allowed is one of"),
     ],

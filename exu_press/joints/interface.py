@@ -89,6 +89,15 @@ class InterfaceLaw:
     def orient(self, angle: float) -> None:
         """Take the angle of the eccentricity in the bearing, rad, before `load`."""
 
+    @property
+    def reach(self) -> float:
+        """Eccentricity at which the surfaces touch, m, at the angle of the last `orient`."""
+        return self.clearance
+
+    def gap(self, e: float) -> float:
+        """Return the least gap at an eccentricity, m, at the angle of the last `orient`."""
+        return self.clearance - e
+
     def arms(self, e: float) -> Arms:
         """Return a_J, a_B (m) and their derivatives; of the point half-way between the centres."""
         return -0.5 * e, -0.5 * e, -0.5, -0.5
@@ -468,7 +477,7 @@ class InterfaceJoint:
             self.in_frame(e_dot, v_t),
             self._moments(),
             (w_j, w_b),
-            self.clearance - e,
+            self.interfaces[0].gap(e),
             energy,
             power,
         )

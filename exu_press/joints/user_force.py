@@ -160,8 +160,9 @@ class UserForceElement:
         going_on = self._last[0] == q  # where the last run ended: joints keep their memory
         q_t = self._last[1] if going_on else [0.0] * self.size
         for joint in self.joints:
-            e = joint.clearance - _state_in(joint, q, q_t).gap
+            state = _state_in(joint, q, q_t)
             spent = joint.outside is not None
+            e = math.hypot(*state.eccentricity) if spent else joint.clearance - state.gap
             if not going_on:
                 joint.reset()
             if not spent and e <= joint.largest_eccentricity:

@@ -70,14 +70,17 @@ def interfaces_of(kind: SceneJoint, scene: Scene) -> list[InterfaceLaw]:
 
 
 def _film_interface(kind: LubricatedJoint) -> FilmInterface:
-    """Return the interface of a film; one with grooves has its table."""
+    """Return the interface of a film; one with grooves has its table, unless it is inclined."""
     law, sizes = kind.film_law(), (kind.film_scale, kind.clearance)
     if kind.film.length is None or kind.film.law.kind != "grooved":
         return FilmInterface(law, *sizes)
-    from exu_press.joints.oriented import GroovedInterface
+    from exu_press.joints.oriented import GroovedInterface, TiltedInterface
     from exu_press.laws.film.grooved_table import GroovedFilm
+    from exu_press.laws.film.tilted import TiltedFilm
     from exu_press.model.film_tables import film_table
 
+    if isinstance(law, TiltedFilm):
+        return TiltedInterface(law, *sizes)
     assert isinstance(law, GroovedFilm)
     law.set_table(film_table(law.bearing))
     return GroovedInterface(law, *sizes)

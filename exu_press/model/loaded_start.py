@@ -317,7 +317,7 @@ def _equilibrium_size(
 ) -> float | None:
     """Return the size of the eccentricity at which the force equals a load, or None."""
     dry = [interface for interface in interfaces if isinstance(interface, DryInterface)]
-    low, high = 0.0, LARGEST_RATIO * interfaces[0].clearance
+    low, high = 0.0, LARGEST_RATIO * interfaces[0].reach
     if dry:
         high = dry[0].clearance + SHALLOW * dry[0].radius
         low = dry[0].clearance if len(dry) == len(interfaces) else 0.0

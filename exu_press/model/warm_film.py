@@ -101,7 +101,8 @@ class WarmFilm:
         eps_w = (e * turning - 2.0 * v_t) / joint.clearance
         motion = e / joint.clearance, e_dot / joint.clearance, eps_w
         if isinstance(self.interface, GroovedInterface):
-            flow = self.interface.law.side_flow(*motion, states.orientation[:, 0])
+            spin = states.turning[:, 0] - states.turning[:, 1]
+            flow = self.interface.side_flow(*motion, states.orientation[:, 0], spin)
         else:
             flow = self._flow(*motion)
         return self._length * joint.radius * joint.clearance * flow

@@ -72,7 +72,7 @@ OWNERS = {
     "joint": "ideal joints whose force is known",
     "loose": "joints with clearance",
     "warm": "lubricated joints whose oil warms",
-    "worn": "joints that are worn from the start",
+    "uneven": "joints that are worn from the start, or whose journal is inclined",
     "wearing": "joints whose wear is asked for",
     "guide": "guides; that of the slider is `guide`",
     "gear": "gears whose torque is determined",

@@ -45,9 +45,9 @@ class JointRecord:
 
     @property
     def gap(self) -> Array:
-        """The film's least thickness, or -penetration, (n,), m: clearance less eccentricity."""
-        worn = self.channels.get(f"{self.name}_gap")
-        return self.clearance - self.distance if worn is None else worn.values
+        """The film's least thickness, or -penetration, (n,), m."""
+        own = self.channels.get(f"{self.name}_gap")
+        return self.clearance - self.distance if own is None else own.values
 
     @property
     def moment(self) -> Array:

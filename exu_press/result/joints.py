@@ -11,6 +11,7 @@ from exu_press.numerics.piecewise import integral
 from exu_press.result.channel import VECTOR, Channel, Declaration, Declarations
 from exu_press.result.ideal_joints import vectors
 from exu_press.result.recording import Record, Recording
+from exu_press.scene.joint import has_even_gap
 
 if TYPE_CHECKING:
     from exu_press.model.warm_film import WarmFilm
@@ -22,7 +23,7 @@ CHANNELS = Declarations(
     Declaration("{loose}_eccentricity", "m", "{loose}: journal minus bearing centre", VECTOR),
     Declaration("{loose}_moment", "N m", "{loose}: moment on journal and on bearing", "ends"),
     Declaration("{loose}_power", "W", "{loose}: dissipated power"),
-    Declaration("{worn}_gap", "m", "{worn}: least gap of the worn surfaces, or -penetration"),
+    Declaration("{uneven}_gap", "m", "{uneven}: least gap of the surfaces, or -penetration"),
     Declaration(
         "{wearing}_normal_force", "N", "{wearing}: normal force of the contact", always=False
     ),
@@ -74,7 +75,7 @@ def record(run: Recording) -> Record:
         if len(states.rubbing):
             normal_force, sliding = states.rubbing.T
             channels |= CHANNELS.record(name, normal_force=normal_force, sliding=sliding)
-        if model.scene.joints[name].worn is not None:
+        if not has_even_gap(model.scene.joints[name]):
             channels |= CHANNELS.record(name, gap=states.gap)
     return Record(channels, all_stored, all_losses)
 

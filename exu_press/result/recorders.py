@@ -13,7 +13,7 @@ from exu_press.result.channel import (
     guide_channel,
 )
 from exu_press.scene import Scene, mechanism_of
-from exu_press.scene.joint import oil_of
+from exu_press.scene.joint import has_even_gap, oil_of
 
 __all__ = ["declared_channels", "expected_channels", "recorders"]
 
@@ -85,7 +85,7 @@ def expected_channels(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, 
         "joint": joints,
         "loose": [name for name in joints if scene.joints[name].kind != "ideal"],
         "warm": [name for name in joints if oil_of(scene.joints[name]) is not None],
-        "worn": [name for name in joints if scene.joints[name].worn is not None],
+        "uneven": [name for name in joints if not has_even_gap(scene.joints[name])],
         "wearing": _wearing(scene),
         "guide": [guide_channel(mechanism, guide.name) for guide in mechanism.guides],
         "gear": [gear.name for gear in mechanism.gears],

@@ -64,15 +64,22 @@ class FilmLaw(CustomKind, Table, ABC):
         """Return the flow of oil out of the ends of a bearing of this L/D."""
         return no_flow(length_to_diameter)
 
-    def law_of_size(self, length: float, radius: float, gap_ratio: float | None) -> JournalLaw:
+    def law_of_size(
+        self, length: float, radius: float, clearance: float, gap_ratio: float | None
+    ) -> JournalLaw:
         """Return the law of a bearing of these sizes, m.
 
         Args:
-            length, radius: of the bearing.
+            length, radius, clearance: of the bearing.
             gap_ratio: gap at which asperities touch, over the clearance; None where none do.
         """
         law = self.film(length / (2.0 * radius))
         return law if gap_ratio is None else with_asperities(law, gap_ratio)
+
+    @property
+    def inclination(self) -> float:
+        """Angle between the axes of journal and bearing, rad."""
+        return 0.0
 
     def suits(self, length_to_diameter: float) -> bool:
         """Return whether L/D lies in the range that the law is meant for."""
@@ -165,6 +172,11 @@ class Film(Table):
         return self.viscosity
 
     @property
+    def inclination(self) -> float:
+        """Angle between the axes of journal and bearing, rad."""
+        return 0.0
+
+    @property
     def contact_gap(self) -> float | None:
         """Gap at which the surfaces' asperities touch, m; None without mixed film."""
         return self.at_contact.contact_gap
@@ -207,11 +219,17 @@ class JournalFilm(Film):
     def film_law(self, radius: float, clearance: float) -> JournalLaw:
         """Return the law of a journal of a radius and a clearance, m, also beyond contact."""
         with error_prefix("film."):
-            return self.law.law_of_size(self.length, radius, self.contact_gap_ratio(clearance))
+            gap_ratio = self.contact_gap_ratio(clearance)
+            return self.law.law_of_size(self.length, radius, clearance, gap_ratio)
 
     def side_flow(self, radius: float) -> SideFlow:
         """Return the flow of oil out of its ends, of a journal of a radius, m."""
         return self.law.side_flow(self._ratio(radius))
+
+    @property
+    def inclination(self) -> float:
+        """Angle between the axes of journal and bearing, rad."""
+        return self.law.inclination
 
     def check_cooling(self) -> None:
         """Raise InputError for an oil that warms, and of which nothing carries the heat off."""

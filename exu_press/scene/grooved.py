@@ -1,14 +1,17 @@
-"""film.law = "grooved": a bearing with supply grooves, [[film.grooves]]."""
+"""film.law = "grooved": a bearing with supply grooves, [[film.grooves]], or an inclined journal."""
 
 import math
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar
 
 from exu_press.errors import InputError
 from exu_press.laws.film.contract import FilmLaw as JournalLaw
 from exu_press.scene.film import FilmLaw
 from exu_press.schema.checks import key, list_of_tables
 from exu_press.schema.table import Table
+
+if TYPE_CHECKING:
+    from exu_press.laws.film.grooves import GroovedBearing
 
 __all__ = ["GroovedLaw", "SupplyGroove"]
 
@@ -40,7 +43,7 @@ class SupplyGroove(Table):
 
 @dataclass(frozen=True)
 class GroovedLaw(FilmLaw):
-    """A bearing of any usual length with supply grooves, from a table of its own."""
+    """A bearing of any usual length with supply grooves or an inclined journal."""
 
     registered_name: ClassVar[str] = "grooved"
     length_to_diameter = RANGE
@@ -51,17 +54,35 @@ class GroovedLaw(FilmLaw):
     grooves: tuple[SupplyGroove, ...] | None = list_of_tables(
         "scene.grooved:SupplyGroove", "supply grooves of the bearing, each a table [[film.grooves]]"
     )
+    tilt: float = key(
+        0.0, "angle between the axes of journal and bearing, constant", "rad", at_least=0
+    )
+    tilt_direction_deg: float = key(
+        0.0,
+        "where the journal's axis leans at z = +length/2, in the bearing, from its body's x axis",
+        "deg",
+        at_least=-360,
+        at_most=360,
+    )
+
+    @property
+    def inclination(self) -> float:
+        """Angle between the axes of journal and bearing, rad."""
+        return self.tilt
 
     def film(self, length_to_diameter: float) -> JournalLaw:
         """Return the law of a bearing whose diameter is 1 m, of this L/D."""
-        return self.law_of_size(length_to_diameter, 0.5, None)
+        return replace(self, tilt=0.0).law_of_size(length_to_diameter, 0.5, 1.0, None)
 
-    def law_of_size(self, length: float, radius: float, gap_ratio: float | None) -> JournalLaw:
+    def law_of_size(
+        self, length: float, radius: float, clearance: float, gap_ratio: float | None
+    ) -> JournalLaw:
         """Return the law of a bearing of these sizes, m; arguments as of `FilmLaw.law_of_size`.
 
         Raises:
-            InputError: there are no grooves, they overlap, or are longer than the bearing; the
-                bearing is outside the range of widths.
+            InputError: there are neither grooves nor a tilt, the grooves overlap, or are longer
+                than the bearing; the journal touches both ends; the bearing is outside the range
+                of widths.
         """
         from exu_press.laws.film.grooved_table import GroovedFilm
         from exu_press.laws.film.grooves import Groove, GroovedBearing
@@ -72,23 +93,45 @@ class GroovedLaw(FilmLaw):
                 f"length = {length:g} with a diameter of {2.0 * radius:g}: allowed for grooved "
                 f"bearings is {RANGE[0]:g} to {RANGE[1]:g} diameters"
             )
-        if not self.grooves:
+        grooves = self.grooves or ()
+        if not grooves and not self.tilt:
             raise InputError(
                 "grooves: missing; allowed is one [[film.grooves]] at least, as in angle_deg = 90, "
-                "width_deg = 10; without grooves: film.law = 'finite'"
+                "width_deg = 10, or film.tilt > 0; without both: film.law = 'finite'"
             )
-        for k, groove in enumerate(self.grooves):
+        for k, groove in enumerate(grooves):
             if groove.length is not None and groove.length > length:
                 raise InputError(
                     f"grooves.{k}.length = {groove.length!r}: allowed is a number <= film.length "
                     f"= {length!r} (m)"
                 )
-        shares = [1.0 if g.length is None else g.length / length for g in self.grooves]
+        shares = [1.0 if g.length is None else g.length / length for g in grooves]
         bearing = GroovedBearing(
             ratio,
             tuple(
                 Groove(math.radians(groove.angle_deg), math.radians(groove.width_deg), share)
-                for groove, share in zip(self.grooves, shares, strict=True)
+                for groove, share in zip(grooves, shares, strict=True)
             ),
         )
+        if self.tilt:
+            return self._inclined_law(bearing, length, clearance, gap_ratio)
         return GroovedFilm(bearing, gap_ratio)
+
+    def _inclined_law(
+        self, bearing: "GroovedBearing", length: float, clearance: float, gap_ratio: float | None
+    ) -> JournalLaw:
+        """Return the law of an inclined journal in a bearing."""
+        from exu_press.laws.film.tilted import TiltedFilm
+
+        if gap_ratio is not None:
+            raise InputError(
+                "at_contact = 'mixed' with film.tilt: allowed is 'stop', as the journal touches "
+                "with an edge, for which there is no contact law; or film.tilt = 0"
+            )
+        ratio = 0.5 * self.tilt * length / clearance
+        if ratio >= 1.0:
+            raise InputError(
+                f"tilt = {self.tilt:g}: allowed is a number < 2 * clearance / film.length = "
+                f"{2.0 * clearance / length:g} (rad), where the journal touches both ends"
+            )
+        return TiltedFilm(bearing, ratio, math.radians(self.tilt_direction_deg))

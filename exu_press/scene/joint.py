@@ -232,6 +232,14 @@ def unworn(joint: Round) -> Round:
     return cast(Round, dataclasses.replace(cast(Any, joint), clearance=clearance, worn=None))
 
 
+def has_even_gap(joint: Joint) -> bool:
+    """Return whether a joint's least gap is the clearance less the eccentricity.
+
+    That of worn surfaces and of an inclined journal is another.
+    """
+    return joint.worn is None and (joint.film is None or not joint.film.inclination)
+
+
 def oil_of(joint: Joint) -> "Oil | None":
     """Return the oil of a joint whose film warms, or None."""
     return None if joint.film is None else joint.film.oil

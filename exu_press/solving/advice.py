@@ -63,9 +63,12 @@ class SceneAdvice(Advice):
 
     def film(self) -> str:
         """Return the cure of a film that broke down."""
-        return self._slips_or(
-            "film.at_contact = 'mixed', or a larger film.viscosity or film.length"
+        inclined = any(
+            joint.film is not None and joint.film.inclination
+            for joint in self._scene.joints.values()
         )
+        first = "a smaller film.tilt" if inclined else "film.at_contact = 'mixed'"
+        return self._slips_or(f"{first}, or a larger film.viscosity or film.length")
 
     def smallest(self) -> str:
         """Return the cure where steps became too small."""

@@ -1,5 +1,8 @@
 """[[film.grooves]] of a scene: read, written, refused by name, and run."""
 
+import math
+
+import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, bearing_coefficients, simulate
@@ -25,7 +28,7 @@ def test_a_file_has_them_again(tmp_path):
 @pytest.mark.parametrize(
     ("grooves", "words"),
     [
-        (None, "film.grooves: missing; allowed is one"),
+        (None, "film.grooves: missing; allowed is one .* or film.tilt > 0"),
         ([], "film.grooves = .*allowed is a list of tables"),
         ([{}], "film.grooves.width_deg: missing"),
         ([{"width_deg": 1e-20}], "film.grooves.width_deg = 1e-20"),
@@ -57,3 +60,67 @@ def test_a_run_keeps_its_energy_and_the_film_its_heat():
     carried = 1.8e6 * bearing.side_flow * (bearing.temperature - 40.0)
     assert bearing.power == pytest.approx(carried, rel=1e-5)
     assert simulate(warm).summary()["status"] == "completed"
+
+
+def inclined(**keys):
+    film = {"law": "grooved", "length": 0.05, "viscosity": 0.5, "tilt": 1e-3, **keys}
+    crank_pin = {"kind": "lubricated", "clearance": 1e-4, "radius": 0.05}
+    return Scene(mechanism="slider_crank", joints={"crank_pin": crank_pin}, film=film)
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"tilt": -1e-3}, "film.tilt = -0.001: allowed"),
+        ({"tilt": 4e-3}, r"film.tilt = 0.004: allowed is a number < 2 \* clearance .* = 0.004"),
+        ({"tilt_direction_deg": 361.0}, "film.tilt_direction_deg = 361"),
+        ({"at_contact": "mixed"}, "film.at_contact = 'mixed' with film.tilt: allowed is 'stop'"),
+        ({"grooves": [AXIAL[0], AXIAL[0]]}, "film.grooves at 90 and 90 deg overlap"),
+    ],
+)
+def test_what_cannot_be_inclined_is_refused_by_name(keys, words):
+    with pytest.raises(InputError, match=words):
+        inclined(**keys)
+
+
+def test_other_laws_say_which_has_a_tilt():
+    with pytest.raises(InputError, match=r"film\.law is 'finite'; it belongs to 'grooved'"):
+        inclined(law="finite")
+
+
+def test_an_inclined_journal_runs_and_is_thinnest_at_its_end():
+    """The balance of energy closes, with the couple of the inclination in it."""
+    result = simulate(inclined().replace({"revolutions": 0.02}))
+    assert result.summary()["status"] == "completed"
+    assert result.quantity("energy.residual").value < 1e-4
+    eccentricity = result["crank_pin_eccentricity"]
+    film = result.joints["crank_pin"].gap
+    end = np.hypot(eccentricity[:, 0], eccentricity[:, 1]) + 0.25e-4  # at most, beside the other
+    assert (film >= 1e-4 - end - 1e-12).all()
+    assert (film < 1e-4 - np.hypot(eccentricity[:, 0], eccentricity[:, 1])).all()
+    assert result.quantity("joints.crank_pin.min_film").value == film.min()
+
+
+def test_coefficients_of_an_inclined_journal():
+    """A turned drawing, and the opposite end, have the same bearing; a small tilt changes nothing.
+
+    The grid does not turn with the drawing.
+    """
+    load = (0.0, -2e4)
+    straight, across = (
+        bearing_coefficients(inclined(tilt=tilt), "crank_pin", load=load, speed_rpm=300.0)
+        for tilt in (1e-6, 1e-3)
+    )
+    opposite = bearing_coefficients(
+        inclined(tilt_direction_deg=180.0), "crank_pin", load=load, speed_rpm=300.0
+    )
+    turned = bearing_coefficients(
+        inclined(tilt_direction_deg=90.0), "crank_pin", load=(2e4, 0.0), speed_rpm=300.0
+    )
+    assert straight.min_film == pytest.approx(1e-4 * (1.0 - straight.eccentricity_ratio), rel=1e-2)
+    assert across.min_film < 0.95 * straight.min_film
+    x, y = across.eccentricity
+    for other, expected, size in ((opposite, (x, y), 1e-6), (turned, (-y, x), 5e-3)):
+        assert other.min_film == pytest.approx(across.min_film, rel=size)
+        assert other.eccentricity == pytest.approx(expected, abs=size * math.hypot(x, y))
+    assert across.power > 0.0 and across.side_flow > 0.0

@@ -79,7 +79,7 @@ class GroovedBearing:
 
     Attributes:
         length_to_diameter: L/D.
-        grooves: one at least.
+        grooves: one at least, but of an inclined journal.
     """
 
     length_to_diameter: float
@@ -93,7 +93,7 @@ class GroovedBearing:
                 "grooves: allowed beside one that goes all around is no other, and it is shorter "
                 "than the bearing"
             )
-        if not around:
+        if self.grooves and not around:
             self._refuse_overlaps()
 
     def _refuse_overlaps(self) -> None:

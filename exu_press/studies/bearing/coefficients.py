@@ -25,6 +25,7 @@ class BearingCoefficients:
         speed_rpm: of the journal, counter-clockwise.
         eccentricity: journal's centre - bearing's centre, m.
         eccentricity_ratio: its length over the clearance.
+        min_film: least gap of the surfaces, at an end where the journal is inclined, m.
         attitude_angle: from the load to the eccentricity, in the sense of rotation, rad.
         stiffness: -dF/dx of the force on the journal, (2, 2), N/m.
         damping: -dF/dv, (2, 2), N s/m.
@@ -40,6 +41,7 @@ class BearingCoefficients:
     speed_rpm: float
     eccentricity: tuple[float, float]
     eccentricity_ratio: float
+    min_film: float
     attitude_angle: float
     stiffness: Array
     damping: Array
@@ -90,6 +92,7 @@ def bearing_coefficients(
         speed_rpm=float(speed_rpm),
         eccentricity=e,
         eccentricity_ratio=math.hypot(*e) / journal.clearance,
+        min_film=journal.least_gap(e),
         attitude_angle=math.remainder(attitude, math.tau),
         stiffness=stiffness,
         damping=damping,

@@ -10,6 +10,7 @@ from exu_press.laws.film.contract import film_scale
 from exu_press.laws.film.grooved_table import CELLS, GroovedFilm
 from exu_press.laws.film.grooves import GroovedFilmState
 from exu_press.laws.film.reynolds import solve_reynolds
+from exu_press.laws.film.tilted import TiltedFilm
 from exu_press.numerics.arrays import Array
 from exu_press.plots.style import COLOURS, GREY, RUN, colour_of, with_style
 from exu_press.plots.title import figure_with_title
@@ -61,7 +62,11 @@ def _largest_pressure(report: BearingReport, row: BearingCoefficients) -> tuple[
     eps, turning = min(row.eccentricity_ratio, 0.999), row.speed_rpm * math.tau / 60.0
     direction = math.atan2(row.eccentricity[1], row.eccentricity[0])
     law = kind.film_law()
-    if isinstance(law, GroovedFilm):
+    if isinstance(law, TiltedFilm):
+        law.spin = turning
+        theta, pressure = law.largest_pressure(eps, direction, 0.0, 0.5 * eps * turning)
+        theta -= direction
+    elif isinstance(law, GroovedFilm):
         state = GroovedFilmState(law.bearing, eps, direction, CELLS)
         theta, pressure = state.largest_pressure(0.0, 0.5 * eps * turning)
     else:

@@ -7,7 +7,7 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.joints.interface import FilmInterface, InterfaceJoint, Load
-from exu_press.joints.oriented import GroovedInterface
+from exu_press.joints.oriented import GroovedInterface, TiltedInterface
 from exu_press.laws.film.contract import film_scale
 from exu_press.model.clearance_joints import interfaces_of
 from exu_press.numerics.arrays import Array
@@ -19,6 +19,12 @@ __all__ = ["Journal"]
 
 DIRECTIONS, LEVELS = 48, 40
 """Directions and eccentricities among which an equilibrium is looked for at first."""
+
+FEW_DIRECTIONS, FEW_LEVELS = 12, 12
+"""The same of a film that solves Reynolds' equation in each state."""
+
+LEVEL_RANGE = 1e-4, 16.0
+"""Of -ln(1 - e / largest)."""
 
 ITERATIONS, HALVINGS = 60, 40
 """Of Newton's method, and of a change that does not bring the force nearer to the load."""
@@ -58,7 +64,9 @@ class Journal:
         self._interfaces = interfaces_of(kind, scene)
         joint = InterfaceJoint(self._interfaces)
         touching = math.isfinite(joint.contact_onset)
-        self._reach = joint.largest_eccentricity if touching else self.clearance
+        self._beyond_film = joint.largest_eccentricity if touching else None
+        tilted = any(isinstance(interface, TiltedInterface) for interface in self._interfaces)
+        self._grid = (FEW_DIRECTIONS, FEW_LEVELS) if tilted else (DIRECTIONS, LEVELS)
         self._flow = kind.film.side_flow(kind.radius) if kind.film.law.flows_out else None
 
     def set_temperature(self, temperature: float, load: float) -> None:
@@ -82,6 +90,11 @@ class Journal:
         moment = sum(load[2] for load in self._loads(e) if load is not None)
         return -moment * self._turning
 
+    def least_gap(self, e: Vector) -> float:
+        """Return the least gap at an eccentricity, m."""
+        self._interfaces[0].orient(math.atan2(e[1], e[0]))
+        return self._interfaces[0].gap(math.hypot(*e))
+
     def side_flow(self, e: Vector) -> float | None:
         """Return the oil that leaves the bearing's ends, m^3/s; None where it has none."""
         eps = np.array([math.hypot(*e) / self.clearance])
@@ -90,7 +103,8 @@ class Journal:
         for interface in self._interfaces:
             if isinstance(interface, GroovedInterface):
                 angle = np.array([math.atan2(e[1], e[0])])
-                return size * float(interface.law.side_flow(*motion, angle)[0])
+                spin = np.array([self._turning])
+                return size * float(interface.side_flow(*motion, angle, spin)[0])
         return None if self._flow is None else size * float(self._flow(*motion)[0])
 
     def matrices(self, e: Vector) -> tuple[Array, Array]:
@@ -132,7 +146,9 @@ class Journal:
             turn = math.atan2(-f_y, -f_x) - math.atan2(load[1], load[0])
             return np.array([math.log(size / math.hypot(*load)), math.remainder(turn, math.tau)])
 
-        grid = product(self._levels(), np.arange(DIRECTIONS) * (math.tau / DIRECTIONS))
+        directions, levels = self._grid
+        turns = np.arange(directions) * (math.tau / directions)
+        grid = product(np.geomspace(*LEVEL_RANGE, levels), turns)
         x, angle = min(grid, key=lambda at: float(np.abs(missing(*at)).sum()))
         for _ in range(ITERATIONS):
             now = missing(x, angle)
@@ -165,11 +181,12 @@ class Journal:
 
     def _eccentricity_at(self, x: float, angle: float) -> Vector:
         """Return the eccentricity, m, at x = -ln(1 - e / largest) and an angle, rad."""
-        e = -self._reach * math.expm1(-x)
+        reach = self._beyond_film
+        if reach is None:
+            self._interfaces[0].orient(angle)
+            reach = self._interfaces[0].reach
+        e = -reach * math.expm1(-x)
         return e * math.cos(angle), e * math.sin(angle)
-
-    def _levels(self) -> Array:
-        return np.geomspace(1e-4, 16.0, LEVELS)
 
 
 def _unit(e: Vector) -> Vector:

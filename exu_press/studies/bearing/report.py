@@ -20,6 +20,7 @@ Read = Callable[[BearingCoefficients], float | None]
 
 FIGURES: Mapping[str, tuple[str, float, Read]] = {
     "eccentricity_ratio": ("", 1.0, lambda row: row.eccentricity_ratio),
+    "min_film": ("um", 1e6, lambda row: row.min_film),
     "attitude": ("deg", math.degrees(1.0), lambda row: row.attitude_angle),
     "side_flow": ("l/min", 6e4, lambda row: row.side_flow),
     "power": ("W", 1.0, lambda row: row.power),
@@ -59,9 +60,11 @@ class BearingReport(Report):
     def subtitle(self) -> str:
         """The bearing's sizes and law."""
         kind, film = journal_joint(self.scene, self.study.joint)
+        tilt = film.inclination
+        inclined = f", tilt {1e3 * tilt:g} mrad" if tilt else ""
         return (
             f"film.law = {film.law.kind!r}, length {1e3 * film.length:g} mm, radius "
-            f"{1e3 * kind.radius:g} mm, clearance {1e6 * kind.clearance:g} um"
+            f"{1e3 * kind.radius:g} mm, clearance {1e6 * kind.clearance:g} um{inclined}"
         )
 
     def tables(self) -> list[Table]:

@@ -85,7 +85,7 @@ def cells(row):
     stated = None if row["error"] is None else {"error": row["error"], "determined": True}
     return (
         f"{row['quantity']}{unit}{count}",
-        significant(row["theirs"], 5),
+        significant(row["theirs"] + 0.0, 5),  # no -0
         uncertain(row["ours"], stated, digits=5),
         difference(row["deviation"], row["is_relative"], "+"),
         difference(row["allowed"], row["is_relative"], ""),

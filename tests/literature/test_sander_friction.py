@@ -34,12 +34,12 @@ MEASURED = pytest.mark.validation(
     "numbers as there, GPL-3",
     "Predicted from sizes, oil and roughness; the relative clearance of 0.001 is an assumption of "
     "those who digitised the torque. Films that bear alone agree within 13 %. The mixed film does "
-    "not: its asperities bear at two to three times the speeds of the measured ones. Missing are "
-    "an elastic shell, which opens the gap, asperities whose pressure rises with the seventh power "
-    "of the approach, as Greenwood and Tripp's, and a film that keeps its force between asperities "
-    "that touch. Fitted, the clearance is open upwards, where the range ends at 48 um, and the "
-    "onset downwards, where it ends at 0.3: with 2.3 roughnesses instead of 3 the branch on which "
-    "the torque rises is met.",
+    "not: its asperities bear at two to three times the speeds of the measured ones. Missing is "
+    "above all a film that keeps its force between asperities that touch: that of the package "
+    "fades from three roughnesses on. Missing are an elastic shell, which opens the gap, and a "
+    "viscosity that rises with pressure, too. Fitted, the clearance is open upwards, where the "
+    "range ends at 48 um, and the onset downwards, where it ends at 0.3: with 2.3 roughnesses "
+    "instead of 3 the branch on which the torque rises is met.",
 )
 
 

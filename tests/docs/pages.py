@@ -69,8 +69,8 @@ class Block:
 
     @property
     def shortened(self) -> list[str]:
-        """What shows that the commands run, in a tenth of a revolution unless more is looked at."""
-        return [] if re.search("--at |--from ", self.text) else ["--set", "revolutions=0.1"]
+        """What shows that the commands run, in ten degrees unless more is looked at."""
+        return [] if re.search("--at |--from ", self.text) else ["--set", "revolutions=0.03"]
 
     @property
     def commands(self) -> list[str]:

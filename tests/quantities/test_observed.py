@@ -17,7 +17,7 @@ def result():
     scene = Scene(
         mechanism="slider_crank",
         speed_rpm=300.0,
-        revolutions=0.3,
+        revolutions=0.1,
         joints={"crank_pin": {"kind": "dry", "clearance": 1e-4}},
         output={"readings": READINGS},
     )

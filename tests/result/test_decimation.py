@@ -10,7 +10,7 @@ SCENE = Scene(
     mechanism="slider_crank",
     joints={"crank_pin": {"kind": "dry", "clearance": 1e-4, "radius": 0.03}},
     contact={"length": 0.05},
-    revolutions=1.25,
+    revolutions=0.4,
     solver={"tolerance": 1e-2},
 )
 

@@ -25,7 +25,7 @@ WRIST = "joints.wrist_pin.peak_force"
 STUDIES = {
     "fit": f"""
 {CRANK}
-revolutions = 0.05
+revolutions = 0.02
 [keys]
 slider_crank.slider_mass = {{low = 800.0, high = 2000.0, log = true}}
 slider_crank.rod_inertia = {{low = 2.0, high = 3.0}}

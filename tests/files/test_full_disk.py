@@ -25,7 +25,7 @@ import resource, sys
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]), int(sys.argv[1])))
 from exu_press.cli import main
 from exu_press.result import run
-run.BLOCK = 0.35
+run.BLOCK = 0.1
 sys.exit(main(sys.argv[2:]))
 """
 
@@ -57,8 +57,8 @@ def test_a_result_that_does_not_fit(tmp_path):
 
 def test_blocks_that_do_not_fit(tmp_path):
     """What was finished before stays, to go on from."""
-    run = ["run", "slider_crank", "--set", "revolutions=3", *OF_A_RUN, "--out", tmp_path]
-    done = limited(400_000, *run)
+    run = ["run", "slider_crank", "--set", "revolutions=1", *OF_A_RUN, "--out", tmp_path]
+    done = limited(120_000, *run)
     assert done.returncode == 3
     folder = tmp_path / "run.nc.unfinished"
     assert done.stderr.startswith(f"exu-press: {folder}{os.sep}")
@@ -114,9 +114,9 @@ def test_refinements_without_room_leave_the_run_without_errors(tmp_path, monkeyp
 
 def test_a_child_says_that_its_disk_is_full(tmp_path):
     """Blocks of a long run, and of its refinements, in the temporary folder."""
-    run = ["run", "slider_crank", "--set", "revolutions=3", "--within", "5%", "--no-pictures"]
+    run = ["run", "slider_crank", "--set", "revolutions=1", "--within", "5%", "--no-pictures"]
     done = limited(
-        60_000, *run, "--quiet", "--out", tmp_path, env={**os.environ, "TMPDIR": tmp_path}
+        30_000, *run, "--quiet", "--out", tmp_path, env={**os.environ, "TMPDIR": tmp_path}
     )
     assert done.returncode == 3
     assert done.stderr.startswith(f"exu-press: {tmp_path}{os.sep}exu_press_temporary_")

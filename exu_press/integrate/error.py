@@ -9,6 +9,8 @@ rate j_n = (a_n - a_(n-1)) / h, the scale of speeds V, eccentricities e and the 
     penetrations                       the same across surfaces   over a part of it Eccentricity...
     forces of films that turn          |F| (turned angle)^2 / 8   over tol |F|      FilmForceError
 
+and, by `solve_dynamic(criteria=)`, of a scene's springs `InterpolatedForceError`.
+
 The local error of this second-order method goes with h^3, and a run needs about tolerance^(-1/2)
 steps. So that the error of the whole run follows the tolerance, the share of one step is
 tolerance^(3/2), with clearance joints a hundredth of the tolerance at least.

@@ -83,6 +83,18 @@ class SpringBetween(ABC):
         """
         return self.static_force(length) - self.damping * rate
 
+    def force_on_second_end(self, ends: Array, velocity: Array) -> Array:
+        """Return the force on its second end, N.
+
+        Args:
+            ends: vector from the first end to the second, m.
+            velocity: its rate, m/s.
+        """
+        length = math.hypot(*ends)
+        direction = ends / length if length > 0.0 else np.zeros_like(ends)
+        with np.errstate(invalid="ignore"):  # of a gas without volume it is infinite
+            return np.asarray(self.force(length, float(direction @ velocity)) * direction)
+
     def outline(self, ends: Array, size: float) -> Array:
         """Return the line (n, 2), m, that pictures it between its ends (2, 2), m.
 
@@ -96,9 +108,15 @@ class SpringBetween(ABC):
         line = ends[0] + np.outer(shares, along) + HALF_WIDTH * size * np.outer(sideways, across)
         return np.asarray(line)
 
-    def why_impossible(self, length: float) -> str:
-        """Return why it cannot have a length, m, or nothing."""
-        return "" if length > 0.0 else "has no length, and so no direction"
+    def why_impossible(self, length: float, least: float = 0.0) -> str:
+        """Return why it cannot have a length, m, or nothing.
+
+        Args:
+            length: m.
+            least: share of its size in the drawing below which it has vanished.
+        """
+        vanished = length <= least * self.drawn_length
+        return "has no length, and so no direction" if vanished else ""
 
 
 @dataclass(frozen=True)
@@ -194,9 +212,10 @@ class GasSpring(SpringBetween):
 
     def gas_pressure(self, length: Any) -> Any:
         """Return p, Pa, at a length, m; infinite without any volume."""
-        with np.errstate(divide="ignore"):
-            ratio = self.volume / np.maximum(self.gas_volume(length), 0.0)
-        return self.pressure * ratio**self.exponent
+        volume = self.gas_volume(length)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            pressure = self.pressure * (self.volume / volume) ** self.exponent
+        return np.where(volume > 0.0, pressure, np.inf)[()]
 
     def static_force(self, length: Any) -> Any:
         """Return A (p - p_0), N."""
@@ -226,12 +245,12 @@ class GasSpring(SpringBetween):
         _check_at_least(f"{where}.exponent", self.exponent, "")
         _check_at_least(f"{where}.ambient", self.ambient, "Pa")
 
-    def why_impossible(self, length: float) -> str:
+    def why_impossible(self, length: float, least: float = 0.0) -> str:
         """Return why it cannot have a length, m, or nothing."""
         volume = self.gas_volume(length)
-        if volume <= 0.0:
+        if volume <= least * self.volume:
             return f"has a volume of {volume:.4g} m^3; a larger one in the drawing is needed"
-        return super().why_impossible(length)
+        return super().why_impossible(length, least)
 
 
 def check_springs(springs: Sequence[SpringBetween], bodies: Collection[str]) -> None:

@@ -21,6 +21,9 @@ THIN = 1e-6
 WIDE_CIRCLE = 0.3
 """Radius of a wide friction circle, in crank radii."""
 
+VANISHED = 1e-3
+"""Share of a spring's length or of its gas' volume in the drawing that is as good as none."""
+
 STEPS_IN_AN_EDGE = 5.0
 """So many fixed steps in the steepest edge of a load: a peak, which may lie between two of them, is
 then missed by a tenth at most."""
@@ -118,6 +121,12 @@ class SceneAdvice(Advice):
 
     def _slips_or(self, cure: str) -> str:
         """Return that another size is the cure where one is hardly meant, or the usual cure."""
+        for spring in self._model.mechanism.springs:
+            ends = self._model.mbs.GetSensorValues(
+                self._model.sensors[f"spring_{spring.name}", "ends"]
+            )
+            if reason := spring.why_impossible(math.hypot(*ends), VANISHED):
+                return f"another spring, as springs.{spring.name} {reason}"
         from exu_press.scene.warnings import doubtful_sizes
 
         slips = "; ".join(slip.partition(". ")[0] for slip in doubtful_sizes(self._scene))

@@ -2,10 +2,13 @@
 
 import dataclasses
 import math
+from collections.abc import Iterator
 
 import exudyn as exu
 
 from exu_press.integrate import ErrorScales, Outcome, SolverStatus, SolverTuning, solve_dynamic
+from exu_press.integrate.error import Criterion, default_criteria
+from exu_press.integrate.task import Task
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.applied import applied_loads
 from exu_press.solving.advice import SceneAdvice, leapt_over_load
@@ -46,6 +49,7 @@ def solve(model: SolvableModel, *, tuning: SolverTuning = DEFAULTS, quiet: bool 
         settings,
         tolerance=solver.tolerance,
         scales=scales(scene),
+        criteria=lambda task: [*default_criteria(task), *_spring_errors(model, task)],
         next_corner=model.next_corner,
         watch=model.watch,
         event=model.event,
@@ -60,6 +64,20 @@ def solve(model: SolvableModel, *, tuning: SolverTuning = DEFAULTS, quiet: bool 
     if leapt:
         return dataclasses.replace(outcome, status=SolverStatus.UNDER_RESOLVED, reason=leapt)
     return outcome
+
+
+def _spring_errors(model: SolvableModel, task: Task) -> Iterator[Criterion]:
+    """Yield the errors of springs' forces, which ideal joints and guides may bear unmoved."""
+    if not model.mechanism.springs:
+        return
+    from exu_press.integrate.criteria.interpolated_force import InterpolatedForceError
+
+    read = model.mbs.GetSensorValues
+    for spring in model.mechanism.springs:
+        ends, velocity = (model.sensors[f"spring_{spring.name}", n] for n in ("ends", "velocity"))
+        yield InterpolatedForceError(
+            task, lambda r=ends, v=velocity: (read(r), read(v)), spring.force_on_second_end
+        )
 
 
 def settings_for(scene: Scene, *, keeps_redundant: bool = False) -> exu.SimulationSettings:

@@ -143,6 +143,56 @@ def test_a_loaded_start_knows_the_springs():
         assert peaks[0] == pytest.approx(peaks[1], rel=0.02)
 
 
+def test_a_guide_bears_a_spring_that_swings_through():
+    """Within a tenth of a millimetre of the ram's way it turns by half a turn: nothing is moved."""
+    ends = (-0.05, -0.767), (-0.0499, -0.83)
+    spring = LinearSpring("turns", ("ram", GROUND), ends, 1e5, free_length=0.2, damping=100.0)
+    mechanism = replace(shipped_mechanism("drag_link"), springs=(spring,))
+    scene = Scene(mechanism=mechanism, joints={}, gravity=0.0, speed_rpm=1.0, revolutions=0.5)
+    peak = simulate(scene, errors=True).quantity("guides.ram.peak_force")
+
+    angle = np.linspace(0.0, np.pi, 2_000_001)
+    motion = mechanism.motion(angle, np.pi / 30.0)
+    beside, height = 1e-4, -0.83 - (motion["ram"].position[:, 1] + 0.00047)
+    length = np.hypot(beside, height)
+    force = 1e5 * (0.2 - length) / length
+    tilt = np.tan(motion["rod"].position[:, 2])
+    assert np.abs(tilt).max() > 0.01, "the rod bears the spring's part along the guide"
+    expected = np.abs(force * beside + force * height * tilt).max()
+    assert peak.value == pytest.approx(expected, rel=1e-3)
+    assert abs(peak.value - expected) < peak.error < 0.01 * expected
+
+
+@pytest.mark.parametrize("rest", [1e-2, 1e-5])
+def test_a_gas_spring_that_nearly_bottoms_keeps_the_energy(rest):
+    """All but this share of the gas is pressed together: its peak is the polytropic one."""
+    spring = gas(at=((0.0, -1.2), (0.0, -0.5)), volume=0.02 * 0.16 * (1.0 + rest))
+    result = simulate(Scene(mechanism=sprung(spring), joints={}, speed_rpm=60.0))
+    expected = 0.02 * (5e5 * (1.0 + 1.0 / rest) ** 1.3 - 101325.0)
+    peak = result.quantity("springs.balance.peak_force").value
+    assert peak == pytest.approx(expected, rel=2e-3)
+    assert result.quantity("energy.residual").value < 5e-3
+
+
+def test_a_gas_that_vanishes_ends_the_run_at_its_angle():
+    """A hundredth of a millimetre is left above the piston with ideal pins, which hang in these."""
+    pins = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
+    spring = gas(at=((0.0, -1.2), (0.0, -0.5)), volume=0.02 * 0.16001, pressure=1e5, exponent=0.0)
+    scene = Scene(
+        mechanism=sprung(spring),
+        joints={"rod_pin": pins, "wrist_pin": pins},
+        contact={"length": 0.05},
+        speed_rpm=60.0,
+        start_angle_deg=150.0,
+        revolutions=0.2,
+    )
+    result = simulate(scene)
+    assert not result.completed
+    assert "crank angle 158" in result.info["reason"]
+    assert "springs.balance has a volume of" in result.info["reason"]
+    assert result["spring_balance_length"].min() == pytest.approx(0.7 - 0.16001, abs=1e-8)
+
+
 @pytest.mark.long
 def test_a_spring_on_the_joint_of_a_flexible_rod():
     """Of steel, it hardly gives way: the force of the spring is that on a rigid one."""

@@ -19,6 +19,9 @@ CrankAngle = Callable[[], tuple[float, float]]
 DISC_MASS = 1e-3
 """Mass of the disc on a flexible crank, kg: negligible, but not zero."""
 
+CARRIER_INERTIA = 1e-5
+"""Mass and inertia of a disc that moves with a face, over those of its body: likewise."""
+
 
 def add_drive(system: System) -> int:
     """Drive the crank: by a constraint on its angular velocity, or by a motor's torque.
@@ -70,7 +73,9 @@ def crank_angle_of(system: System) -> CrankAngle:
 
 
 def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[str, int]:
-    """Hold flexible bodies in the plane and on pivots of the frame; a disc drives a flexible crank.
+    """Hold flexible bodies in the plane and on pivots of the frame.
+
+    A disc drives a flexible crank, and one moves with each face in a slot or a moving guide.
 
     Args:
         system: with all bodies in it.
@@ -79,7 +84,12 @@ def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[st
     Returns:
         name of a joint with the frame, with a number for each of several faces -> object number.
     """
-    from exu_press.model.flexible_body import hold_driven, hold_pivot, hold_upright
+    from exu_press.model.flexible_body import (
+        guide_points,
+        hold_on_face,
+        hold_pivot,
+        hold_upright,
+    )
 
     mbs = system.mbs
     numbers: dict[str, int] = {}
@@ -87,7 +97,12 @@ def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[st
         placed = system.parts[name]
         if name == system.mechanism.crank:
             _add_disc(system, start.get(DRIVE))
-            hold_driven(mbs, system.bodies[DRIVE], body, placed)
+            hold_on_face(mbs, system.bodies[DRIVE], body, placed)
+        for guide in placed.carriers:
+            carrier, points = system.carriers[guide, name], guide_points(guide)
+            _add_carrier(system, carrier, name, start.get(carrier))
+            at = placed.to_body(body.point_positions[points[0]])
+            hold_on_face(mbs, system.bodies[carrier], body, placed, points, at)
         pivot = system.constraints.pivots.get(name)
         hold_upright(mbs, system.still, body, placed, pivot)
         if pivot is not None:
@@ -104,4 +119,14 @@ def _add_disc(system: System, start: Motion | None) -> None:
     disc = Body(DRIVE, DISC_MASS, inertia)
     system.add_rigid(
         DRIVE, RigidBody(system.mbs, disc, start or relaxed, reference=relaxed.position[0])
+    )
+
+
+def _add_carrier(system: System, carrier: str, body: str, start: Motion | None) -> None:
+    """Add the disc that moves with a face of a flexible body; its frame is the body's."""
+    relaxed = system.ideal[body]
+    solid = system.parts[body]
+    disc = Body(carrier, CARRIER_INERTIA * solid.reduced.mass, CARRIER_INERTIA * solid.inertia)
+    system.add_rigid(
+        carrier, RigidBody(system.mbs, disc, start or relaxed, reference=relaxed.position[0])
     )

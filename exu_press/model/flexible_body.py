@@ -37,8 +37,9 @@ __all__ = [
     "add_part",
     "fit_to_guide",
     "guide_end",
+    "guide_points",
     "guided_motion",
-    "hold_driven",
+    "hold_on_face",
     "hold_pivot",
     "hold_upright",
     "joint_end",
@@ -165,11 +166,14 @@ def add_part(
         for number, face in enumerate(placed.loads[load_name] if load.body == name else ()):
             height = float(placed.reduced.interface(face).centre[2])
             points[load_point(load_name, number)] = face, (*placed.to_solid(load.point), height)
-    if placed.drive:
-        driven = placed.reduced.interface(placed.drive)
-        x, y = placed.to_solid(mechanism.body(name).local(mechanism.shaft.at))
-        for driven_point, arm in zip(DRIVEN, (0.0, driven.arm), strict=True):
-            points[driven_point] = placed.drive, (x + arm, y, float(driven.centre[2]))
+    carriers = {guide_points(guide): face for guide, face in placed.carriers.items()}
+    for names, face in (carriers | ({DRIVEN: placed.drive} if placed.drive else {})).items():
+        interface = placed.reduced.interface(face)
+        u, v, z = (float(value) for value in interface.centre)
+        if names == DRIVEN:
+            u, v = placed.to_solid(mechanism.body(name).local(mechanism.shaft.at))
+        for moved, arm in zip(names, (0.0, interface.arm), strict=True):
+            points[moved] = face, (u + arm, v, z)
     return add_flexible_body(
         mbs,
         placed.reduced,
@@ -194,6 +198,11 @@ def _height(placed: PlacedPart, joint: Joint, face: str) -> float:
 def load_point(load: str, number: int = 0) -> str:
     """Return the name of the point where a load acts on one of its faces."""
     return f"load {load} {number + 1}"
+
+
+def guide_points(guide: str) -> tuple[str, str]:
+    """Return the names of the points that move with a slot's or a moving guide's face."""
+    return f"guide {guide}", f"guide {guide} rim"
 
 
 def joint_end(body: FlexibleBody, placed: PlacedPart, joint: Joint, point: Point) -> Any:
@@ -247,8 +256,15 @@ def hold_pivot(
     return numbers
 
 
-def hold_driven(mbs: exu.MainSystem, disc: int, body: FlexibleBody, placed: PlacedPart) -> None:
-    """Couple the rotation of a body's driven face about its axis to that of a disc.
+def hold_on_face(
+    mbs: exu.MainSystem,
+    disc: int,
+    body: FlexibleBody,
+    placed: PlacedPart,
+    points: tuple[str, str] = DRIVEN,
+    at: Point = (0.0, 0.0),
+) -> None:
+    """Let a disc move in the plane with the mean motion of a body's face.
 
     A massless link along the tangent transmits a force, and the disc's pin its opposite: a couple
     on the face. A joint between frames would need twice as many equations, and a marker with three
@@ -259,17 +275,19 @@ def hold_driven(mbs: exu.MainSystem, disc: int, body: FlexibleBody, placed: Plac
         disc: object number of the disc, which has next to no mass.
         body: flexible.
         placed: part of the body.
+        points: of the body that move with the face, the first on the disc's pin.
+        at: that point in the disc's frame, which is turned as the body's, m.
     """
-    middle, rim = (np.array(body.point_positions[point]) for point in DRIVEN)
-    height = [0.0, 0.0, float(middle[2])]
+    middle, rim = (np.array(body.point_positions[point]) for point in points)
+    pinned = [*at, float(middle[2])]
     arm = RotationMatrixZ(-placed.angle) @ (rim - middle)
-    end = height + arm + np.cross((0.0, 0.0, 1.0), arm)
+    end = pinned + arm + np.cross((0.0, 0.0, 1.0), arm)
     pin, link = (
         [
             mbs.AddMarker(MarkerBodyRigid(bodyNumber=disc, localPosition=position)),
             body.add_point_marker(mbs, point),
         ]
-        for point, position in zip(DRIVEN, (height, end.tolist()), strict=True)
+        for point, position in zip(points, (pinned, end.tolist()), strict=True)
     )
     mbs.AddObject(ObjectJointRevolute2D(markerNumbers=pin))
     length = float(np.linalg.norm(arm))

@@ -27,8 +27,9 @@ def add_guide(system: System, guide: Guide) -> dict[str, int]:
     Returns:
         "force" and "moment", as far as the guide exerts them, -> object number.
     """
-    if guide.body in system.flexible:
+    if guide.is_rail and guide.body in system.flexible:
         return _add_flexible_guide(system, guide)
+    body, on = system.in_guide(guide)
     holds_across, holds_angle = system.constraints.guides[guide.name]
     added = {}
     if guide.lateral is not None:
@@ -36,9 +37,9 @@ def add_guide(system: System, guide: Guide) -> dict[str, int]:
     elif holds_across:
         added["force"] = _hold_across(system, guide)
     if guide.tilting is not None:
-        added["moment"] = system.spring(guide.body, "angle", guide.tilting)
+        added["moment"] = system.spring(body, "angle", guide.tilting)
     elif holds_angle:
-        added["moment"] = system.hold(guide.body, "angle", guide.on)
+        added["moment"] = system.hold(body, "angle", on)
     return added
 
 
@@ -100,16 +101,17 @@ def _hold_across(system: System, guide: Guide) -> int:
     """Hold a rigid body along its guide's normal; in the frame linear in the coordinates."""
     mechanism = system.mechanism
     if not guide.is_rail:
-        pin = system.marker(*mechanism.guided_end(guide))
+        (body, on), (_, point) = system.in_guide(guide), mechanism.guided_end(guide)
+        pin = system.marker(body, point)
         base = Body(GROUND, 0.0) if guide.on_frame else mechanism.body(guide.on)
         at = guide.at or mechanism.body(guide.body).centre_of_mass
         if guide.centre is not None:
-            markers = [system.marker(guide.on, base.local(guide.centre)), pin]
+            markers = [system.marker(on, base.local(guide.centre)), pin]
             distance = math.dist(at, guide.centre)
             circle = ObjectConnectorDistance(markerNumbers=markers, distance=distance)
             return int(system.mbs.AddObject(circle))
         angle = math.atan2(guide.normal[1], guide.normal[0]) - base.angle
-        return hold_direction(system, guide.key, (guide.on, base.local(at)), angle, pin)
+        return hold_direction(system, guide.key, (on, base.local(at)), angle, pin)
     rigid = system.rigid[guide.body]
     offset = np.dot(system.mechanism.body(guide.body).centre_of_mass, guide.normal)
     by_name = dict(zip(("x", "y", "angle"), (*guide.normal, 0.0), strict=True))

@@ -29,7 +29,8 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
     along = np.array(guide.direction)
     middle = np.array(guide.at or body.centre_of_mass)
     points = (middle + 0.5 * side * guideway.length * along for side in (-1.0, 1.0))
-    ends = [_end(system, guide.body, body.local((float(x), float(y)))) for x, y in points]
+    guided, _ = system.in_guide(guide)
+    ends = [_end(system, guided, body.local((float(x), float(y)))) for x, y in points]
     onset = 0.0 if oil is None else oil.contact_gap
     elastic = hertz(guideway.stiffness, 1.0)
     if not guide.is_rail:
@@ -78,12 +79,13 @@ def _add_moving(
     mechanism = system.mechanism
     base = Body(GROUND, 0.0) if guide.on_frame else mechanism.body(guide.on)
     at = guide.at or mechanism.body(guide.body).centre_of_mass
-    frame_angle = 0.0 if guide.on_frame else system.rigid[guide.on].frame_angle
+    _, on = system.in_guide(guide)
+    frame_angle = 0.0 if guide.on_frame else system.rigid[on].frame_angle
     line = base.local(guide.centre or at)
     return add_moving_guideway_contact(
         system.mbs,
         end,
-        (system.ground, line) if guide.on_frame else _end(system, guide.on, line),
+        (system.ground, line) if guide.on_frame else _end(system, on, line),
         across=math.atan2(guide.normal[1], guide.normal[0]) - base.angle + frame_angle,
         clearance=guideway.clearance,
         half_width=guideway.half_width,

@@ -58,8 +58,12 @@ def moved_start(
         frames: name -> start of the frame of a flexible body that starts deformed.
     """
     moved, moved_frames = {**start, **loaded_start(system)}, {}
-    for name in system.ideal.keys() & {*start, *frames}:  # deformed, or connected to such a body
-        ideal, loaded = system.ideal[name], moved[name]
+    owners = {carrier: body for (_, body), carrier in system.carriers.items()}
+    for name in {*start, *frames}:  # deformed, or connected to such a body
+        owner = owners.get(name, name)
+        if owner not in system.ideal:
+            continue
+        ideal, loaded = system.ideal[owner], moved[owner]
         change = Motion(
             loaded.position - ideal.position,
             loaded.velocity - ideal.velocity,

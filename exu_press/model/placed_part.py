@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError, error_prefix
-from exu_press.mechanism import Body, Mechanism, Motion, Point
+from exu_press.mechanism import Body, Joint, Mechanism, Motion, Point
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.threads import one_thread
 from exu_press.scene import Face, Flexible, Scene, mechanism_of
@@ -66,7 +66,8 @@ class PlacedPart:
         angle: of the body's frame in the solid's, rad.
         faces: joint -> the interfaces that it holds.
         drive: the interface that the drive turns; empty for other bodies than the crank.
-        guide: the interface that the guide holds; empty for bodies that have none.
+        guide: the interface that a guide of the frame holds; empty for bodies that have none.
+        carriers: name of a slot or of a guide of a moving body -> the interface that moves with it.
         loads: name of a load on the body -> the interfaces that carry it.
         middles: name of a load in the middle of its face -> the middle in the body's frame, m.
         damping_ratio: of every mode.
@@ -78,6 +79,7 @@ class PlacedPart:
     faces: Mapping[str, tuple[str, ...]]
     drive: str
     guide: str
+    carriers: Mapping[str, str]
     loads: Mapping[str, tuple[str, ...]]
     middles: Mapping[str, Point]
     damping_ratio: float
@@ -163,7 +165,9 @@ def _place_part(
     quiet: bool,
 ) -> PlacedPart:
     """Return one body's part; a joint without clearance has no radius."""
-    joints = mechanism.joints_of(body.name)
+    moving = [g for g in mechanism.guides if body.name in g.bodies and not g.is_rail]
+    pins = [Joint(g.name, g.at, body.name, g.on) for g in moving if g.at and g.body == body.name]
+    joints = [*mechanism.joints_of(body.name), *pins]
     is_driven = body.name == mechanism.crank
     named_faces = dict(table.faces)
     if table.matrices is not None:
@@ -174,11 +178,16 @@ def _place_part(
         named_faces = {**faces_given(shipped_faces(table.source)), **named_faces}
     faces = {joint.name: named_faces.get(joint.name, (Face(),)) for joint in joints}
     _refuse_shared(faces)
+    for pin in pins:
+        if len(faces[pin.name]) > 1:
+            raise InputError(f"faces.{pin.name}: holds several faces; allowed is one for a pin")
     drive = named_faces.get(DRIVE_FACE, ()) if is_driven else ()
     patches = {f"load {name}": load.face for name, load in loads.items() if load.face is not None}
     guide = mechanism.frame_guide(body.name)
     if guide is not None:
         patches = {GUIDE_FACE: named_faces.get(GUIDE_FACE, ()), **patches}
+    held_along = {guide.name for guide in moving} - {pin.name for pin in pins}
+    patches |= {f"guide {name}": named_faces[name] for name in sorted(held_along)}
     is_fitted = (
         table.origin is None
         and table.angle_deg is None
@@ -256,6 +265,8 @@ def _place_part(
         if is_driven
         else "",
         guide="" if guide is None else carriers[GUIDE_FACE],
+        carriers={pin.name: interfaces[pin.name][0] for pin in pins}
+        | {name: carriers[f"guide {name}"] for name in held_along},
         loads={
             name: (carriers[f"load {name}"],) if load.joint is None else interfaces[load.joint]
             for name, load in loads.items()

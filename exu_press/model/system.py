@@ -15,7 +15,7 @@ from exudyn.itemInterface import (
     ObjectGround,
 )
 
-from exu_press.mechanism import GROUND, Joint, Mechanism, Point, Spring
+from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Point, Spring
 from exu_press.mechanism.independent_constraints import (
     independent_constraints,
     with_all_coordinates,
@@ -54,6 +54,8 @@ class System:
         nodes: name -> node number.
         rigid: name -> rigid body.
         flexible: name -> flexible body.
+        carriers: (slot or guide of a moving body, flexible body) -> name of the rigid disc that
+            moves with the body's face there.
         sensors: (name, quantity) -> sensor number.
         local_forces: object numbers of connectors whose force is output in their own axes alone.
     """
@@ -89,6 +91,11 @@ class System:
         self.nodes: dict[str, int] = {}
         self.rigid: dict[str, RigidBody] = {}
         self.flexible: dict[str, FlexibleBody] = {}
+        self.carriers = {
+            (guide, body): f"{body} in {self.mechanism.guide(guide).key}"
+            for body, placed in parts.items()
+            for guide in placed.carriers
+        }
         self.sensors: dict[tuple[str, str], int] = {}
         self.local_forces: set[int] = set()
         still = MarkerNodeCoordinate(nodeNumber=self.ground_node, coordinate=0)
@@ -104,6 +111,12 @@ class System:
         local = point if body == GROUND else self.rigid[body].local(point)
         marker = MarkerBodyRigid(bodyNumber=self.bodies[body], localPosition=[*local, 0.0])
         return int(self.mbs.AddMarker(marker))
+
+    def in_guide(self, guide: Guide) -> tuple[str, str]:
+        """Return both rigid bodies of a slot or moving guide: a flexible body's is its disc."""
+        both = guide.body, guide.on
+        guided, on = (self.carriers.get((guide.name, body), body) for body in both)
+        return guided, on
 
     def joint_marker(self, joint: Joint, body: str, point: Point) -> int:
         """Add a marker for a joint; on a flexible body it follows its faces' mean motion."""

@@ -94,7 +94,8 @@ class Face(Table):
 
 OF_A_JOINT = ("name", "radius", "z", "eccentric")
 OF_A_PATCH = ("name", "x", "y", "z")
-"""Keys of faces that a joint holds, and of those that a guide or a load does."""
+OF_ANY = (*OF_A_JOINT, "x", "y")
+"""Keys of faces that a joint or a pin holds, of those that a guide or a load does, and of both."""
 
 
 @dataclass(frozen=True)
@@ -195,15 +196,20 @@ class Flexible(Table):
 
 
 def bodies_of(
-    tables: Any, mechanism: str, joints: Mapping[str, Sequence[str]]
+    tables: Any,
+    mechanism: str,
+    joints: Mapping[str, Sequence[str]],
+    patches: Mapping[str, Sequence[str]],
 ) -> dict[str, Flexible]:
     """Return the flexible bodies of a scene.
 
     Args:
-        given: body -> a shipped part's name or a STEP file's path, a mapping of keys or a
+        tables: body -> a shipped part's name or a STEP file's path, a mapping of keys or a
             `Flexible`.
         mechanism: its name.
-        joints: body -> names of its joints; `DRIVE_FACE` among the crank's.
+        joints: body -> names of its joints and of slots with a pin of it; `DRIVE_FACE` among the
+            crank's.
+        patches: body -> names of its guides, and of the slots in it.
 
     Raises:
         InputError: there is no such body or joint, or a key is not allowed.
@@ -221,9 +227,16 @@ def bodies_of(
             )
         with error_prefix(f"bodies.{name}."):
             body = bodies[name] = table_from(Flexible, "", _keys(value))
-        for joint in body.faces:
-            problem = f"bodies.{name}.faces.{joint}: {name} has no such joint"
-            demand_known(problem, joint, joints[name])
+        for held, faces in body.faces.items():
+            where = f"bodies.{name}.faces.{held}"
+            problem = f"{where}: {name} has no such joint"
+            demand_known(problem, held, [*joints[name], *patches[name]])
+            is_patch = held in patches[name]
+            for keys in (face_dict(face) for face in faces):
+                if isinstance(keys, dict):
+                    refuse_unknown(where, keys, OF_A_PATCH if is_patch else OF_A_JOINT)
+            if is_patch:
+                patch_given(where, faces)
     return bodies
 
 
@@ -290,7 +303,7 @@ def faces_given(table: Any) -> dict[str, tuple[Face, ...]]:
     faces = {
         name: patch_given(f"faces.{name}", value)
         if name == GUIDE_FACE
-        else _faces(f"faces.{name}", value, OF_A_JOINT)
+        else _faces(f"faces.{name}", value, OF_ANY)
         for name, value in table.items()
     }
     driven = faces.get(DRIVE_FACE)

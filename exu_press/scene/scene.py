@@ -303,16 +303,24 @@ class Scene(Table):
         mechanism = mechanism_of(self)
         joints = {b.name: [j.name for j in mechanism.joints_of(b.name)] for b in mechanism.bodies}
         joints[mechanism.crank].append(DRIVE_FACE)
+        patches: dict[str, list[str]] = {body.name: [] for body in mechanism.bodies}
         for guide in mechanism.guides:
             if guide.is_rail:
-                joints[guide.body].append(GUIDE_FACE)
-        bodies = bodies_of(self.bodies, mechanism.name, joints)
+                patches[guide.body].append(GUIDE_FACE)
+                continue
+            (joints if guide.is_slot else patches)[guide.body].append(guide.name)
+            if not guide.on_frame:
+                patches[guide.on].append(guide.name)
+        bodies = bodies_of(self.bodies, mechanism.name, joints, patches)
         for guide in mechanism.guides:
-            if not guide.is_rail and guide.bodies & bodies.keys():
-                raise InputError(
-                    f"bodies.{min(guide.bodies & bodies.keys())}: {guide.key} slides on it or with "
-                    "it; allowed is a rigid body there"
-                )
+            for name in sorted(guide.bodies & bodies.keys()) if not guide.is_rail else ():
+                if guide.name in patches[name] and guide.name not in bodies[name].faces:
+                    raise InputError(
+                        f"bodies.{name}.faces.{guide.name}: missing; allowed are the faces with "
+                        f"whose mean motion {guide.key} moves as a whole. Along a line of the body "
+                        "that deforms itself contact would run from face to face, and modes of "
+                        "fixed faces do not know that: allowed there is a rigid body"
+                    )
         motor = self.drive
         if mechanism.crank in bodies and motor is not None and motor.on_crank == 0.0:
             raise InputError(

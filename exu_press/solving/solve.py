@@ -3,6 +3,7 @@
 import dataclasses
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import exudyn as exu
 
@@ -72,12 +73,10 @@ def _spring_errors(model: SolvableModel, task: Task) -> Iterator[Criterion]:
         return
     from exu_press.integrate.criteria.interpolated_force import InterpolatedForceError
 
-    read = model.mbs.GetSensorValues
     for spring in model.mechanism.springs:
-        ends, velocity = (model.sensors[f"spring_{spring.name}", n] for n in ("ends", "velocity"))
-        yield InterpolatedForceError(
-            task, lambda r=ends, v=velocity: (read(r), read(v)), spring.force_on_second_end
-        )
+        sensors = [model.sensors[f"spring_{spring.name}", level] for level in ("ends", "velocity")]
+        values = partial(map, model.mbs.GetSensorValues, sensors)
+        yield InterpolatedForceError(task, values, spring.force_on_second_end)
 
 
 def settings_for(scene: Scene, *, keeps_redundant: bool = False) -> exu.SimulationSettings:

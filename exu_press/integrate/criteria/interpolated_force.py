@@ -1,7 +1,8 @@
 """Interpolation error of a force between two points, in the middle of a step."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 
@@ -25,7 +26,7 @@ class InterpolatedForceError:
     def __init__(
         self,
         task: Task,
-        read: Callable[[], tuple[Array, Array]],
+        read: Callable[[], Iterable[Any]],
         force: Callable[[Array, Array], Array],
     ) -> None:
         """Follow a force.

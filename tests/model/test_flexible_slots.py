@@ -1,4 +1,4 @@
-"""Flexible bodies in slots and moving guides: stiff they are rigid, bent a pin stays in its slot."""
+"""Flexible bodies in slots and moving guides: stiff they are rigid, bent a pin stays in place."""
 
 from dataclasses import replace
 

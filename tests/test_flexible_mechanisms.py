@@ -79,7 +79,9 @@ def test_ideal_links_bend_and_do_not_ring(links, names):
     assert np.abs(np.diff(force)).max() < 0.1 * force.max()
 
 
-@pytest.mark.parametrize("joint", ["crank_pin", "knuckle", "pivot"])
+@pytest.mark.parametrize(
+    "joint", ["knuckle", *(pytest.param(j, marks=pytest.mark.long) for j in ("crank_pin", "pivot"))]
+)
 def test_any_joint_between_them_has_clearance(links, joint):
     loose = {"kind": "dry", "clearance": 1e-4, "radius": 0.02, "contact": {"length": 0.02}}
     keys = {"joints": {joint: loose}, "revolutions": 0.02, "start": "centred"}

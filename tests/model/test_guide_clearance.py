@@ -71,7 +71,9 @@ def test_the_balance_of_the_press_closes(friction):
     )
 
 
-@pytest.mark.parametrize("mechanism", ["eccentric_press", "six_bar"])
+@pytest.mark.parametrize(
+    "mechanism", ["eccentric_press", pytest.param("six_bar", marks=pytest.mark.long)]
+)
 def test_any_mechanisms_guides_have_it(mechanism):
     guide = {"clearance": 5e-5, "friction": "coulomb"}
     result = simulate(Scene(mechanism=mechanism, joints={}, revolutions=0.3, guide=guide))

@@ -67,7 +67,13 @@ def test_the_drag_is_that_of_couettes_flow():
     assert lost < result["guide_loss"][-1] < 1.01 * lost
 
 
-@pytest.mark.parametrize("mechanism", ["eccentric_press", "six_bar", "drag_link"])
+@pytest.mark.parametrize(
+    "mechanism",
+    [
+        "six_bar",
+        *(pytest.param(m, marks=pytest.mark.long) for m in ("eccentric_press", "drag_link")),
+    ],
+)
 def test_any_mechanisms_guides_have_it(mechanism):
     result = simulate(Scene(mechanism=mechanism, joints={}, revolutions=0.3, guide=OILED))
     assert result.completed

@@ -1,5 +1,7 @@
 """Journals start where the loads of the ideal motion press them, or in the middle."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -116,9 +118,14 @@ def test_a_start_that_no_joint_needs_is_dropped():
     assert Scene(start="loaded").replace({"joints.crank_pin": "ideal", "joints.balls": "ideal"})
 
 
-@pytest.mark.parametrize("angle", [0.0, 90.0, 180.0])
-@pytest.mark.parametrize("kind", ["dry", "lubricated"])
-@pytest.mark.parametrize("flexible", [False, True], ids=["rigid", "flexible"])
+FEW = ("dry", 0.0, False), ("lubricated", 90.0, False), ("dry", 180.0, True)
+ANYWHERE = itertools.product(("dry", "lubricated"), (0.0, 90.0, 180.0), (False, True))
+
+
+@pytest.mark.parametrize(
+    ("kind", "angle", "flexible"),
+    [pytest.param(*v, marks=[pytest.mark.long] * (v not in FEW)) for v in ANYWHERE],
+)
 def test_the_press_of_the_paper_starts_loaded_at_any_angle(kind, angle, flexible):
     """Its contact's damper of 2.6e8 N s/m tells of every error of the start's rates."""
     joints = {"crank_pin": kind, **({"balls": "dry"} if kind == "dry" else {})}
@@ -137,8 +144,14 @@ def test_the_press_of_the_paper_starts_loaded_at_any_angle(kind, angle, flexible
     assert np.linalg.norm(begun, axis=1).max() < 1.2 * np.linalg.norm(wanted)
 
 
-@pytest.mark.parametrize("angle", [0.0, 180.0])
-@pytest.mark.parametrize("flexible", [False, True], ids=["rigid", "flexible"])
+@pytest.mark.parametrize(
+    ("angle", "flexible"),
+    [
+        (0.0, True),
+        (180.0, False),
+        *(pytest.param(a, a > 0.0, marks=pytest.mark.long) for a in (0.0, 180.0)),
+    ],
+)
 def test_a_strong_film_starts_with_its_force_and_rings_in_no_constraint(angle, flexible):
     """Its damper is of 1e10 N s/m, and steps begin with 0.1 us."""
     scene = Scene(

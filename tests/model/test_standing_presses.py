@@ -17,7 +17,7 @@ def press(revolutions=0.4, **changes):
     return scheduled(revolutions, **{**DRIVE, **changes})
 
 
-@pytest.mark.parametrize("angle", [60.0, 200.0])
+@pytest.mark.parametrize("angle", [60.0, pytest.param(200.0, marks=pytest.mark.long)])
 def test_a_press_that_its_brake_holds_stays(angle):
     """Against its weight, for as long as it stands, and to the last digits."""
     scene = press(start_time=[9.0], stop_time=None, clutch_off=None, brake_on=None)

@@ -81,7 +81,7 @@ print(json.dumps([made.mass, bool(same), "netgen" in sys.modules, "ngsolve" in s
 """
 
 
-@pytest.mark.parametrize("cache", ["folder", "read-only"])
+@pytest.mark.parametrize("cache", ["folder", pytest.param("read-only", marks=pytest.mark.long)])
 def test_this_process_loads_no_kernel_of_solids(cache, tmp_path):
     """Nor does it need a cache that can be written; a warning says that it has none."""
     folder = tmp_path / "cache"

@@ -118,9 +118,14 @@ def figures(keys, scales):
     return found
 
 
-@pytest.mark.parametrize("keys", [DRY, SHAFT, OILED], ids=["dry", "no gravity", "oiled"])
 @pytest.mark.parametrize(
-    "scales", [WATCH, pytest.param(SHIP, marks=pytest.mark.long)], ids=["watch", "ship"]
+    ("keys", "scales"),
+    [
+        pytest.param(DRY, WATCH, id="dry watch"),
+        pytest.param(OILED, WATCH, id="oiled watch"),
+        pytest.param(SHAFT, WATCH, marks=pytest.mark.long, id="watch without gravity"),
+        *(pytest.param(keys, SHIP, marks=pytest.mark.long) for keys in (DRY, SHAFT, OILED)),
+    ],
 )
 def test_a_scaled_machine_has_scaled_figures(keys, scales):
     one, other = figures(keys, (1.0, 1.0, 1.0)), figures(keys, scales)
@@ -151,7 +156,7 @@ WATCH_LINKS = {
 }
 
 
-@pytest.mark.parametrize("tolerance", [2e-4, 1e-5])
+@pytest.mark.parametrize("tolerance", [1e-5, pytest.param(2e-4, marks=pytest.mark.long)])
 def test_a_watch_sized_four_bar_has_the_forces_of_its_ideal_motion(tolerance):
     """0.1105 nN at 24 rpm: 2.1 nN at finer tolerances was an instability of the steps."""
     scene = Scene(

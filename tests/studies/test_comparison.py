@@ -29,7 +29,10 @@ def with_made_up_errors(result, first):
     return replace(result, info={**result.info, "errors": entries})
 
 
-@pytest.mark.parametrize("name", shipped_names())
+@pytest.mark.parametrize(
+    "name",
+    [n if "press" in n else pytest.param(n, marks=pytest.mark.long) for n in shipped_names()],
+)
 def test_five_variants_of_every_shipped_scene_fit_100_columns(name):
     """With errors of all sizes; every cell is whole."""
     scene = Scene.load(scene_path(name)).replace({"revolutions": 0.002, "settle": 0.0})

@@ -84,7 +84,7 @@ def test_no_process_and_no_file_is_left_behind(by, forks, monkeypatch, tmp_path)
 
 @posix
 @way
-@pytest.mark.parametrize("number", [0, 1])
+@pytest.mark.parametrize("number", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_a_process_that_is_killed_says_so(by, forks, number, monkeypatch):
     by(forks)
     scenes = {0.5: SHORT, 4.0: SHORT, 8.0: SHORT}

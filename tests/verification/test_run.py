@@ -48,9 +48,12 @@ SCENES = {
 }
 
 
+LONG = ("flexible", "film", "steps")
+
+
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(n, marks=pytest.mark.long) if n in ("flexible", "film") else n for n in SCENES],
+    [pytest.param(n, marks=pytest.mark.long) if n in LONG else n for n in SCENES],
 )
 def test_stated_errors_cover_the_true_ones(name):
     """Of at least nineteen in twenty figures, against a hundredth of the tolerance."""

@@ -10,7 +10,7 @@ DRY = Scene(
     mechanism="slider_crank",
     joints={"crank_pin": {"kind": "dry", "clearance": 1e-4, "radius": 0.03}},
     contact={"length": 0.05},
-    revolutions=2.25,
+    revolutions=1.25,
     start_angle_deg=30.0,
     output={"samples": ANGLES},
     solver={"tolerance": 1e-2},
@@ -26,7 +26,7 @@ def test_steps_end_on_the_angles(change, tmp_path):
     turned = np.degrees(samples["crank_angle"]) - samples.angle_deg
     off = turned - 360.0 * np.round(turned / 360.0)
     assert np.abs(off).max() < (3e-5 if change else 1e-7)
-    assert len(samples.at_angle(90.0)) == 3
+    assert len(samples.at_angle(90.0)) == 2
     assert samples.revolution.tolist() == sorted(samples.revolution.tolist())
     assert samples.angle_deg[:3].tolist() == [90.0, 200.0, 0.0], "from 30 deg on"
     assert samples["slider_position"].shape == (len(samples),)

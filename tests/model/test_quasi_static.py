@@ -112,8 +112,6 @@ def test_elastic_guides_start_loaded():
     assert force[0] == pytest.approx(force[-1], abs=10.0)
 
 
-pytest.importorskip("ngsolve")
-
 SMALL = {"modes": 2, "mesh_size": 0.1}
 LINKAGE = {"linkage": {"flexible": "linkage", **SMALL}}
 

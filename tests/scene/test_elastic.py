@@ -69,13 +69,6 @@ def test_inertia_of_a_steel_cube_unless_given():
     assert bodies["plunger_left"].inertia == pytest.approx(155.3 * 0.55**2 / 12)
 
 
-def test_slider_crank_too():
-    (guide,) = mechanism_of(
-        Scene(mechanism="slider_crank", guide={"lateral_stiffness": 1e9})
-    ).guides
-    assert guide.lateral.stiffness == 1e9
-
-
 @pytest.fixture(scope="module")
 def bare():
     return press(**IDEAL, press={"counterweight": False})

@@ -196,6 +196,9 @@ def test_a_coefficient_of_wear_that_no_pair_of_metals_has(coefficient, warns):
         wear={"coefficient": coefficient, "hardness": 2e9, "length": 0.1},
     )
     assert any("wear.coefficient" in text for text in scene_warnings(scene)) == warns
+    key = "wear.joints.crank_pin.coefficient"
+    there = scene.replace({"wear.coefficient": 1e-4, key: coefficient})
+    assert any(key in text for text in scene_warnings(there)) == warns
 
 
 @pytest.mark.parametrize(("modes", "warns"), [(100, False), (500, True)])

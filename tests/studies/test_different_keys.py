@@ -39,33 +39,19 @@ def test_a_changed_number_and_a_table_that_one_scene_has():
 
 
 def test_a_long_table_ends_with_the_number_of_further_keys():
-    sizes = {
-        key: 1.01 * value
-        for key, value in Scene().to_dict()["press"].items()
-        if key.endswith("_mass")
-    }
-    many = {f"press.{key}": value for key, value in sizes.items()}
-    friction = {
-        "friction.sigma_0": 1.0,
-        "friction.sigma_1": 1.0,
-        "friction.mu_static": 0.02,
-        "contact.stiffness": 1e9,
-        "contact.damping_max": 1.0,
-        "contact.damping_depth": 1.0,
-        "speed_rpm": 10.0,
-        "revolutions": 1.0,
-        "gravity": 1.0,
-        "start_angle_deg": 1.0,
-        "solver.tolerance": 0.01,
-        "film.length": 0.2,
-        "film.viscosity": 0.2,
-        "solver.max_step_deg": 1.0,
-        "press.bottom_dead_centre": 0.4,
-    }
+    """A press of masses that all differ, of another oil, in a run of its own."""
+    masses = {k: v for k, v in Scene().to_dict()["press"].items() if k.endswith("_mass")}
+    changes = {f"press.{key}": 1.01 * mass for key, mass in masses.items()}
+    changes |= dict.fromkeys(("revolutions", "gravity", "start_angle_deg"), 1.0)
+    changes |= dict.fromkeys(("friction.sigma_0", "friction.sigma_1"), 1.0)
+    changes |= dict.fromkeys(("contact.damping_max", "contact.damping_depth"), 1.0)
+    changes |= {"friction.mu_static": 0.02, "contact.stiffness": 1e9, "speed_rpm": 10.0}
+    changes |= {"film.length": 0.2, "film.viscosity": 0.2, "solver.tolerance": 0.01}
+    changes |= {"solver.max_step_deg": 1.0, "press.bottom_dead_centre": 0.4}
     scene = Scene(friction={"law": "lugre"})
-    _, *lines = different_keys({"a": scene, "b": scene.replace({**many, **friction})})
+    _, *lines = different_keys({"a": scene, "b": scene.replace(changes)})
     assert len(lines) == MOST_KEYS + 1
-    assert lines[-1][0] == f"{len(many) + len(friction) - MOST_KEYS} more keys"
+    assert lines[-1][0] == f"{len(changes) - MOST_KEYS} more keys"
 
 
 def test_a_joint_that_a_mechanism_has_not_has_no_kind():

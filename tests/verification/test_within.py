@@ -79,6 +79,8 @@ def calm():
 
 
 def test_what_no_tolerance_delivers_is_told_with_its_distribution(calm):
+    met = accuracy_lines(AchievedAccuracy(calm, 3.3e-5, {}), 0.01)
+    assert met == ["every figure asked for within 1 %: tolerance 3.3e-05"]
     missed = {NAME: Distribution(63, (220.0, 5.0), (120.0, 9.0), SPREAD), "energy.dissipated": None}
     assert accuracy_lines(AchievedAccuracy(calm, 1e-6, missed), 0.001) == [
         f"{NAME}: not within 0.1 %, down to a tolerance of 1e-06",

@@ -82,32 +82,15 @@ def test_no_process_and_no_file_is_left_behind(by, forks, monkeypatch, tmp_path)
             os.kill(process, 0)
 
 
-@posix
-@way
-@pytest.mark.parametrize("number", [0, pytest.param(1, marks=pytest.mark.long)])
-def test_a_process_that_is_killed_says_so(by, forks, number, monkeypatch):
-    by(forks)
-    scenes = {0.5: SHORT, 4.0: SHORT, 8.0: SHORT}
-    scenes[(0.5, 4.0)[number]] = LONG
-    monkeypatch.setattr(refinement, "plan", lambda _: scenes)
+@linux
+def test_a_process_that_is_killed_says_so(by, monkeypatch):
+    """While the others go on; tests/parts kills new processes too."""
+    by(True)
+    monkeypatch.setattr(refinement, "plan", lambda _: {0.5: LONG, 4.0: SHORT, 8.0: SHORT})
     with RefinementRuns(LONG) as refinements:
-        os.kill(refinements._children[number][0].pid, signal.SIGTERM)
+        os.kill(refinements._children[0][0].pid, signal.SIGTERM)
         with pytest.raises(RuntimeError, match=r"refinement run failed \(killed by SIGTERM\)"):
             list(refinements.results())
-
-
-@linux
-def test_what_goes_wrong_in_it_is_told(by, monkeypatch):
-    def fails(scene, start):
-        raise ValueError("no oil")
-
-    by(True)
-    monkeypatch.setattr(refinement, "run_once", fails)
-    with (
-        RefinementRuns(SHORT) as refinements,
-        pytest.raises(RuntimeError, match="ValueError: no oil"),
-    ):
-        list(refinements.results())
 
 
 def test_beside_another_thread_the_process_is_a_new_one():

@@ -1,12 +1,13 @@
 """Forces of joints and torque of the drive over crank angle."""
 
 from collections.abc import Mapping, Sequence
+from itertools import chain
 
 from matplotlib.figure import Figure
 
 from exu_press.mechanism import GROUND
 from exu_press.numerics.arrays import Array, lengths
-from exu_press.plots.busiest import busiest
+from exu_press.plots.busiest import busiest, mirror
 from exu_press.plots.canvas import (
     angle_axis,
     crank_degrees,
@@ -17,7 +18,7 @@ from exu_press.plots.canvas import (
 )
 from exu_press.plots.peaks import mark_peak
 from exu_press.plots.scales import contain_bars, impact_scale, note
-from exu_press.plots.style import colour_of, with_style
+from exu_press.plots.style import line_of, with_style
 from exu_press.plots.typesetting import plain
 from exu_press.quantities.catalogue import GUIDE_FORCE, JOINT_FORCE, PEAK_TORQUE
 from exu_press.result import Result
@@ -38,9 +39,11 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     it says so.
     """
     everyone = list(results.values())
-    drawn, rest = busiest(everyone, _joints(everyone), "force", MOST_JOINTS)
+    drawn, _ = busiest(everyone, _joints(everyone), "force", MOST_JOINTS)
     heading = "Joint forces and drive torque"
-    if rest:
+    loaded = {f"{name}_force" for run in everyone for name in run.joints} & {*chain(*everyone)}
+    shown = {f"{name}_force" for name in drawn}
+    if any(not {channel, mirror(channel)} & shown for channel in loaded):
         heading += " (not all joints are drawn)"
     figure = new_figure(heading, results, (13.0, 7.6))
     panel_of = {title: (f"{name}_force", "force, kN", 1e-3) for name, title in drawn.items()}
@@ -50,12 +53,12 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
         curves, peaks = [], []
         for index, (label, result) in enumerate(results.items()):
             if channel in result:
-                magnitude, colour = _magnitude(result[channel]), colour_of(index)
+                magnitude, line = _magnitude(result[channel]), line_of(index)
                 values = scale * magnitude
-                curve(axes, result, values, color=colour, linewidth=0.9, label=plain(label))
+                curve(axes, result, values, **line, linewidth=0.9, label=plain(label))
                 curves.append((crank_degrees(result), values))
                 figure_name = _figure_of(result, channel)
-                peaks.append(mark_peak(axes, result, figure_name, magnitude, scale, colour))
+                peaks.append(mark_peak(axes, result, figure_name, magnitude, scale, line["color"]))
         signed = any(values.min() < -1e-3 * values.max() for _, values in curves)
         words = impact_scale(axes, curves, signed=signed)
         contain_bars(axes)

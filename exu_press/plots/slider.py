@@ -21,7 +21,7 @@ from exu_press.plots.canvas import (
 from exu_press.plots.decimate import decimate
 from exu_press.plots.peaks import mark_peaks
 from exu_press.plots.scales import contain_bars, impact_scale, note, widen
-from exu_press.plots.style import IDEAL, colour_of, points, with_style
+from exu_press.plots.style import IDEAL, line_of, points, with_style
 from exu_press.plots.typesetting import plain
 from exu_press.quantities.catalogue import MEAN_ACCELERATION, PEAK_ACCELERATION
 from exu_press.quantities.slider import of_output
@@ -68,7 +68,7 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     output = mechanism_of(next(iter(results.values())).scene).output
     ideals = {label: _ideal(result) for label, result in results.items()}
     for index, (label, result) in enumerate(results.items()):
-        _draw_run(panels, result, ideals[label], label, colour_of(index))
+        _draw_run(panels, result, ideals[label], label, line_of(index))
     _draw_ideals(panels, results, ideals)
     for axes, (title, unit) in zip(panels.flat, TITLES, strict=True):
         axes.set(title=title, ylabel=unit.format(unit=output.unit))
@@ -87,10 +87,12 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     return figure
 
 
-def _draw_run(panels: Panels, result: Result, ideal: Motion, label: str, colour: str) -> None:
+def _draw_run(
+    panels: Panels, result: Result, ideal: Motion, label: str, line: dict[str, Any]
+) -> None:
     """Draw one run in all six panels."""
     position, velocity = result["slider_position"], result["slider_velocity"]
-    thick, thin = {"color": colour, "linewidth": 2.0}, {"color": colour, "linewidth": 0.9}
+    thick, thin = {**line, "linewidth": 2.0}, {**line, "linewidth": 0.9}
     curve(panels[0, 0], result, 1e3 * position, **thick, label=plain(label))
     curve(panels[0, 1], result, 1e6 * (position - ideal[0]), **thin)
     curve(panels[1, 0], result, velocity, **thick)

@@ -28,6 +28,7 @@ __all__ = [
     "SHADE",
     "check_drawable",
     "colour_of",
+    "line_of",
     "look",
     "points",
     "read_style",
@@ -54,6 +55,9 @@ COLOURS = {
 }
 """Hues of Okabe and Ito's colour-blind-safe palette, less black (the ideal's) and yellow (too
 pale), with lightnesses apart from each other, for grey prints: most for the first ones."""
+
+DASHES = ("-", "-", "-", (0, (5, 1.5)), (0, (4, 1.2, 1, 1.2)), (0, (1, 0.8)))
+"""Line styles of runs over each other: as in grey, those after the third are near earlier ones."""
 
 RUN = COLOURS["blue"]
 IDEAL = "#000000"
@@ -202,3 +206,8 @@ def with_style(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figur
 def colour_of(index: int) -> str:
     """Return the colour of the n-th run in a picture; after the palette's end it starts again."""
     return tuple(COLOURS.values())[index % len(COLOURS)]
+
+
+def line_of(index: int) -> dict[str, Any]:
+    """Return colour and style of the line of the n-th run in a picture of several."""
+    return {"color": colour_of(index), "linestyle": DASHES[index % len(DASHES)]}

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.style import GREY, colour_of, with_style
+from exu_press.plots.style import GREY, line_of, with_style
 from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain, typeset
 from exu_press.studies.curve_comparison import CurveComparison
@@ -39,7 +39,7 @@ def curve_panel(
     """Draw a measured curve, (m,), and computed ones at its places, by label, all in a unit."""
     axes.plot(curve.at, measured, ".", color=GREY, markersize=3, label="measured")
     for index, (label, values) in enumerate(computed.items()):
-        axes.plot(curve.at, values, color=colour_of(index), label=plain(label))
+        axes.plot(curve.at, values, **line_of(index), label=plain(label))
     axes.set_title(plain(f"Curve {name}"))
     axes.set_xlabel(f"{curve.over.replace('_', ' ')}, {OVER[curve.over]}")
     axes.set_ylabel(plain(typeset(f"{curve.name.replace('_', ' ')}, {unit}")))

@@ -13,7 +13,7 @@ from exu_press.errors import InputError
 from exu_press.plots import force_figure, orbit_figure, slider_figure
 from exu_press.plots.file import save_figure
 from exu_press.plots.format import PictureFormat, drawn_as
-from exu_press.plots.style import COLOURS
+from exu_press.plots.style import COLOURS, line_of
 
 COLOUR_BLIND = {
     "protanopia": ((0.152, 1.053, -0.205), (0.115, 0.786, 0.099), (-0.004, -0.048, 1.052)),
@@ -43,6 +43,15 @@ def test_colours_stay_apart_in_grey_and_for_colour_blind_readers():
         for matrix in COLOUR_BLIND.values():
             seen = [lab(np.array(matrix) @ linear(colour)) for colour in (first, second)]
             assert np.linalg.norm(seen[0] - seen[1]) > 16.0, (first, second)
+
+
+def test_five_runs_stand_apart_in_grey():
+    """By lightness alone where their lines have one style."""
+    lines = [line_of(number) for number in range(5)]
+    for first, second in itertools.combinations(lines, 2):
+        lightness = [lab(linear(line["color"]))[0] for line in (first, second)]
+        if first["linestyle"] == second["linestyle"]:
+            assert abs(lightness[0] - lightness[1]) > 15.0, (first, second)
 
 
 @pytest.mark.parametrize("width", ["84mm", "17.4cm"])

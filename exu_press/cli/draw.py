@@ -34,7 +34,7 @@ from exu_press.mechanism import (
 from exu_press.mechanism.drawing_warnings import drawing_warnings
 from exu_press.mechanism.examine import Examination, examine
 from exu_press.mechanism.stroke import units_of_output
-from exu_press.mechanism.transmission import group_equal_angles
+from exu_press.mechanism.transmission import group_equal_angles, least_transmission_angle
 from exu_press.scene.file import parse_assignment
 from exu_press.schema.checks import demand_known
 from exu_press.schema.table import table_from
@@ -232,10 +232,14 @@ def _summary(examined: Examination) -> list[tuple[str, str]]:
         velocity = f"{units.velocity_scale * peak:.3f} {units.velocity}"
         rows.append(("velocity, max", f"{velocity} {angle}"))
         rows.append(("mechanical advantage, min", f"{1 / peak:.3f} {units.advantage} {angle}"))
-    for name, values in group_equal_angles(examined.transmission):
-        degrees = np.degrees(values)
-        low = f"{degrees.min():.2f} deg at {degrees.argmin()} deg"
-        rows.append(("transmission angle, min", f"{name}: {low}"))
+    for names, values in group_equal_angles(examined.transmission):
+        name, near = names.partition(",")[0], math.radians(int(values.argmin()))
+        least, crank = (
+            math.degrees(value)
+            for value in least_transmission_angle(examined.mechanism, name, near)
+        )
+        low = f"{least:.2f} deg at {crank % 360.0:.1f} deg"
+        rows.append(("transmission angle, min", f"{names}: {low}"))
     return rows
 
 

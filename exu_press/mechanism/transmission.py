@@ -17,6 +17,7 @@ References
 from collections.abc import Mapping
 
 import numpy as np
+from scipy.optimize import minimize_scalar
 
 from exu_press.mechanism.groups import groups_of
 from exu_press.mechanism.guide_motion import guide_direction
@@ -24,7 +25,9 @@ from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Guide, Joint
 from exu_press.numerics.arrays import Array
 
-__all__ = ["group_equal_angles", "transmission_angles"]
+__all__ = ["group_equal_angles", "least_transmission_angle", "transmission_angles"]
+
+NEIGHBOUR = np.radians(1.0)
 
 
 def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
@@ -88,6 +91,23 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
         lines += [guide_direction(mechanism, guide, guide.normal, motion) for guide in guides]
         transmission[within.name] = _acute_angle(*lines)
     return transmission
+
+
+def least_transmission_angle(mechanism: Mechanism, name: str, near: float) -> tuple[float, float]:
+    """Return the least transmission angle of a dyad, rad, and the crank angle of it, rad.
+
+    Args:
+        mechanism: as of `transmission_angles`.
+        name: of the joint or guide inside the dyad.
+        near: crank angle of the least one of whole degrees, rad.
+    """
+
+    def value(angle: float) -> float:
+        return float(transmission_angles(mechanism, np.array([angle]))[name][0])
+
+    bounds = near - NEIGHBOUR, near + NEIGHBOUR
+    refined = minimize_scalar(value, bounds=bounds, method="bounded", options={"xatol": 1e-6})
+    return min((value(near), near), (float(refined.fun), float(refined.x)))
 
 
 def _acute_angle(first: Array, second: Array) -> Array:

@@ -76,7 +76,7 @@ def _per_stroke(kind: str) -> Callable[[Reading, str], float | None]:
 BALANCE = (
     Quantity("energy.input", "J", "energy that drive and loads put in",
              FLOW, _end("input"),
-             title="energy put in", signed=True, cumulative=True),
+             title="energy from drive and loads", signed=True, cumulative=True),
     Quantity("energy.input_per_stroke", "J",
              "energy that drive and loads put in per revolution, over whole revolutions",
              FLOW, _per_stroke("input"),

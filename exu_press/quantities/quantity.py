@@ -34,11 +34,11 @@ class Extreme(Enum):
 
 PREFIXES = {"n": 1e9, "u": 1e6, "m": 1e3, "k": 1e-3, "M": 1e-6, "": 1.0}
 
-SCALED_UNITS = ("m/s", "m/s^2", "N", "N m", "J", "W")
-"""Units that have smaller prefixes for small machines; lengths are in mm and um anyway."""
+SCALED_UNITS = {"m/s": "mun", "m/s^2": "mun", **dict.fromkeys(("N", "N m", "J", "W"), "Mkmun")}
+"""Unit -> prefixes that it may have in tables; lengths are in mm and um anyway."""
 
-SMALL = 1e-3
-"""Value in the usual unit below which a line of a table has a smaller one."""
+LEAST, MOST = 0.1, 1e4
+"""Largest values of a line of a table that keep the usual unit."""
 
 
 def exact_laws(scene: Scene, owner: str, value: float) -> float:
@@ -113,18 +113,17 @@ class Quantity:
         return self.name if self.owner is Owner.RUN else f"{self.owner.value}.{owner}.{self.name}"
 
     def in_scaled_unit(self, values: Iterable[float]) -> "Quantity":
-        """Return the quantity in the unit of small machines, where its own makes values small.
+        """Return the quantity in another unit where its own makes values very small or large.
 
         >>> from exu_press.quantities.catalogue import JOINT_FORCE
-        >>> [JOINT_FORCE.in_scaled_unit([largest]).display_unit for largest in (2e3, 0.02)]
-        ['kN', 'mN']
+        >>> [JOINT_FORCE.in_scaled_unit([force]).display_unit for force in (2e3, 4.4, 0.02, 3e8)]
+        ['kN', 'N', 'mN', 'MN']
         """
         largest = max(map(abs, values), default=0.0)
-        if self.unit not in SCALED_UNITS or not 0.0 < largest * self.scale < SMALL:
+        if self.unit not in SCALED_UNITS or LEAST <= largest * self.scale < MOST or not largest:
             return self
-        prefix = next(
-            (candidate for candidate in ("", "m", "u") if largest * PREFIXES[candidate] >= 1.0), "n"
-        )
+        prefixes = sorted(["", *SCALED_UNITS[self.unit]], key=lambda prefix: PREFIXES[prefix])
+        prefix = next((p for p in prefixes if largest * PREFIXES[p] >= 1.0), prefixes[-1])
         return replace(self, display_unit=f"{prefix}{self.unit}")
 
     @property

@@ -148,7 +148,7 @@ def _redundancy_warnings(scene: Scene) -> Iterator[str]:
     """Yield the ideal joints between which forces cannot be told apart."""
     constraints = independent_constraints(mechanism_of(scene), scene.joints.ideal)
     if constraints.keeps_redundant:
-        names = ", ".join(name.replace("_", " ") for name in constraints.redundant)
+        names = ", ".join(constraints.redundant)
         yield (
             f"{names}: other ideal joints hold the same at most crank angles; the motion is right, "
             "but how joints divide the forces among them is not determined; give one of them "

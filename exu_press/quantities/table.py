@@ -6,7 +6,10 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
+import numpy as np
+
 from exu_press.quantities.catalogue import CATALOGUE, GROUPS
+from exu_press.quantities.dead_centre import ideal_angles
 from exu_press.quantities.kind import LOAD
 from exu_press.quantities.observed import with_observed
 from exu_press.quantities.quantity import Owner, Quantity
@@ -25,6 +28,7 @@ __all__ = [
     "lines_by_heading",
     "narrow_cell",
     "quantity_cells",
+    "remarks",
     "run_lines",
     "shown_value",
     "span_text",
@@ -45,6 +49,9 @@ SINGULAR = {
     Owner.LOAD: "load",
     Owner.BODY: "body",
 }
+
+NEAR_CENTRE = 2e-3
+"""Revolutions within which a dead centre of the ideal slider is known."""
 
 HORIZON = "predictability horizon, ms"
 
@@ -139,11 +146,49 @@ def with_headings(cells: Mapping[str, Sequence[Sequence[str]]]) -> list[list[str
     return table
 
 
+def remarks(results: Mapping[str, Result]) -> list[str]:
+    """Return what the table of runs by label does not show: strokes of parts, and what none has."""
+    values = {label: values_of(result) for label, result in results.items()}
+    texts = []
+    for name in ("stroke", "swing"):
+        parts = [
+            label
+            for label, result in results.items()
+            if name in values[label] and "crank_angle" in result and _is_part(Reading(result))
+        ]
+        if parts:
+            runs = f" ({', '.join(parts)})" if len(results) > 1 else ""
+            texts.append(f"{name}: of the part that was run, without both dead centres{runs}.")
+    titled = {
+        quantity.name
+        for result in results.values()
+        for quantity in with_observed(CATALOGUE, result.scene)
+        if quantity.owner is Owner.RUN and quantity.title
+    }
+    read = {name for v in values.values() for name in v if v[name].value is not None}
+    declared = dict.fromkeys(name for of_run in values.values() for name in of_run)
+    missing = [name for name in declared if name in titled - read]
+    if missing and len(results) > 1:
+        why = "too short, or without what they are read from"
+        texts.append(f"No run has {', '.join(missing)} ({why}).")
+    return texts
+
+
+def _is_part(run: Reading) -> bool:
+    """Return whether a run does not come to both of the output's dead centres."""
+    first, last = run["crank_angle"][[0, -1]] / (2.0 * np.pi)
+    return any(
+        np.ceil(first - about - NEAR_CENTRE) > last - about + NEAR_CENTRE
+        for about in np.array(ideal_angles(run.mechanism)) / (2.0 * np.pi)
+    )
+
+
 def run_lines(result: Result) -> list[str]:
     """Return one run's quantities, a line each, below its status and its window."""
     head = f"{result.info['status']}; read from revolutions {span_text(Reading(result))}"
     table = with_headings(quantity_cells({"": result}, narrow_cell))
-    return [head, *columns(table), *textwrap.wrap(BRACKETS, WIDTH)]
+    texts = [BRACKETS, *remarks({"": result})]
+    return [head, *columns(table), *(x for text in texts for x in textwrap.wrap(text, WIDTH))]
 
 
 def span_text(run: Reading) -> str:

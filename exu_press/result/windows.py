@@ -6,7 +6,14 @@ from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import evaluate, spline
 from exu_press.result.result import Result
 
-__all__ = ["at_instant", "revolutions_of", "settled_part", "up_to", "window"]
+__all__ = [
+    "at_instant",
+    "interpolated_window",
+    "revolutions_of",
+    "settled_part",
+    "up_to",
+    "window",
+]
 
 
 def window(run: Result, begin: float, end: float) -> Result:
@@ -35,14 +42,14 @@ def settled_part(run: Result) -> Result:
     begin, end = np.interp(
         start + 2.0 * np.pi * np.array([settle_revolutions, last]), angle, run.time
     )
-    whole_revolutions = _interpolated_window(run, float(begin), float(end))
+    whole_revolutions = interpolated_window(run, float(begin), float(end))
     energies = [name for name, unit in run.units.items() if unit == "J"]
     return whole_revolutions.map_values(
         lambda name, values: values - values[0] if name in energies else values
     )
 
 
-def _interpolated_window(run: Result, begin: float, end: float) -> Result:
+def interpolated_window(run: Result, begin: float, end: float) -> Result:
     """Return a run's record between two instants, s, at which channels are interpolated."""
     time, near = run.time, 1e-9 * (end - begin)
     first, last = np.searchsorted(time, [begin + near, end - near])

@@ -13,6 +13,7 @@ from exu_press.quantities.table import (
     difference_lines,
     narrow_cell,
     quantity_cells,
+    remarks,
     shown_value,
     span_text,
     with_headings,
@@ -93,7 +94,8 @@ class Comparison:
             body, legend = columns([*head, *fitted], right=True, gap=1), [BRACKETS]
         above = self._wrap([self.common_facts, self.common_window[1], *notes.lines])
         pairs = difference_lines(self.common_window[0]) if wide or len(labels) == 2 else []
-        return [*above, "", *body, "", *self._wrap(legend), *pairs]
+        below = self._wrap([*legend, *remarks(self.common_window[0])])
+        return [*above, "", *body, "", *below, *pairs]
 
     @staticmethod
     def _wrap(texts: Sequence[str]) -> list[str]:

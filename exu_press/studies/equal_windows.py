@@ -9,7 +9,7 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.quantities.reading import Reading
 from exu_press.result import Result
-from exu_press.result.windows import up_to
+from exu_press.result.windows import interpolated_window
 from exu_press.scene import Scene
 
 __all__ = ["require_common_window", "with_equal_windows"]
@@ -91,7 +91,8 @@ def _restrict(label: str, run: Result, begin: float, end: float) -> Result:
             f"{CURE}"
         )
     angle = run.scene.start_angle + 2.0 * np.pi * end
-    record = up_to(run, float(np.interp(angle, run["crank_angle"], run.time)))
+    last = float(np.interp(angle, run["crank_angle"], run.time))
+    record = interpolated_window(run, float(run.time[0]), last)
     info: Any = {**run.info, "horizon": None}
     info.pop("errors", None)
     scene = run.scene.replace({"settle": begin, "revolutions": end})

@@ -19,7 +19,7 @@ def drawn(tmp_path):
 def test_a_mechanism_file_is_described(drawn, capsys):
     assert main(["draw", str(drawn)]) == 0
     out = capsys.readouterr().out
-    for part in ("crank_pin", "60.000 mm", "180.000 deg", "wrist_pin: 85.51 deg at 90 deg"):
+    for part in ("crank_pin", "60.000 mm", "180.000 deg", "wrist_pin: 85.51 deg at 90.0 deg"):
         assert part in out
 
 

@@ -147,4 +147,4 @@ def test_coupled_cranks_go_through_their_dead_centres(start):
     assert np.abs(rods).max() < 100.0, "half the rods' centrifugal force and weight"
     assert result.quantity("energy.residual").value < 1e-3
     (told,) = result.summary()["warnings"]
-    assert told.startswith("other far pin: other ideal joints hold the same")
+    assert told.startswith("other_far_pin: other ideal joints hold the same")

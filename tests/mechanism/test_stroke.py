@@ -9,7 +9,11 @@ from drawings import four_bar, slider_crank, stephenson
 from exu_press.mechanism import Press, SliderCrank, press, shipped_mechanism
 from exu_press.mechanism import slider_crank as shipped_slider_crank
 from exu_press.mechanism.stroke import stroke_of
-from exu_press.mechanism.transmission import group_equal_angles, transmission_angles
+from exu_press.mechanism.transmission import (
+    group_equal_angles,
+    least_transmission_angle,
+    transmission_angles,
+)
 
 ANGLES = np.radians(np.arange(0.0, 361.0))
 R, L = 0.1, 0.4
@@ -103,3 +107,14 @@ def test_equal_transmission_angles_are_named_together_smallest_first():
     values = np.array([1.0, 0.5])
     found = group_equal_angles({"a": values + 0.1, "left": values, "right": values.copy()})
     assert [name for name, _ in found] == ["left, right", "a"]
+
+
+def test_the_least_transmission_angle_is_between_whole_degrees():
+    """Of a four-bar, where its crank lies on the frame: 0.3 deg from a whole one here."""
+    at, (crank, coupler, rocker, base) = np.radians(90.3), (0.1, 0.4, 0.3, 0.35)
+    mechanism = four_bar(crank, coupler, rocker, base, at)
+    values = transmission_angles(mechanism, ANGLES)["knuckle"]
+    least, angle = least_transmission_angle(mechanism, "knuckle", ANGLES[values.argmin()])
+    cosine = (coupler**2 + rocker**2 - (base - crank) ** 2) / (2 * coupler * rocker)
+    assert least == pytest.approx(np.arccos(cosine), abs=1e-10) and least < values.min()
+    assert angle == pytest.approx(2.0 * np.pi - at, abs=1e-5)

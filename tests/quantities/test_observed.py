@@ -70,8 +70,8 @@ def test_the_name_alone_tells_unit_and_meaning():
     [
         ({"average": [1e-3]}, "1ms is read already"),
         ({"sampled": [5e3, 5000.0]}, "5khz is read already"),
-        ({"average": [0.0]}, "average = 0.0: allowed is a whole number > 0 of ns"),
-        ({"average_deg": [1e-5]}, "of mdeg"),
+        ({"average": [0.0]}, "average has 0.0 s; allowed are whole multiples of 1e-09 s"),
+        ({"average_deg": [1e-5]}, "multiples of 0.001 deg"),
         ({"averages": [1.0]}, "averages"),
     ],
 )

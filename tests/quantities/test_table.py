@@ -24,7 +24,7 @@ def test_guides_with_friction_say_what_it_takes():
     result = simulate(rubbing)
     lost = result.quantity("guides.slider.dissipated").value
     (line,) = lines_by_heading({"": result})["guide of slider"]
-    assert line.title == "energy dissipated, J" and line.values[0].value == lost > 0.0
+    assert line.title == "energy dissipated, mJ" and line.values[0].value == lost > 0.0
     assert run_lines(result)[0] == "completed; read from revolutions 0 to 0.1, with the start"
 
 
@@ -126,3 +126,10 @@ def test_many_names_are_wrapped(bare):
     lines = difference_lines(runs(bare, dry=dry, oil=oil))
     assert max(map(len, lines)) <= 100
     assert " ".join(line.strip() for line in lines).count("knuckle") == 20
+
+
+def test_a_stroke_without_both_dead_centres_is_said_to_be_that_of_a_part():
+    half = Scene(mechanism="slider_crank", joints={}, revolutions=0.5)
+    says = "stroke: of the part that was run, without both dead centres."
+    assert says not in run_lines(simulate(half))
+    assert says in run_lines(simulate(half.replace({"revolutions": 0.4})))

@@ -141,3 +141,28 @@ def test_whole_revolutions_behind_a_motor_are_equal_windows(scene):
     runs = [simulate(driven.replace({"joints.crank_pin": kind})) for kind in ("ideal", "dry")]
     comparison = runs[0].compare(runs[1])
     assert comparison.common_window[1] == ""
+
+
+def test_what_no_run_is_long_enough_for_is_named_below_the_table(scene):
+    """A mean over 0.1 s in runs of 0.05 s, and the stroke of the run without a dead centre."""
+    asked = {"output.readings": {"average": [0.1]}, "revolutions": 0.2}
+    short = scene.replace({**asked, "speed_rpm": 240.0})
+    text = " ".join(short_runs_lines(short))
+    assert "No run has" in text and "peak_acceleration.mean_100ms" in text
+    assert "stroke: of the part that was run, without both dead centres (a, b)." in text
+
+
+def short_runs_lines(scene):
+    return simulate(scene).compare(simulate(scene), labels=("a", "b")).lines()
+
+
+def test_windows_that_are_cut_end_between_steps(scene):
+    """At the revolution that all have, not at the step before it."""
+    long, short = (
+        simulate(scene.replace({"revolutions": turns, "solver": {"step": 7e-4}}))
+        for turns in (0.9, 0.5)
+    )
+    windows, text = long.compare(short, labels=("a", "b")).common_window
+    assert "read from revolutions 0 to 0.5" in text
+    ends = [run["crank_angle"][-1] / (2.0 * np.pi) for run in windows.values()]
+    assert ends == pytest.approx([0.5, 0.5], abs=1e-9)

@@ -104,6 +104,8 @@ def _header(file: Path) -> tuple[Any, ...]:
     except Exception as error:  # whatever the reader raises of foreign bytes
         raise InputError(f"{file}: is no Matrix Market file ({error})") from None
     size = file.stat().st_size
+    if min(rows, columns) < 1:
+        raise InputError(f"{file}: states {rows} x {columns}; allowed is one row at least")
     if max(rows, columns) > MOST_UNKNOWNS or entries > min(MOST_ENTRIES, size / LEAST_BYTES):
         raise InputError(
             f"{file}: states {rows} x {columns} with {entries} entries, in {size} bytes; allowed "

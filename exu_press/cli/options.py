@@ -124,12 +124,12 @@ def add_picture_arguments(parser: argparse.ArgumentParser, *, to_files: bool = T
 
 
 def picture_format_of(options: argparse.Namespace) -> PictureFormat:
-    """Return how a command draws its pictures; what it does without them.
+    """Return how a command draws its pictures, or would.
 
     Raises:
         InputError: one of its options is not allowed.
     """
-    if "width" not in options or getattr(options, "no_pictures", False):
+    if "width" not in options:
         return PictureFormat()
     chosen = PictureFormat.from_texts(
         getattr(options, "format", "png"),
@@ -137,7 +137,7 @@ def picture_format_of(options: argparse.Namespace) -> PictureFormat:
         options.style,
         getattr(options, "pictures", "default"),
     )
-    if chosen.style is not None:
+    if chosen.style is not None and not getattr(options, "no_pictures", False):
         from exu_press.plots.style import check_drawable  # loads matplotlib
 
         check_drawable(chosen.style)

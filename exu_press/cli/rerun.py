@@ -48,6 +48,8 @@ def execute(options: argparse.Namespace) -> int:
     if kind is not Kind.RUN:
         raise InputError(f"{options.path}: allowed is a run.nc, or the directory that run wrote to")
     if options.out is not None:
+        if Path(options.out).suffix != Path(Kind.RUN.value).suffix:
+            raise InputError(f"--out {options.out}: allowed is a name that ends in .nc")
         check_writable(Path(options.out))
         if Path(options.out).resolve() == file.resolve():
             raise InputError(f"--out {options.out}: is the run itself; allowed is another file")

@@ -49,6 +49,9 @@ __all__ = ["PlacedPart", "placed_parts", "point_name"]
 NEAR = 1e-4
 """m: largest distance of a face's axis from its joint; drawings are rounded to tenths of a mm."""
 
+SIZES = 0.005, 10.0
+"""Sizes of a body of nodes over the mechanism's: wrong units are off by 25 at least."""
+
 IN_THE_PLANE = ("x", "y", "rz")
 """Motions of faces that a planar mechanism loads."""
 
@@ -226,6 +229,8 @@ def _place_part(
     )
     with one_thread(), Progress(f"modes of {body.name}", 1.0, "", quiet=quiet) as progress:
         reduced = reduced_part(solid, reduction, report=lambda _, share: progress.update(share))
+    if table.matrices is not None:
+        _refuse_other_size(reduced, table.source, mechanism)
     axis_of = {interface: reduced.interface(interface).axis for *_, interface in holding}
     if is_fitted:
         pairs = [
@@ -280,6 +285,18 @@ def _place_part(
         if load.joint is None and load.offset is None
     }
     return replace(placed, middles=middles)
+
+
+def _refuse_other_size(reduced: ReducedPart, source: str, mechanism: Mechanism) -> None:
+    """Refuse a body of nodes that is far from the mechanism's size, as by a wrong unit."""
+    size = float(np.ptp(reduced.nodes, axis=0).max())
+    low, high = (share * mechanism.size for share in SIZES)
+    if not low <= size <= high:
+        raise InputError(
+            f"{source!r}: its nodes are up to {size:.3g} m apart, where the mechanism's joints are "
+            f"up to {mechanism.size:.3g} m apart; allowed are {low:.3g} to {high:.3g} m: is "
+            "units.length right?"
+        )
 
 
 def point_name(joint: str, number: int = 0) -> str:

@@ -39,7 +39,8 @@ def find_output(path: Path, preferred: Kind | None = None) -> tuple[Kind, Path]:
         if not kinds and checkpoint_directory(path / Kind.RUN.value).is_dir():
             kinds = [Kind.RUN]
         if not kinds:
-            raise InputError(f"{path}: has none of {named}, so there is nothing to report")
+            named = named if preferred is None else preferred.value
+            raise InputError(f"{path}: has none of {named}; allowed is a directory that has one")
         if preferred in kinds:
             return preferred, path / preferred.value
         if len(kinds) > 1:

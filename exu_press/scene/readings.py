@@ -63,7 +63,8 @@ class Readings(Table):
                     yield f"{count}{unit}"
                     break
             else:
-                smallest = list(units)[-1]
+                unit = {"average": "s", "average_deg": "deg", "sampled": "Hz"}[name]
                 raise InputError(
-                    f"{self.table}.{name} = {value!r}: allowed is a whole number > 0 of {smallest}"
+                    f"{self.table}.{name} has {value!r} {unit}; allowed are whole multiples of "
+                    f"{min(units.values()):g} {unit}, from that on"
                 )

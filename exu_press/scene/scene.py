@@ -433,6 +433,8 @@ class Scene(Table):
         """
         if not isinstance(changes, Mapping) or not all(isinstance(name, str) for name in changes):
             raise InputError(f"{changes!r:.200}: allowed is a mapping of dotted names to values")
+        if changes.get("mechanism", "") is None:  # the usual one
+            changes = {**changes, "mechanism": Scene.mechanism}
         data, groups = self.to_dict(), self.joints.groups
         still_asked = [
             n for n in self.asked if not any(f"{n}.".startswith(f"{c}.") for c in changes)

@@ -5,11 +5,14 @@ import os
 import queue
 import shlex
 import threading
+import time
 import warnings
+from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from functools import partial
+from heapq import heapify, heapreplace
 from itertools import zip_longest
 
 from exu_press.files.command import command_line, executing
@@ -78,14 +81,13 @@ def simulate_side_by_side(
         return
     results: dict[str, dict[float, Result | ChildError]] = {label: {} for label in scenes}
     expected = {label: sum(run.label == label for run in runs) for label in scenes}
-    scale = len(runs) / sum(run.cost for run in runs)
     with (
         _Cores(runs, min(os.cpu_count() or 1, len(runs))) as cores,
         Progress("compare", len(runs), "runs", quiet=quiet) as progress,
     ):
         for _ in runs:
-            run, outcome = cores.next_outcome(lambda: _show(progress, cores, scale))
-            _show(progress, cores, scale)
+            run, outcome = cores.next_outcome(lambda: _show(progress, cores, len(runs)))
+            _show(progress, cores, len(runs))
             results[run.label][run.ratio] = outcome
             if len(results[run.label]) == expected[run.label]:
                 yield run.label, _result_with_errors(results.pop(run.label), errors)
@@ -113,18 +115,20 @@ class _Cores(AbstractContextManager["_Cores", None]):
     """Processes that do runs, each looked after by a thread; a context manager that ends them.
 
     Attributes:
-        under_way: core -> its run and the share of it that is done.
+        under_way: core -> its run, the share of it that is done, and when it began, s.
         done: expected time of the runs that are done.
+        spent: time of the cores on them, s.
     """
 
     def __init__(self, runs: list[Run], count: int) -> None:
-        self.under_way: dict[int, tuple[Run, float]] = {}
-        self.done = 0.0
+        self.under_way: dict[int, tuple[Run, float, float]] = {}
+        self.done = self.spent = self._shown = 0.0
+        self._begin = time.monotonic()
         self._command = command_line()
-        self._waiting: queue.SimpleQueue[Run] = queue.SimpleQueue()
-        for run in runs:
-            self._waiting.put(run)
-        self._outcomes: queue.SimpleQueue[tuple[Run, Result | Exception]] = queue.SimpleQueue()
+        self._waiting = deque(runs)
+        self._outcomes: queue.SimpleQueue[tuple[Run, Result | Exception, float]] = (
+            queue.SimpleQueue()
+        )
         self._children: list[Child] = []
         self._threads: list[threading.Thread] = []
         function = perform_run if may_copy() else f"{__name__}:{perform_run.__name__}"
@@ -153,36 +157,55 @@ class _Cores(AbstractContextManager["_Cores", None]):
         """Return the next run that is done; `show` is called while none is."""
         while True:
             try:
-                run, outcome = self._outcomes.get(timeout=SECONDS_BETWEEN_UPDATES)
+                run, outcome, spent = self._outcomes.get(timeout=SECONDS_BETWEEN_UPDATES)
             except queue.Empty:
                 show()
                 continue
-            self.done += run.cost
+            self.done, self.spent = self.done + run.cost, self.spent + spent
             if isinstance(outcome, Result) or (
                 isinstance(outcome, ChildError) and run.ratio != ITSELF
             ):
                 return run, outcome
             raise outcome
 
+    def share_passed(self) -> float:
+        """Return the share of the time until all runs are done that has passed; it never falls.
+
+        Runs that wait go to the core that is free first: at the end one core may work alone.
+        """
+        now, running = time.monotonic(), list(self.under_way.values())
+        done = self.done + sum(run.cost * share for run, share, _ in running)
+        if done > 0.0:
+            spent = self.spent + sum(now - begin for *_, begin in running)
+            busy = [run.cost * (1.0 - share) for run, share, _ in running] or [0.0]
+            heapify(busy)
+            for run in list(self._waiting):
+                heapreplace(busy, busy[0] + run.cost)
+            passed, left = now - self._begin, max(busy) * spent / done
+            self._shown = max(self._shown, passed / (passed + left))
+        return self._shown
+
     def _report(self, core: int, share: float) -> None:
         if core in self.under_way:
-            self.under_way[core] = self.under_way[core][0], share
+            run, _, begin = self.under_way[core]
+            self.under_way[core] = run, share, begin
 
     def _work(self, core: int, child: Child) -> None:
         """Do runs until none waits."""
         while True:
             try:
-                run = self._waiting.get_nowait()
-            except queue.Empty:
+                run = self._waiting.popleft()
+            except IndexError:
                 return
-            self.under_way[core] = run, 0.0
+            begin = time.monotonic()
+            self.under_way[core] = run, 0.0, begin
             try:
                 child.request(run.scene, run.with_errors, self._command)
                 outcome: Result | Exception = child.answer()
             except Exception as error:
                 outcome = error
             del self.under_way[core]
-            self._outcomes.put((run, outcome))
+            self._outcomes.put((run, outcome, time.monotonic() - begin))
 
 
 def _runs(label: str, scene: Scene, errors: bool) -> Iterator[Run]:
@@ -213,11 +236,10 @@ def _in_order_of_time(runs: list[Run]) -> list[Run]:
     return [run for pair in pairs for run in pair if run is not None]
 
 
-def _show(progress: Progress, cores: _Cores, scale: float) -> None:
-    under_way = list(cores.under_way.values())
-    progress.label = ", ".join(dict.fromkeys(run.label for run, _ in under_way)) or progress.label
-    done = cores.done + sum(run.cost * share for run, share in under_way)
-    progress.update(scale * done)
+def _show(progress: Progress, cores: _Cores, count: int) -> None:
+    labels = dict.fromkeys(run.label for run, *_ in list(cores.under_way.values()))
+    progress.label = ", ".join(labels) or progress.label
+    progress.update(count * cores.share_passed())
 
 
 def _result_with_errors(outcomes: dict[float, Result | ChildError], errors: bool) -> Result:

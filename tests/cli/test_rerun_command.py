@@ -81,3 +81,22 @@ def test_a_run_is_not_replaced_by_its_repetition(capsys):
     assert main([*RUN, "--no-error"]) == 0
     assert main(["rerun", "o", "--out", "o/run.nc"]) == 2
     assert "is the run itself; allowed is another file" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (
+            [
+                ".",
+            ],
+            ".: has none of run.nc; allowed is a directory that has one",
+        ),
+        (["o", "--out", "a.txt"], "--out a.txt: allowed is a name that ends in .nc"),
+    ],
+)
+def test_what_is_no_run_or_no_file_of_one_is_refused(arguments, message, folder, capsys):
+    (folder / "o").mkdir()
+    (folder / "o" / "run.nc").touch()
+    assert main(["rerun", *arguments]) == 2
+    assert message in capsys.readouterr().err

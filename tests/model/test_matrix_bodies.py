@@ -115,3 +115,13 @@ def test_a_scene_file_has_the_path_from_its_own_folder(matrices, tmp_path):
     scene({"matrices": matrices}).save(saved)
     assert Path(Scene.load(saved).bodies["rod"].matrices).resolve() == Path(matrices).resolve()
     assert 'matrices = "..' in saved.read_text()
+
+
+def test_a_body_in_a_wrong_unit_is_refused(matrices, tmp_path):
+    """A rod of 0.9 m, in a file that says it were 0.9 km long."""
+    for file in Path(matrices).parent.glob("rod*"):
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    copy = tmp_path / "rod.toml"
+    copy.write_text(copy.read_text().replace('length = "mm"', 'length = "m"'))
+    with pytest.raises(InputError, match=r"up to \d+ m apart.* is units.length right\?"):
+        placed_parts(scene({"matrices": str(copy)}))

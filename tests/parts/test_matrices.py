@@ -123,6 +123,7 @@ def turning(model):
         (lambda model: {"nodes": model.nodes[1:]}, r"stiffness.mtx: \d+ x \d+ of real entries; al"),
         (lambda model: {"stiffness": np.nan * model.stiffness}, "mtx: allowed are finite numbers"),
         (lambda model: {"triangles": [[0, 1, len(model.nodes)]]}, "triangles.mtx: allowed are nod"),
+        (lambda model: {"triangles": np.zeros((0, 3))}, "triangles.mtx: states 0 x 3; allowed is"),
         (lambda model: {"triangles": [[0.0, 1.5, 2.0]]}, "triangles.mtx: allowed are whole numb"),
     ],
     ids=lambda value: getattr(value, "__name__", ""),

@@ -168,3 +168,9 @@ def test_a_body_that_is_not_there_cannot_be_left_out():
 def test_changes_that_are_none_are_refused(changes, message):
     with pytest.raises(InputError, match=message):
         Scene().replace(changes)
+
+
+def test_a_mechanism_that_is_left_out_is_the_usual_one():
+    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, speed_rpm=60.0)
+    assert scene.replace({"mechanism": None}) == scene.replace({"mechanism": "press"})
+    assert Scene(speed_rpm=60.0).replace({"mechanism": None}) == Scene(speed_rpm=60.0)

@@ -42,8 +42,8 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     drawn, _ = busiest(everyone, _joints(everyone), "force", MOST_JOINTS)
     heading = "Joint forces and drive torque"
     loaded = {f"{name}_force" for run in everyone for name in run.joints} & {*chain(*everyone)}
-    shown = {f"{name}_force" for name in drawn}
-    if any(not {channel, mirror(channel)} & shown for channel in loaded):
+    drawn_channels = {f"{name}_force" for name in drawn}
+    if any(not {channel, mirror(channel)} & drawn_channels for channel in loaded):
         heading += " (not all joints are drawn)"
     figure = new_figure(heading, results, (13.0, 7.6))
     panel_of = {title: (f"{name}_force", "force, kN", 1e-3) for name, title in drawn.items()}
@@ -74,7 +74,7 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
 
 
 def _joints(results: Sequence[Result]) -> list[str]:
-    """Return the joints and guides that may be shown: pins, balls, then those in the frame."""
+    """Return the joints and guides that may be drawn_channels: pins, balls, then those in the frame."""
     order: dict[str, int] = {}
     for result in results:
         mechanism = mechanism_of(result.scene)

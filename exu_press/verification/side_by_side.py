@@ -122,7 +122,7 @@ class _Cores(AbstractContextManager["_Cores", None]):
 
     def __init__(self, runs: list[Run], count: int) -> None:
         self.under_way: dict[int, tuple[Run, float, float]] = {}
-        self.done = self.spent = self._shown = 0.0
+        self.done = self.spent = self._largest_share = 0.0
         self._begin = time.monotonic()
         self._command = command_line()
         self._waiting = deque(runs)
@@ -181,9 +181,9 @@ class _Cores(AbstractContextManager["_Cores", None]):
             heapify(busy)
             for run in list(self._waiting):
                 heapreplace(busy, busy[0] + run.cost)
-            passed, left = now - self._begin, max(busy) * spent / done
-            self._shown = max(self._shown, passed / (passed + left))
-        return self._shown
+            passed, to_come = now - self._begin, max(busy) * spent / done
+            self._largest_share = max(self._largest_share, passed / (passed + to_come))
+        return self._largest_share
 
     def _report(self, core: int, share: float) -> None:
         if core in self.under_way:

@@ -64,7 +64,7 @@ def test_the_time_left_counts_the_core_that_works_longest():
     cores = object.__new__(side_by_side._Cores)
     runs = [side_by_side.Run("a", 1.0, SCENES["dry"], False, cost) for cost in (1.0, 1.0, 2.0)]
     now = time.monotonic()
-    cores.done, cores.spent, cores._shown, cores._begin = 2.0, 20.0, 0.0, now - 10.0
+    cores.done, cores.spent, cores._largest_share, cores._begin = 2.0, 20.0, 0.0, now - 10.0
     cores.under_way, cores._waiting = {0: (runs[2], 0.0, now)}, deque()
     assert cores.share_passed() == pytest.approx(10.0 / (10.0 + 20.0), rel=1e-3)
     cores.under_way, cores._waiting = {}, deque(runs[:2])

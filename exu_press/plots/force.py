@@ -74,7 +74,7 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
 
 
 def _joints(results: Sequence[Result]) -> list[str]:
-    """Return the joints and guides that may be drawn_channels: pins, balls, then those in the frame."""
+    """Return the joints and guides that may be shown: pins, balls, then those in the frame."""
     order: dict[str, int] = {}
     for result in results:
         mechanism = mechanism_of(result.scene)

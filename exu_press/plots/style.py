@@ -99,7 +99,7 @@ LOOK: dict[str, Any] = {
     "legend.borderaxespad": 0.2,
     "legend.fontsize": 9.0,
     "legend.frameon": False,
-    "legend.handlelength": 1.8,
+    "legend.handlelength": 2.4,
     "lines.linewidth": 1.2,
     "pdf.fonttype": 42,
     "savefig.dpi": DPI,

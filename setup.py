@@ -53,6 +53,7 @@ MODULES = [
     "joints/guideway_film",
     "joints/moving_guideway",
     "joints/oriented",
+    "joints/pressurized",
     "joints/worn",
     "laws/contact_damping",
     "laws/contact_stiffness",

@@ -27,7 +27,8 @@ class JointHistory:
         stored_power: (n,), W.
         rubbing: normal force of the contact, N, and sliding velocity, m/s, (n, 2); (0, 2) unless
             asked for.
-        orientation: angle of the eccentricity in the bearing, (n, 1), rad; (n, 0) without grooves.
+        orientation: angle of the eccentricity in the bearing, rad, and power of the pump that feeds
+            it, W, (n, 2); (n, 0) without grooves.
     """
 
     eccentricity: Array
@@ -44,7 +45,13 @@ class JointHistory:
     @property
     def dissipated_power(self) -> Array:
         """Heat of contact, friction and film, (n,), W."""
-        return -self.power - self.stored_power
+        lost = -self.power - self.stored_power
+        return lost + self.pump_power if self.orientation.size else lost
+
+    @property
+    def pump_power(self) -> Array:
+        """Power of the pump that feeds grooves, (n,), W."""
+        return self.orientation[:, 1] if self.orientation.size else np.zeros_like(self.gap)
 
     @property
     def power(self) -> Array:

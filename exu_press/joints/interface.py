@@ -56,11 +56,13 @@ class InterfaceLaw:
         needs_secant: whether Newton's method converges better with a secant: with a film,
             whose force is of first degree in the speeds but has a kink at rest.
         is_oriented: whether it depends on the angle of the eccentricity in the bearing.
+        bears_at_rest: whether a film has a force without a motion.
         outside: eccentricity ratio where its law did not hold, if the last state was so.
         drift: correction of a penetration (`exu_press.joints.path`), m.
     """
 
     is_oriented = False
+    bears_at_rest = False
 
     def __init__(self, clearance: float, stateful: bool, needs_secant: bool) -> None:
         self.drift = 0.0
@@ -97,6 +99,11 @@ class InterfaceLaw:
     def gap(self, e: float) -> float:
         """Return the least gap at an eccentricity, m, at the angle of the last `orient`."""
         return self.clearance - e
+
+    @property
+    def pump_power(self) -> float:
+        """Power that oil under pressure puts in, W, at the last `load`."""
+        return 0.0
 
     def arms(self, e: float) -> Arms:
         """Return a_J, a_B (m) and their derivatives; of the point half-way between the centres."""
@@ -312,7 +319,7 @@ class FilmInterface(InterfaceLaw):
         elif e == e:  # after such a force there may be no place at all
             self.outside = e / c
         f_t = p * response[1]
-        if e_dot == 0.0 and eps_w == 0.0 and f_r == f_r:
+        if e_dot == 0.0 and eps_w == 0.0 and f_r == f_r and not self.bears_at_rest:
             f_r = f_t = 0.0  # a law may take a speed for one at rest, to have partials there
         moment = -0.5 * e * f_t
         shear = p * c * response[8] * (omega_j - omega_b)

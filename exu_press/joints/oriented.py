@@ -127,7 +127,8 @@ class OrientedJoint(PlanarJoint):
     """A planar joint that tells its grooved film where in the bearing the journal is.
 
     Attributes:
-        orientation: angle of the eccentricity in the bearing at the last `add_force`, rad.
+        orientation: angle of the eccentricity in the bearing, rad, and power of the pump that
+            feeds the film, W, at the last `add_force`.
     """
 
     def __init__(
@@ -145,14 +146,13 @@ class OrientedJoint(PlanarJoint):
                 bearing's item, rad.
         """
         super().__init__(journal, bearing, interfaces)
-        self.orientation = (0.0,)
+        self.orientation = 0.0, 0.0
         self._turned = bearing.reference[2] + bearing_turned
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
         x, y, _, _, motion = self._move(q, q_t)
         angle = atan2(y, x) - self._turned - q[self.indices[5]]
-        self.orientation = (angle,)
         for interface in self.interfaces:
             interface.orient(angle)
         n_x, n_y = self._directions[0], self._directions[1]
@@ -160,6 +160,7 @@ class OrientedJoint(PlanarJoint):
             if load is not None:
                 f_n, f_t, m_j, m_b, _ = load
                 self._exert(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x, m_j, m_b, out)
+        self.orientation = angle, sum(interface.pump_power for interface in self.interfaces)
 
     def _jacobian_of(self, i: int, load: Load, by_q: float, by_q_t: float) -> list[float]:
         """Return one interface's part of the Jacobian, with the change over the angle."""

@@ -18,7 +18,8 @@ class States:
         joints: whose states are taken, in the order of the numbers.
         numbers: of each instant (s): itself, then of each joint the numbers of its `JointState`,
             of one whose rubbing is wanted the normal force, N, and the sliding velocity, m/s, and
-            of one with grooves the angle of the eccentricity in the bearing, rad.
+            of one with grooves the angle of the eccentricity in the bearing, rad, and the power of
+            the pump that feeds it, W.
         lengths: of the parts of each joint's numbers.
     """
 

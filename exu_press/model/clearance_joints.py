@@ -83,7 +83,16 @@ def _film_interface(kind: LubricatedJoint) -> FilmInterface:
         return TiltedInterface(law, *sizes)
     assert isinstance(law, GroovedFilm)
     law.set_table(film_table(law.bearing))
-    return GroovedInterface(law, *sizes)
+    if not law.bearing.is_pressurized:
+        return GroovedInterface(law, *sizes)
+    from exu_press.joints.pressurized import PressurizedInterface
+    from exu_press.laws.film.pressurized import PressurizedFilm
+    from exu_press.model.film_tables import supply_table
+
+    assert isinstance(law, PressurizedFilm)
+    law.set_supply_table(supply_table(law.bearing))
+    force = kind.film.law.supply_pressure * kind.film.length * kind.radius
+    return PressurizedInterface(law, *sizes, force)
 
 
 def _worn_surfaces(system: System, joint: Joint, kind: SceneJoint) -> "WornSurfaces | None":

@@ -9,6 +9,7 @@ from exu_press.quantities.quantity import Extreme, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import JointRecord
 from exu_press.scene import IdealJoint, Scene
+from exu_press.scene.film import JournalFilm
 
 __all__ = ["IMPACTS", "JOINTS", "START", "contacts", "share_of_contact"]
 
@@ -42,6 +43,11 @@ def _has_clearance(scene: Scene, joint: str) -> bool:
 
 def _has_film(scene: Scene, joint: str) -> bool:
     return scene.joints[joint].kind == "lubricated"
+
+
+def _is_fed(scene: Scene, joint: str) -> bool:
+    film = scene.joints[joint].film
+    return isinstance(film, JournalFilm) and film.law.supply_pressure > 0.0
 
 
 def _can_touch(scene: Scene, joint: str) -> bool:
@@ -133,5 +139,9 @@ JOINTS = (
              _has_clearance, title="per stroke", is_detail=True, signed=True, law_error=film_error),
     Quantity("mean_power", "W", "mean power that the joint dissipates, over whole revolutions",
              LOAD, lambda run, joint: run.rate(run[f"{joint}_loss"]), Owner.JOINT, _has_clearance,
+             signed=True, law_error=film_error),
+    Quantity("pump_power", "W",
+             "power of the pump that feeds its grooves, mean over whole revolutions",
+             LOAD, lambda run, joint: run.mean(run[f"{joint}_pump_power"]), Owner.JOINT, _is_fed,
              signed=True, law_error=film_error),
 )  # fmt: skip

@@ -12,7 +12,7 @@ from exu_press.result.recording import Record, Recording
 __all__ = ["CHANNELS", "mechanical_energy", "record", "work"]
 
 CHANNELS = Declarations(
-    Declaration("energy_input", "J", "work of drive and loads since the start", unless=OWN),
+    Declaration("energy_input", "J", "work of drive, loads and pumps since the start", unless=OWN),
     Declaration("energy_stored", "J", "change of stored energy", unless=OWN),
     Declaration("energy_dissipated", "J", "energy dissipated since the start", unless=OWN),
 )

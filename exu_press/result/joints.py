@@ -23,6 +23,7 @@ CHANNELS = Declarations(
     Declaration("{loose}_eccentricity", "m", "{loose}: journal minus bearing centre", VECTOR),
     Declaration("{loose}_moment", "N m", "{loose}: moment on journal and on bearing", "ends"),
     Declaration("{loose}_power", "W", "{loose}: dissipated power"),
+    Declaration("{loose}_pump_power", "W", "{loose}: power of its supply pump", always=False),
     Declaration("{uneven}_gap", "m", "{uneven}: least gap of the surfaces, or -penetration"),
     Declaration(
         "{wearing}_normal_force", "N", "{wearing}: normal force of the contact", always=False
@@ -53,10 +54,10 @@ def stored_and_lost(states: JointHistory, time: Array) -> tuple[Array, Array]:
 
 
 def record(run: Recording) -> Record:
-    """Return the channels of the clearance joints, their stored and their dissipated energy."""
+    """Return the channels of the clearance joints, their energies, and the work of pumps."""
     model, time = run.model, run.time
     channels: dict[str, Channel] = {}
-    all_stored, all_losses = np.zeros_like(time), np.zeros_like(time)
+    all_stored, all_losses, pumped = (np.zeros_like(time) for _ in range(3))
     balls = {joint.name for joint in model.mechanism.joints if joint.spherical}
     for name, states in run.histories.items():
         stored, loss = stored_and_lost(states, time)
@@ -70,6 +71,9 @@ def record(run: Recording) -> Record:
             power=states.dissipated_power,
             loss=loss,
         )
+        if states.pump_power.any():
+            pumped += integral(time, states.pump_power)
+            channels |= CHANNELS.record(name, pump_power=states.pump_power)
         if name in model.warm:
             channels |= _heat(model.warm[name], states, time, name)
         if len(states.rubbing):
@@ -77,7 +81,7 @@ def record(run: Recording) -> Record:
             channels |= CHANNELS.record(name, normal_force=normal_force, sliding=sliding)
         if not has_even_gap(model.scene.joints[name]):
             channels |= CHANNELS.record(name, gap=states.gap)
-    return Record(channels, all_stored, all_losses)
+    return Record(channels, all_stored, all_losses, pumped)
 
 
 def _heat(film: "WarmFilm", states: JointHistory, time: Array, name: str) -> dict[str, Channel]:

@@ -56,6 +56,16 @@ class FilmLaw(CustomKind, Table, ABC):
     flows_out: ClassVar[bool] = False
     """Whether oil flows out at the ends."""
 
+    @property
+    def supply_pressure(self) -> float:
+        """Largest pressure at which oil is supplied, Pa above ambient."""
+        return 0.0
+
+    @property
+    def errors(self) -> tuple[float, float]:
+        """Relative errors of its forces and of its side flow."""
+        return self.error, self.flow_error
+
     @abstractmethod
     def film(self, length_to_diameter: float) -> JournalLaw:
         """Return the law of a bearing of this L/D."""
@@ -246,12 +256,12 @@ class JournalFilm(Film):
     @property
     def error(self) -> float:
         """Relative error of its forces, where they are a table's."""
-        return self.law.error
+        return self.law.errors[0]
 
     @property
     def flow_error(self) -> float:
         """Relative error of its side flow, where that is a table's."""
-        return self.law.flow_error
+        return self.law.errors[1]
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,9 @@ __all__ = ["GroovedLaw", "SupplyGroove"]
 RANGE = 0.1, 4.0
 """L/D, as of `finite`."""
 
+PRESSURIZED_ERRORS = 0.01, 0.03
+"""Of force and side flow where oil is under pressure."""
+
 
 @dataclass(frozen=True)
 class SupplyGroove(Table):
@@ -38,6 +41,9 @@ class SupplyGroove(Table):
     )
     length: float | None = key(
         None, "along the axis; all of the bearing's unless given", "m", above=0
+    )
+    pressure: float | None = key(
+        None, "of its oil, above ambient; ambient unless given", "Pa", at_least=0
     )
 
 
@@ -70,6 +76,16 @@ class GroovedLaw(FilmLaw):
         """Angle between the axes of journal and bearing, rad."""
         return self.tilt
 
+    @property
+    def supply_pressure(self) -> float:
+        """Largest pressure of the grooves, Pa above ambient."""
+        return max((groove.pressure or 0.0 for groove in self.grooves or ()), default=0.0)
+
+    @property
+    def errors(self) -> tuple[float, float]:
+        """Relative errors of its forces and of its side flow."""
+        return PRESSURIZED_ERRORS if self.supply_pressure else (self.error, self.flow_error)
+
     def film(self, length_to_diameter: float) -> JournalLaw:
         """Return the law of a bearing whose diameter is 1 m, of this L/D."""
         return replace(self, tilt=0.0).law_of_size(length_to_diameter, 0.5, 1.0, None)
@@ -81,8 +97,8 @@ class GroovedLaw(FilmLaw):
 
         Raises:
             InputError: there are neither grooves nor a tilt, the grooves overlap, or are longer
-                than the bearing; the journal touches both ends; the bearing is outside the range
-                of widths.
+                than the bearing; one with pressure reaches the bearing's ends, or the journal is
+                inclined; the journal touches both ends; the bearing is outside the range of widths.
         """
         from exu_press.laws.film.grooved_table import GroovedFilm
         from exu_press.laws.film.grooves import Groove, GroovedBearing
@@ -105,17 +121,33 @@ class GroovedLaw(FilmLaw):
                     f"grooves.{k}.length = {groove.length!r}: allowed is a number <= film.length "
                     f"= {length!r} (m)"
                 )
+            if groove.pressure and (groove.length is None or groove.length >= length):
+                raise InputError(
+                    f"grooves.{k}.pressure = {groove.pressure!r}: allowed is a groove with a "
+                    f"length < film.length = {length!r} (m), as one that is open at the bearing's "
+                    "ends keeps no pressure"
+                )
+        highest = self.supply_pressure
         shares = [1.0 if g.length is None else g.length / length for g in grooves]
         bearing = GroovedBearing(
             ratio,
             tuple(
-                Groove(math.radians(groove.angle_deg), math.radians(groove.width_deg), share)
+                Groove(
+                    math.radians(groove.angle_deg),
+                    math.radians(groove.width_deg),
+                    share,
+                    groove.pressure / highest if groove.pressure else 0.0,
+                )
                 for groove, share in zip(grooves, shares, strict=True)
             ),
         )
         if self.tilt:
             return self._inclined_law(bearing, length, clearance, gap_ratio)
-        return GroovedFilm(bearing, gap_ratio)
+        if not bearing.is_pressurized:
+            return GroovedFilm(bearing, gap_ratio)
+        from exu_press.laws.film.pressurized import PressurizedFilm
+
+        return PressurizedFilm(bearing, gap_ratio)
 
     def _inclined_law(
         self, bearing: "GroovedBearing", length: float, clearance: float, gap_ratio: float | None
@@ -123,6 +155,11 @@ class GroovedLaw(FilmLaw):
         """Return the law of an inclined journal in a bearing."""
         from exu_press.laws.film.tilted import TiltedFilm
 
+        if bearing.is_pressurized:
+            raise InputError(
+                "grooves with pressure and film.tilt: allowed is one of the two, as an inclined "
+                "journal's film has no oil under pressure"
+            )
         if gap_ratio is not None:
             raise InputError(
                 "at_contact = 'mixed' with film.tilt: allowed is 'stop', as the journal touches "

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, bearing_coefficients, simulate
+from exu_press.numerics.piecewise import integral
 
 AXIAL = [{"angle_deg": 90.0, "width_deg": 10.0}, {"angle_deg": -90.0, "width_deg": 10.0}]
 RING = [{"width_deg": 360.0, "length": 0.005}]
@@ -38,6 +39,8 @@ def test_a_file_has_them_again(tmp_path):
         ([{"width_deg": 361.0}], "film.grooves.width_deg = 361.0"),
         ([{"width_deg": 10.0, "length": 0.051}], "film.grooves.0.length = 0.051"),
         ([AXIAL[0], {"angle_deg": 99.0, "width_deg": 9.0}], "at 90 and 99 deg overlap"),
+        ([{**RING[0], "pressure": -1.0}], "film.grooves.pressure = -1.0"),
+        ([{**AXIAL[0], "pressure": 1e5}], "film.grooves.0.pressure = 100000.0: .*length <"),
         ([{"width_deg": 360.0}], "film.grooves: .*shorter than the bearing"),
         ([{"width_deg": 10.0, "angel": 1.0}], "film.grooves.0.angel = 1.0: unknown key"),
     ],
@@ -75,6 +78,7 @@ def inclined(**keys):
         ({"tilt": 4e-3}, r"film.tilt = 0.004: allowed is a number < 2 \* clearance .* = 0.004"),
         ({"tilt_direction_deg": 361.0}, "film.tilt_direction_deg = 361"),
         ({"at_contact": "mixed"}, "film.at_contact = 'mixed' with film.tilt: allowed is 'stop'"),
+        ({"grooves": [{**RING[0], "pressure": 1e5}]}, "film.grooves with pressure and film.tilt"),
         ({"grooves": [AXIAL[0], AXIAL[0]]}, "film.grooves at 90 and 90 deg overlap"),
     ],
 )
@@ -124,3 +128,38 @@ def test_coefficients_of_an_inclined_journal():
         assert other.min_film == pytest.approx(across.min_film, rel=size)
         assert other.eccentricity == pytest.approx(expected, abs=size * math.hypot(x, y))
     assert across.power > 0.0 and across.side_flow > 0.0
+
+
+def test_pressures_in_one_ratio_have_one_table():
+    """The table is that of the shape, and of the ratios; without a pressure it is the ambient."""
+    low, high, swapped = (
+        scene([{**AXIAL[0], "length": 0.04, "pressure": first}, {**AXIAL[1], **second}])
+        .joints["crank_pin"]
+        .film_law()
+        .bearing
+        for first, second in (
+            (1e5, {"length": 0.04, "pressure": 2e5}),
+            (3e5, {"length": 0.04, "pressure": 6e5}),
+            (2e5, {"length": 0.04, "pressure": 1e5}),
+        )
+    )
+    assert low == high != swapped
+    assert [groove.pressure for groove in low.grooves] == [0.5, 1.0]
+    assert not scene(AXIAL).joints["crank_pin"].film_law().bearing.is_pressurized
+
+
+@pytest.mark.long
+def test_the_pumps_work_is_in_the_balance_of_a_run_and_of_the_heat():
+    given = scene([{**RING[0], "pressure": 2e6}], revolutions=1.0)
+    result = simulate(given)
+    assert result.summary()["status"] == "completed"
+    assert result.quantity("energy.residual").value < 1e-4
+    pumped = integral(result.time, result["crank_pin_pump_power"])[-1]
+    assert pumped > 0.5 * result["energy_input"][-1]
+    assert result["crank_pin_power"].min() > 0.0
+    oil = {"viscosity_cst": [68.0, 8.7], "density": 870.0, "supply_celsius": 40.0}
+    warm = given.replace({"film.oil": oil})
+    bearing = bearing_coefficients(warm, "crank_pin", load=(0.0, -5e3), speed_rpm=300.0)
+    carried = 1.8e6 * bearing.side_flow * (bearing.temperature - 40.0)
+    assert bearing.power + bearing.pump_power == pytest.approx(carried, rel=1e-5)
+    assert bearing.pump_power == pytest.approx(2e6 * bearing.side_flow, rel=0.01)

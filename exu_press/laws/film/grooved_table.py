@@ -13,7 +13,7 @@ in. Between its knots are cubic B-splines (de Boor, A Practical Guide to Splines
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +23,20 @@ from exu_press.laws.film.contract import AT_REST, OUTSIDE, FilmForce, FilmLaw
 from exu_press.laws.film.grooves import TURN, GroovedBearing, GroovedFilmState
 from exu_press.numerics.arrays import Array
 
-__all__ = ["GroovedFilm", "Knots", "knots_of", "tabulated_row"]
+__all__ = [
+    "GroovedFilm",
+    "Knots",
+    "extrapolated_rows",
+    "interval_of",
+    "knots_in_steps",
+    "knots_of",
+    "open_ended",
+    "periodic",
+    "slopes",
+    "speeds_of",
+    "tabulated_row",
+    "weights",
+]
 
 CELLS = (144, 10)
 """Of the finer grid, around and over half of the length."""
@@ -48,12 +61,17 @@ class Knots(NamedTuple):
 
 def knots_of(bearing: GroovedBearing) -> Knots:
     """Return the knots of a bearing's table."""
-    period = bearing.period
-    count = max(1, math.ceil(period / STEP))
+    return knots_in_steps(bearing, LEVELS, STEP, DIRECTIONS)
+
+
+def knots_in_steps(bearing: GroovedBearing, levels: int, step: float, directions: int) -> Knots:
+    """Return knots of which those of the angle are a step apart, rad, or less."""
+    period, first = bearing.period, bearing.mirror_axis or 0.0
+    count = max(1, math.ceil(period / step))
     return Knots(
-        np.linspace(0.0, LAST, LEVELS),
-        np.linspace(0.0, period, count, endpoint=False),
-        np.linspace(-math.pi, math.pi, DIRECTIONS, endpoint=False),
+        np.linspace(0.0, LAST, levels),
+        np.linspace(first, first + period, count, endpoint=False),
+        np.linspace(-math.pi, math.pi, directions, endpoint=False),
     )
 
 
@@ -66,12 +84,43 @@ def tabulated_row(bearing: GroovedBearing, x: float) -> Array:
     knots = knots_of(bearing)
     eps = -math.expm1(-x)
     s = math.sqrt((1.0 - eps) * (1.0 + eps))
-    speeds = _speeds(knots.direction, s)
-    fine, coarse = (
-        np.array([_responses(bearing, eps, angle, speeds, cells) for angle in knots.angle.tolist()])
-        for cells in (CELLS, (CELLS[0] // 2, CELLS[1] // 2))
+    speeds = speeds_of(knots.direction, s)
+    return extrapolated_rows(
+        bearing,
+        knots.angle,
+        CELLS,
+        lambda angle, cells: np.array(_responses(bearing, eps, angle, speeds, cells)),
+        [1.0, -1.0, 1.0],
     )
-    return np.asarray(fine + (fine - coarse) / 3.0)
+
+
+def extrapolated_rows(
+    bearing: GroovedBearing,
+    angles: Array,
+    cells: tuple[int, int],
+    responses: Callable[[float, tuple[int, int]], Array],
+    signs: list[float],
+) -> Array:
+    """Return responses over angles and directions, by Richardson's extrapolation from two grids.
+
+    Args:
+        bearing: its shape.
+        angles: at which they are wanted, rad.
+        cells: of the finer grid.
+        responses: over the directions and channels at an angle, on a grid.
+        signs: of the channels in a mirror.
+    """
+    count = len(angles)
+    computed = count if bearing.mirror_axis is None else count // 2 + 1
+    half = cells[0] // 2, cells[1] // 2
+    rows = []
+    for angle in angles[:computed].tolist():
+        fine, coarse = responses(angle, cells), responses(angle, half)
+        rows.append(fine + (fine - coarse) / 3.0)
+    directions = len(rows[0])
+    turned = (directions // 2 - np.arange(directions)) % directions
+    rows += [rows[count - k][turned] * signs for k in range(computed, count)]
+    return np.array(rows)
 
 
 def _responses(
@@ -92,7 +141,7 @@ def _responses(
     return responses
 
 
-def _speeds(directions: Array, s: float) -> list[tuple[float, float]]:
+def speeds_of(directions: Array, s: float) -> list[tuple[float, float]]:
     """Return eps W / 2 and d eps/dt, of length 1, of the directions of a table."""
     angle = np.linspace(-math.pi, math.pi, 4001)
     at = _direction(np.cos(angle), np.sin(angle), s)
@@ -128,14 +177,15 @@ class GroovedFilm:
             self._law = with_asperities(self._smooth, onset_ratio)
         self._coefficients: Array | None = None
         self._period, self._count = 1.0, 1
+        self._first_angle = bearing.mirror_axis or 0.0
 
     def set_table(self, table: Array) -> None:
         """Take the table, (eccentricities, angles, directions, 3)."""
         self._count = table.shape[1]
         self._period = self.bearing.period or 1.0
-        periodic = _periodic(_periodic(table, 1), 2)
+        smooth = periodic(periodic(table, 1), 2)
         edges = ((1, 2), (0, 0), (1, 2), (0, 0))
-        angle_first = np.swapaxes(_open_ended(periodic), 0, 1)
+        angle_first = np.swapaxes(open_ended(smooth), 0, 1)
         self._coefficients = np.pad(angle_first, edges, mode="wrap")
 
     def __call__(self, eps: float, eps_dot: float, eps_w: float) -> FilmForce:
@@ -197,13 +247,14 @@ class GroovedFilm:
         Beyond the table's end E goes on by its power law, and m and the share stay.
         """
         assert self._coefficients is not None, "set_table comes first"
-        i, along_x = _interval_of(min(x, LAST), LAST / (LEVELS - 1), LEVELS - 1)
-        j, around = _interval_of(angle % self._period, self._period / self._count, self._count)
-        k, along_y = _interval_of(y + math.pi, TURN / DIRECTIONS, DIRECTIONS)
+        i, along_x = interval_of(min(x, LAST), LAST / (LEVELS - 1), LEVELS - 1)
+        in_period = (angle - self._first_angle) % self._period
+        j, around = interval_of(in_period, self._period / self._count, self._count)
+        k, along_y = interval_of(y + math.pi, TURN / DIRECTIONS, DIRECTIONS)
         near = self._coefficients[j : j + 4, i : i + 4, k : k + 4]
-        at_angle = np.array(_weights(around)) @ near.reshape(4, 48)
-        w_x = np.array([_weights(along_x), _slopes(along_x, (LEVELS - 1) / LAST)])
-        w_y = np.array([_weights(along_y), _slopes(along_y, DIRECTIONS / TURN)])
+        at_angle = np.array(weights(around)) @ near.reshape(4, 48)
+        w_x = np.array([weights(along_x), slopes(along_x, (LEVELS - 1) / LAST)])
+        w_y = np.array([weights(along_y), slopes(along_y, DIRECTIONS / TURN)])
         both = w_y @ (w_x @ at_angle.reshape(4, 12)).reshape(2, 4, 3)
         (values, by_y), (by_x, _) = both.tolist()
         if x > LAST:
@@ -212,28 +263,28 @@ class GroovedFilm:
         return [values, by_x, by_y]
 
 
-def _interval_of(value: float, step: float, count: int) -> tuple[int, float]:
+def interval_of(value: float, step: float, count: int) -> tuple[int, float]:
     """Return the interval of a value, and where it lies in it, 0 to 1."""
     at = value / step
     interval = min(int(at), count - 1)
     return interval, at - interval
 
 
-def _weights(t: float) -> tuple[float, float, float, float]:
+def weights(t: float) -> tuple[float, float, float, float]:
     """Return the values of the four cubic B-splines of an interval."""
     r, square, cube = 1.0 - t, t * t, t * t * t
     second = 2.0 / 3.0 - square + 0.5 * cube
     return r * r * r / 6.0, second, (1.0 + 3.0 * (t + square - cube)) / 6.0, cube / 6.0
 
 
-def _slopes(t: float, per_step: float) -> tuple[float, float, float, float]:
+def slopes(t: float, per_step: float) -> tuple[float, float, float, float]:
     """Return their derivatives."""
     half, r = 0.5 * per_step, 1.0 - t
     third = 1.0 + 2.0 * t - 3.0 * t * t
     return -half * r * r, half * t * (3.0 * t - 4.0), half * third, half * t * t
 
 
-def _periodic(values: Array, axis: int) -> Array:
+def periodic(values: Array, axis: int) -> Array:
     """Return the B-splines' coefficients of values that are periodic along an axis."""
     n = values.shape[axis]
     shape = [1] * values.ndim
@@ -243,7 +294,7 @@ def _periodic(values: Array, axis: int) -> Array:
     return np.asarray(np.fft.ifft(of_waves, axis=axis).real)
 
 
-def _open_ended(values: Array) -> Array:
+def open_ended(values: Array) -> Array:
     """Return the coefficients along the first axis: not-a-knot at its begin, natural at its end."""
     n = len(values)
     matrix = np.zeros((n + 2, n + 2))

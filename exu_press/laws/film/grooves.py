@@ -1,7 +1,7 @@
 """Supply grooves of a bearing: their places, and Reynolds' equation between them."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -121,6 +121,23 @@ class GroovedBearing:
         return min(
             TURN / count for count in range(1, MOST_ALIKE + 1) if self._places(TURN / count) == own
         )
+
+    @property
+    def mirror_axis(self) -> float | None:
+        """Angle of an axis about which grooves under pressure are symmetric, rad, or None."""
+        if not self.is_pressurized or not self.period:
+            return None
+        middles = (0.5 * (a.angle + b.angle) for a in self.grooves for b in self.grooves)
+        mirrored = (
+            axis
+            for axis in middles
+            if replace(
+                self,
+                grooves=tuple(replace(g, angle=2.0 * axis - g.angle) for g in self.grooves),
+            )._places(0.0)
+            == self._places(0.0)
+        )
+        return next(mirrored, None)
 
     def _places(self, turned: float) -> set[tuple[int, float, float, float]]:
         """Return the grooves of the turned bearing, their angles to a millionth of a turn."""

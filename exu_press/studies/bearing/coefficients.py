@@ -31,6 +31,7 @@ class BearingCoefficients:
         damping: -dF/dv, (2, 2), N s/m.
         side_flow: of oil out of both ends, m^3/s; None for a long bearing, which has no ends.
         power: that the journal loses, W.
+        pump_power: that the pump of grooves under pressure puts in, W; None without them.
         viscosity: of the oil in the film, Pa s.
         temperature: of the film, deg C; None without [film.oil].
         critical_mass: of a rigid journal, above which it whirls, kg; infinite where none does.
@@ -47,6 +48,7 @@ class BearingCoefficients:
     damping: Array
     side_flow: float | None
     power: float
+    pump_power: float | None
     viscosity: float
     temperature: float | None
     critical_mass: float
@@ -98,6 +100,7 @@ def bearing_coefficients(
         damping=damping,
         side_flow=journal.side_flow(e),
         power=journal.power(e),
+        pump_power=journal.pump_power(e),
         viscosity=journal.viscosity,
         temperature=temperature,
         critical_mass=critical_mass(stiffness, damping),
@@ -190,7 +193,8 @@ def _balance_heat(journal: Journal, load: tuple[float, float]) -> float:
         e = journal.equilibrium(load)
         flow = journal.side_flow(e) or 0.0
         carried = oil.heat_capacity * flow * (temperature - oil.supply_celsius)
-        return journal.power(e) - carried - oil.conductance * (temperature - oil.frame)
+        heat = journal.power(e) + (journal.pump_power(e) or 0.0)
+        return heat - carried - oil.conductance * (temperature - oil.frame)
 
     low = min(oil.supply_celsius, oil.frame)
     if excess(HOTTEST) > 0.0:

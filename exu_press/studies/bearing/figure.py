@@ -62,17 +62,19 @@ def _largest_pressure(report: BearingReport, row: BearingCoefficients) -> tuple[
     eps, turning = min(row.eccentricity_ratio, 0.999), row.speed_rpm * math.tau / 60.0
     direction = math.atan2(row.eccentricity[1], row.eccentricity[0])
     law = kind.film_law()
+    scale = film_scale(row.viscosity, length, radius, kind.clearance) / (length * radius)
     if isinstance(law, TiltedFilm):
         law.spin = turning
         theta, pressure = law.largest_pressure(eps, direction, 0.0, 0.5 * eps * turning)
         theta -= direction
     elif isinstance(law, GroovedFilm):
         state = GroovedFilmState(law.bearing, eps, direction, CELLS)
-        theta, pressure = state.largest_pressure(0.0, 0.5 * eps * turning)
+        theta, pressure = state.largest_pressure(
+            0.0, 0.5 * eps * turning, sizes.law.supply_pressure / (12.0 * scale)
+        )
     else:
         film = solve_reynolds(eps, 0.0, eps * turning, length / (2.0 * radius), math.pi)
         theta, pressure = film.theta, film.p.max(axis=1)
-    scale = film_scale(row.viscosity, length, radius, kind.clearance) / (length * radius)
     degrees = np.degrees(np.remainder(theta + direction + math.pi, math.tau) - math.pi)
     order = np.argsort(degrees)
     return degrees[order], 12.0 * scale * pressure[order]

@@ -95,6 +95,13 @@ class Journal:
         self._interfaces[0].orient(math.atan2(e[1], e[0]))
         return self._interfaces[0].gap(math.hypot(*e))
 
+    def pump_power(self, e: Vector) -> float | None:
+        """Return what the pump of the grooves puts in, W; None without oil under pressure."""
+        if not any(interface.bears_at_rest for interface in self._interfaces):
+            return None
+        self._loads(e)
+        return sum(interface.pump_power for interface in self._interfaces)
+
     def side_flow(self, e: Vector) -> float | None:
         """Return the oil that leaves the bearing's ends, m^3/s; None where it has none."""
         eps = np.array([math.hypot(*e) / self.clearance])

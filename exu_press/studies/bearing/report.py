@@ -24,6 +24,7 @@ FIGURES: Mapping[str, tuple[str, float, Read]] = {
     "attitude": ("deg", math.degrees(1.0), lambda row: row.attitude_angle),
     "side_flow": ("l/min", 6e4, lambda row: row.side_flow),
     "power": ("W", 1.0, lambda row: row.power),
+    "pump_power": ("W", 1.0, lambda row: row.pump_power),
     "viscosity": ("Pa s", 1.0, lambda row: row.viscosity),
     "temperature": ("deg C", 1.0, lambda row: row.temperature),
     "critical_mass": ("kg", 1.0, lambda row: row.critical_mass),

@@ -4,8 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from test_grooves import assert_derivatives, states
 
+from exu_press.joints.pressurized import PressurizedInterface
+from exu_press.laws.film import dissipated_power, grooved_table, pressurized
 from exu_press.laws.film.grooves import Groove, GroovedBearing, GroovedFilmState, solve_grooved
+from exu_press.laws.film.pressurized import CHANNELS, INTERVALS, PressurizedFilm
+from exu_press.model.film_tables import film_table, supply_table
 
 AROUND = 2.0 * math.pi
 
@@ -13,6 +18,10 @@ RING = GroovedBearing(0.5, (Groove(0.0, AROUND, 0.2, 1.0),))
 
 POCKETS = GroovedBearing(
     0.5, (Groove(0.5 * math.pi, 0.3, 0.8, 1.0), Groove(-0.5 * math.pi, 0.2, 0.5, 0.4))
+)
+
+TWO = GroovedBearing(
+    0.5, tuple(Groove(angle, math.radians(10.0), 0.8, 1.0) for angle in (1.570796327, -1.570796327))
 )
 
 
@@ -48,3 +57,94 @@ def test_no_pressure_is_the_ambient_film():
     expected = solve_grooved(ambient, *arguments)
     assert solve_grooved(POCKETS, *arguments) == pytest.approx(expected, rel=1e-10)
     assert solve_grooved(POCKETS, *arguments, supply=1e-9) == pytest.approx(expected, rel=1e-6)
+
+
+def law_of(bearing, tables):
+    """Return a law with its tables, each from a module's rows or numbers."""
+    law = PressurizedFilm(bearing)
+    for module, take, table in zip(
+        (grooved_table, pressurized), (law.set_table, law.set_supply_table), tables, strict=True
+    ):
+        levels = module.knots_of(bearing).x
+        take(np.array([module.tabulated_row(bearing, x) for x in levels]) if table is None
+             else table)  # fmt: skip
+    return law
+
+
+@pytest.fixture(scope="module")
+def any_law():
+    """A law of any numbers."""
+    rng = np.random.default_rng(4)
+    ambient = rng.normal(size=(grooved_table.LEVELS, 9, grooved_table.DIRECTIONS, 3))
+    supply = pressurized.LEVELS, 7, pressurized.DIRECTIONS, INTERVALS + 1, CHANNELS
+    return law_of(POCKETS, (ambient, rng.normal(size=supply)))
+
+
+def fed_states(seed, count):
+    for eps, eps_dot, eps_w, angle in states(seed, count):
+        yield (
+            eps,
+            eps_dot,
+            eps_w,
+            angle,
+            math.hypot(eps_dot, eps_w) * 10.0 ** (3.0 * math.sin(angle)),
+        )
+
+
+def test_whatever_its_tables_hold_pump_and_journal_put_in_what_is_lost(any_law):
+    for eps, eps_dot, eps_w, angle, any_law.supply in fed_states(5, 200):
+        any_law.angle = angle
+        journal = dissipated_power(any_law(eps, eps_dot, eps_w), eps_dot, eps_w)
+        assert journal + any_law.pump_power > 0.0
+
+
+def test_derivatives_are_the_forces(any_law):
+    for eps, eps_dot, eps_w, angle, any_law.supply in fed_states(6, 30):
+        any_law.angle = angle
+        assert_derivatives(any_law, eps, eps_dot, eps_w)
+
+
+def test_a_pressure_bears_a_journal_at_rest(any_law):
+    """The force is the pressure's alone, and does not jump where the journal begins to move."""
+    interface = PressurizedInterface(any_law, 10.0, 1e-4, 240.0)
+    interface.orient(0.3)
+    assert any_law.supply == 2.0
+    at_rest = interface.load(4e-5, 0.0, 0.0, 0.0, 0.0)
+    slow = interface.load(4e-5, 1e-14, 0.0, 0.0, 0.0)
+    assert at_rest[:2] == pytest.approx(slow[:2], rel=1e-4)
+    assert math.hypot(*at_rest[:2]) > 0.0
+    assert interface.load(4e-5, 0.0, 0.0, 0.0, 0.0)[:2] == at_rest[:2]
+
+
+def assert_near_twice_the_grid(law, seed, count):
+    """1 % of the force, or of that at ambient pressure where the two nearly cancel."""
+    deviations = []
+    for eps, eps_dot, eps_w, angle, law.supply in fed_states(seed, count):
+        law.angle = angle
+        force = law(eps, eps_dot, eps_w)
+        state = GroovedFilmState(law.bearing, eps, angle, (288, 20))
+        film = state.solve(eps_dot, 0.5 * eps_w, None, law.supply)
+        ambient = state.solve(eps_dot, 0.5 * eps_w)
+        largest = max(math.hypot(*film[:2]), math.hypot(*ambient[:2]))
+        deviations.append(math.hypot(force[0] - film.f_r, force[1] - film.f_t) / largest)
+        (flow,) = law.side_flow(*map(np.atleast_1d, (eps, eps_dot, eps_w, angle)))
+        assert flow == pytest.approx(film.side_flow, rel=0.03)
+        lost = dissipated_power(force, eps_dot, eps_w) + law.pump_power
+        exact = film.f_t * 0.5 * eps_w - film.f_r * eps_dot + 12.0 * law.supply * film.feed
+        assert lost == pytest.approx(exact, rel=0.03)
+    return deviations
+
+
+@pytest.mark.long
+def test_interpolated_law_of_a_groove_around():
+    deviations = assert_near_twice_the_grid(law_of(RING, (None, None)), 7, 40)
+    assert max(deviations) < 0.01 and np.median(deviations) < 0.003
+
+
+@pytest.mark.long
+def test_interpolated_law_of_two_pockets():
+    law = PressurizedFilm(TWO)
+    law.set_table(film_table(TWO))
+    law.set_supply_table(supply_table(TWO))
+    deviations = assert_near_twice_the_grid(law, 8, 60)
+    assert np.quantile(deviations, 0.95) < 0.01 and np.median(deviations) < 0.003

@@ -1,0 +1,217 @@
+r"""The film of a bearing whose grooves have oil under pressure, from tables of Reynolds' equation.
+
+The film is of first degree in its two speeds and the supply pressure Pi = p c^2 / (12 mu R^2)
+together. Its force is that of `grooved_table` at ambient pressure, and more by
+
+.. math::
+    \Delta f_{r,t} = \Pi\, H_{r,t}(\varepsilon, \text{angle}, \text{direction}, \psi), \qquad
+    \tan^2 \psi = \frac{K \lambda\, \Pi}{\sqrt{a^2 + b^2}}, \qquad
+    \lambda = s^3 \bigl(1 + (D/L)^2\bigr).
+
+psi = 0 is the ambient film, and psi = pi / 2 a journal at rest, in whose film the pressure is that
+of the grooves alone. The dissipated power, of which the pump does what the journal does not, is
+
+.. math::
+    D = \bigl(E (a^2 + b^2) + 12\, G\, \Pi^2\bigr)\, e^\chi
+
+with the conductance G of the journal at rest: it is positive whatever the table holds.
+"""
+
+import math
+from operator import add
+from typing import Any
+
+import numpy as np
+
+from exu_press.laws.film.contract import AT_REST, FilmForce
+from exu_press.laws.film.grooved_table import (
+    LAST,
+    GroovedFilm,
+    Knots,
+    extrapolated_rows,
+    interval_of,
+    knots_in_steps,
+    open_ended,
+    periodic,
+    slopes,
+    speeds_of,
+    weights,
+)
+from exu_press.laws.film.grooves import TURN, GroovedBearing, GroovedFilmState
+from exu_press.numerics.arrays import Array
+
+__all__ = ["PressurizedFilm", "knots_of", "tabulated_row"]
+
+CELLS = (72, 8)
+"""Of the finer grid, around and over half of the length: for the pressure's part of the force."""
+
+LEVELS = 14
+"""Eccentricities, even in -ln(1 - eps) up to 0.995."""
+
+STEP = math.radians(10.0)
+"""Largest step of the angle in the bearing."""
+
+DIRECTIONS = 20
+"""Of the two speeds."""
+
+INTERVALS = 16
+"""Of psi."""
+
+RATIO = 0.4
+"""The K of psi."""
+
+SLOWEST = 1e-6
+"""Speeds over lambda Pi below which the force is that of this speed, for its derivatives."""
+
+CHANNELS = 5
+"""H_r, H_t, side flow over Pi, chi and ln G."""
+
+
+def knots_of(bearing: GroovedBearing) -> Knots:
+    """Return the knots of a bearing's table but psi's."""
+    return knots_in_steps(bearing, LEVELS, STEP, DIRECTIONS)
+
+
+def tabulated_row(bearing: GroovedBearing, x: float) -> Array:
+    """Return the channels at an eccentricity, (angles, directions, psi, channels)."""
+    return extrapolated_rows(
+        bearing,
+        knots_of(bearing).angle,
+        CELLS,
+        lambda angle, cells: _responses(bearing, -math.expm1(-x), angle, cells),
+        [1.0, -1.0, 1.0, 1.0, 1.0],
+    )
+
+
+def _responses(bearing: GroovedBearing, eps: float, angle: float, cells: tuple[int, int]) -> Array:
+    """Return the channels at a place, (directions, psi, channels)."""
+    s = math.sqrt((1.0 - eps) * (1.0 + eps))
+    psi = np.linspace(0.0, 0.5 * math.pi, INTERVALS + 1)[1:-1]
+    ratios = (np.tan(psi) ** 2 / RATIO).tolist()
+    state = GroovedFilmState(bearing, eps, angle, cells)
+    hydrostatic = state.solve(0.0, 0.0, None, 1.0)
+    conductance = hydrostatic.feed
+    rows = np.empty((DIRECTIONS, INTERVALS + 1, CHANNELS))
+    rows[..., 3], rows[..., 4] = 0.0, math.log(conductance)
+    rows[:, -1, :3] = hydrostatic[:3]
+    wet = None
+    for row, (u, v) in zip(rows, speeds_of(knots_of(bearing).direction, s), strict=True):
+        ambient = state.solve(v, u, wet)
+        wet = now = ambient.unbroken
+        row[0, :3] = state.supply_force(wet)
+        lost = ambient.f_t * u - ambient.f_r * v
+        speed = math.hypot(v, s * u) / _stiffness(bearing, eps)
+        for k, ratio in enumerate(ratios, 1):
+            supply = ratio * speed
+            film = state.solve(v, u, now, supply)
+            now = film.unbroken
+            row[k, :3] = np.subtract(film[:3], ambient[:3]) / supply
+            power = film.f_t * u - film.f_r * v + 12.0 * supply * film.feed
+            row[k, 3] = math.log(power / (lost + 12.0 * conductance * supply**2))
+    return rows
+
+
+def _stiffness(bearing: GroovedBearing, eps: float) -> float:
+    """Return lambda, of psi."""
+    return float(((1.0 - eps) * (1.0 + eps)) ** 1.5 * (1.0 + bearing.length_to_diameter**-2))
+
+
+class PressurizedFilm(GroovedFilm):
+    """A film law with grooves under pressure.
+
+    Attributes:
+        supply: largest pressure of the grooves, over 12 mu R^2 / c^2, 1/s; set before each call.
+        pump_power: at the last call, over P c, 1/s^2.
+    """
+
+    def __init__(self, bearing: GroovedBearing, onset_ratio: float | None = None) -> None:
+        """Prepare; arguments as of `GroovedFilm`."""
+        super().__init__(bearing, onset_ratio)
+        self.supply = self.pump_power = 0.0
+        self._supply_coefficients: Array | None = None
+        self._supply_count = 1
+
+    def set_supply_table(self, table: Array) -> None:
+        """Take the table of what the pressure adds, (eccentricities, angles, directions, psi, 5).
+
+        It has no slope over psi at both ends.
+        """
+        self._supply_count = table.shape[1]
+        mirrored = np.concatenate([table, table[:, :, :, -2:0:-1]], axis=3)
+        smooth = periodic(periodic(periodic(mirrored, 1), 2), 3)
+        angle_first = np.swapaxes(open_ended(smooth), 0, 1)
+        padded = np.pad(angle_first, ((1, 2), (0, 0), (1, 2), (1, 2), (0, 0)), mode="wrap")
+        self._supply_coefficients = np.ascontiguousarray(padded[:, :, :, : INTERVALS + 3])
+
+    def _smooth(self, eps: float, eps_dot: float, eps_w: float) -> FilmForce:
+        supply, u = self.supply, 0.5 * eps_w
+        if supply <= 0.0 or not 0.0 <= eps < 1.0 or not math.isfinite(eps_dot + eps_w):
+            return super()._smooth(eps, eps_dot, eps_w)
+        s2 = (1.0 - eps) * (1.0 + eps)
+        s = math.sqrt(s2)
+        slowest = SLOWEST * supply * _stiffness(self.bearing, eps)
+        speed = math.hypot(eps_dot, s * u)
+        if speed < slowest:
+            if speed < AT_REST:
+                eps_dot, u, speed = slowest, 0.0, slowest
+            eps_dot, u = eps_dot / speed * slowest, u / speed * slowest
+            eps_w, speed = 2.0 * u, slowest
+        ambient = super()._smooth(eps, eps_dot, eps_w)
+        values, by_x, by_y, by_psi = self._interpolate_supply(eps, eps_dot, u, self.angle)
+        (h_r, h_t, _, chi, ln_g), rho = values, math.hypot(eps_dot, u)
+        c, d, b = u / rho, eps_dot / rho, s * u
+        q = s2 * c * c + d * d
+        dy = 0.5 * (1.0 + s / q) / rho
+        tan2 = RATIO * _stiffness(self.bearing, eps) * supply / speed
+        turn = math.sqrt(tan2) / (2.0 * (1.0 + tan2))  # d psi / d ln tan^2 psi
+        by_eps = (1.0 / (1.0 - eps), 0.5 * eps * c * d / (s * q),
+                  turn * (u * u * eps / speed**2 - 3.0 * eps / s2))  # fmt: skip
+        by_dot = 0.0, dy * c, -turn * eps_dot / speed**2
+        by_w = 0.0, -0.5 * dy * d, -0.5 * turn * s * b / speed**2
+        more = [
+            supply * (x * by_x[k] + y * by_y[k] + psi * by_psi[k])
+            for k in (0, 1)
+            for x, y, psi in (by_eps, by_dot, by_w)
+        ]
+        f_r, f_t = ambient[0] + supply * h_r, ambient[1] + supply * h_t
+        lost = ambient[1] * u - ambient[0] * eps_dot + 12.0 * math.exp(ln_g) * supply**2
+        self.pump_power = lost * math.exp(chi) - (f_t * u - f_r * eps_dot)
+        r_eps, r_dot, r_w, t_eps, t_dot, t_w = map(add, ambient[2:8], more)
+        return f_r, f_t, r_eps, r_dot, r_w, t_eps, t_dot, t_w, ambient[8], ambient[9]
+
+    def side_flow(self, eps: Array, eps_dot: Array, eps_w: Array, angle: Array) -> Array:
+        """Return the side flow over L R c, (n,), 1/s; beyond the table's end as there."""
+        states = zip(eps.tolist(), eps_dot.tolist(), (0.5 * eps_w).tolist(), angle.tolist(),
+                     strict=True)  # fmt: skip
+        shares = [self._interpolate_supply(*state)[0][2] for state in states]
+        return super().side_flow(eps, eps_dot, eps_w, angle) + self.supply * np.array(shares)
+
+    def _interpolate_supply(
+        self, eps: float, eps_dot: float, u: float, angle: float
+    ) -> list[list[float]]:
+        """Return the channels, then these by x, by the direction and by psi."""
+        assert self._supply_coefficients is not None, "set_supply_table comes first"
+        eps = min(eps, 1.0 - 1e-15)
+        s = math.sqrt((1.0 - eps) * (1.0 + eps))
+        speed = max(math.hypot(eps_dot, s * u), AT_REST)
+        x, y = -math.log1p(-eps), 0.5 * (math.atan2(eps_dot, u) + math.atan2(eps_dot, s * u))
+        psi = math.atan(math.sqrt(RATIO * _stiffness(self.bearing, eps) * self.supply / speed))
+        x_step, step = LAST / (LEVELS - 1), 0.5 * math.pi / INTERVALS
+        i, along_x = interval_of(min(x, LAST), x_step, LEVELS - 1)
+        count = self._supply_count
+        in_period = (angle - self._first_angle) % self._period
+        j, around = interval_of(in_period, self._period / count, count)
+        k, along_y = interval_of(y + math.pi, TURN / DIRECTIONS, DIRECTIONS)
+        n, along_psi = interval_of(psi, step, INTERVALS)
+        near = self._supply_coefficients[j : j + 4, i : i + 4, k : k + 4, n : n + 4]
+        at_angle = (np.array(weights(around)) @ near.reshape(4, -1)).reshape(4, -1)
+        w_x = np.array([weights(along_x), slopes(along_x, 1.0 / x_step)])
+        w_y = np.array([weights(along_y), slopes(along_y, DIRECTIONS / TURN)])
+        w_psi = np.array([weights(along_psi), slopes(along_psi, 1.0 / step)])
+        at_x = (w_x @ at_angle).reshape(2, 4, -1)
+        of_y = (w_y @ at_x).reshape(2, 2, 4, CHANNELS)  # by x or not, by y or not
+        every: Any = w_psi @ of_y
+        ((values, by_psi), (by_y, _)), ((by_x, _), _) = every.tolist()
+        if x > LAST:
+            by_x = [0.0] * CHANNELS
+        return [values, by_x, by_y, by_psi]

@@ -74,11 +74,11 @@ def _per_stroke(kind: str) -> Callable[[Reading, str], float | None]:
 
 
 BALANCE = (
-    Quantity("energy.input", "J", "energy that drive and loads put in",
+    Quantity("energy.input", "J", "energy that drive, loads and pumps put in",
              FLOW, _end("input"),
              title="energy from drive and loads", signed=True, cumulative=True),
     Quantity("energy.input_per_stroke", "J",
-             "energy that drive and loads put in per revolution, over whole revolutions",
+             "energy that drive, loads and pumps put in per revolution, over whole revolutions",
              FLOW, _per_stroke("input"),
              title="per stroke", is_detail=True, signed=True),
     Quantity("energy.stored", "J", "change of the stored energy",

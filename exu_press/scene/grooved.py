@@ -18,7 +18,7 @@ __all__ = ["GroovedLaw", "SupplyGroove"]
 RANGE = 0.1, 4.0
 """L/D, as of `finite`."""
 
-PRESSURIZED_ERRORS = 0.01, 0.03
+PRESSURIZED_ERRORS = 0.02, 0.05
 """Of force and side flow where oil is under pressure."""
 
 

@@ -140,7 +140,7 @@ JOINTS = (
     Quantity("mean_power", "W", "mean power that the joint dissipates, over whole revolutions",
              LOAD, lambda run, joint: run.rate(run[f"{joint}_loss"]), Owner.JOINT, _has_clearance,
              signed=True, law_error=film_error),
-    Quantity("pump_power", "W",
+    Quantity("film.pump_power", "W",
              "power of the pump that feeds its grooves, mean over whole revolutions",
              LOAD, lambda run, joint: run.mean(run[f"{joint}_pump_power"]), Owner.JOINT, _is_fed,
              signed=True, law_error=film_error),

@@ -260,7 +260,9 @@ class GroovedFilmState:
         """
         source = self._source(eps_dot, half_w)
         driven = source + supply * self._into
-        unbroken = (driven > 0.0 if wet is None else wet) & ~self._groove
+        if wet is None:  # a pressure fills the film; cell by cell that would take long
+            wet = source > 0.0 if supply == 0.0 else np.ones_like(self._groove)
+        unbroken = wet & ~self._groove
         rounding = ROUNDING * (np.abs(source) + supply * FAINT * self._diagonal)
         for _ in range(ITERATIONS):
             p = self._pressure(driven, unbroken) + supply * self._share

@@ -14,7 +14,7 @@ from exu_press.model.film_tables import film_table, supply_table
 
 AROUND = 2.0 * math.pi
 
-RING = GroovedBearing(0.5, (Groove(0.0, AROUND, 0.2, 1.0),))
+RING = GroovedBearing(0.5, (Groove(0.0, AROUND, 0.1, 1.0),))
 
 POCKETS = GroovedBearing(
     0.5, (Groove(0.5 * math.pi, 0.3, 0.8, 1.0), Groove(-0.5 * math.pi, 0.2, 0.5, 0.4))
@@ -29,7 +29,7 @@ TWO = GroovedBearing(
 def test_flow_of_a_groove_around(eps):
     """Two lands of length L_l, of which each passes pi D c^3 p (1 + 1.5 eps^2) / (12 mu L_l)."""
     film = GroovedFilmState(RING, eps, 0.0, (72, 8)).solve(0.0, 0.0, None, 2.0)
-    land = 0.4 * RING.length_to_diameter  # over D; the pressure is in 12 mu R^2 / c^2
+    land = 0.45 * RING.length_to_diameter  # over D; the pressure is in 12 mu R^2 / c^2
     expected = AROUND / RING.length_to_diameter * 2.0 / land * 0.5 * (1.0 + 1.5 * eps**2)
     assert film.side_flow == pytest.approx(expected, rel=2e-3)
     assert film.feed == pytest.approx(film.side_flow, rel=1e-9)
@@ -135,23 +135,26 @@ def test_a_pressure_bears_a_journal_at_rest(any_law):
 def assert_near_twice_the_grid(law, seed, count):
     """In nine of ten states 1 % of the force, or of the ambient one where the two nearly cancel."""
     deviations = []
-    for eps, eps_dot, eps_w, angle, law.supply in fed_states(seed, count):
-        law.angle = angle
+    for eps, eps_dot, eps_w, angle in states(seed, count):
+        speed = math.hypot(eps_dot, eps_w)
+        law.angle, law.supply = angle, speed * 10.0 ** (2.0 * math.sin(angle) - 1.0)
         force = law(eps, eps_dot, eps_w)
         state = GroovedFilmState(law.bearing, eps, angle, (288, 20))
         film = state.solve(eps_dot, 0.5 * eps_w, None, law.supply)
         ambient = state.solve(eps_dot, 0.5 * eps_w)
         largest = max(math.hypot(*film[:2]), math.hypot(*ambient[:2]))
-        deviations.append(math.hypot(force[0] - film.f_r, force[1] - film.f_t) / largest)
         (flow,) = law.side_flow(*map(np.atleast_1d, (eps, eps_dot, eps_w, angle)))
-        assert flow == pytest.approx(
-            film.side_flow, rel=0.05, abs=0.01 * math.hypot(eps_dot, eps_w)
-        )
         lost = dissipated_power(force, eps_dot, eps_w) + law.pump_power
         exact = film.f_t * 0.5 * eps_w - film.f_r * eps_dot + 12.0 * law.supply * film.feed
-        assert lost == pytest.approx(exact, rel=0.05)
-    assert np.median(deviations) < 0.005 and np.quantile(deviations, 0.9) < 0.01
-    assert np.quantile(deviations, 0.97) < 0.025
+        deviations.append(
+            (
+                math.hypot(force[0] - film.f_r, force[1] - film.f_t) / largest,
+                abs(flow / film.side_flow - 1.0),
+                abs(lost / exact - 1.0),
+            )
+        )
+    assert (np.median(deviations, axis=0) < [0.005, 0.02, 0.02]).all()
+    assert (np.quantile(deviations, 0.9, axis=0) < [0.01, 0.03, 0.03]).all()
 
 
 @pytest.mark.long

@@ -94,7 +94,6 @@ def references(run: Result, cost: float, *, chaotic: bool) -> tuple[str, list[Re
         chaotic: whether its scene is one of `chaotic_scene`.
     """
     solver = run.scene.solver
-    assert solver is not None
     if chaotic:
         assert solver.tolerance is not None
         parted = run.info["horizon"] is not None

@@ -191,8 +191,6 @@ def _load_items(
     Why variants of a scene are left out stands beside them.
 
     Args:
-        names: names of files.
-        assignments: changes of scenes.
         allow_code: whether scenes may name modules of the user's.
         measured: whether measured curves are beside them, with which one run may be alone.
     """

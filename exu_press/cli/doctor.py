@@ -27,14 +27,9 @@ def execute(options: argparse.Namespace) -> int:
     print(f"joints: {'compiled' if check.joints_compiled() else cost}")
     runs = check.runs()
     for run in runs:
-        print(f"{'ok' if run.ok else 'WRONG'}: {run.name}: {_words(run)}")
+        error = f"off by {run.error:.2g} {run.unit}, allowed {run.allowed:g} {run.unit}"
+        text = run.reason or f"{run.what} {error}"
+        print(f"{'ok' if run.ok else 'WRONG'}: {run.name}: {text}")
     sound = all(versions.values()) and all(run.ok for run in runs)
     print("this installation works" if sound else "this installation does not work")
     return 0 if sound else 1
-
-
-def _words(run: check.Run) -> str:
-    """Return the result of a run beside the right one."""
-    if run.reason:
-        return run.reason
-    return f"{run.what} off by {run.error:.2g} {run.unit}, allowed {run.allowed:g} {run.unit}"

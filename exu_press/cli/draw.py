@@ -35,9 +35,11 @@ from exu_press.mechanism.drawing_warnings import drawing_warnings
 from exu_press.mechanism.examine import Examination, examine
 from exu_press.mechanism.stroke import units_of_output
 from exu_press.mechanism.transmission import group_equal_angles, least_transmission_angle
+from exu_press.scene import Scene
 from exu_press.scene.file import parse_assignment
-from exu_press.schema.checks import demand_known
-from exu_press.schema.table import table_from
+from exu_press.scene.solver import RPM
+from exu_press.schema.checks import checked_value, demand_known
+from exu_press.schema.table import declared_keys, table_from
 from exu_press.schema.toml import read_toml
 from exu_press.terminal.columns import columns
 
@@ -114,7 +116,6 @@ def execute(options: argparse.Namespace) -> int:
 
 
 def _names() -> list[str]:
-    """Return the names of shipped mechanisms and scenes."""
     return sorted({*BY_DIMENSIONS, *MECHANISMS, *shipped_names()})
 
 
@@ -145,8 +146,6 @@ def _of_scene(
     """Return the mechanism that a scene names or holds, and the crank's speed where it says it.
 
     Args:
-        data: of the scene.
-        path: of its file.
         changes: of the scene's keys that are drawn, and of the mechanism's.
     """
     own = {name: changes[name] for name in DRAWN if name in changes}
@@ -187,9 +186,8 @@ def _speed(data: Mapping[str, Any]) -> float | None:
     rpm = data.get("speed_rpm")
     if rpm is None:
         return None
-    if isinstance(rpm, bool) or not isinstance(rpm, int | float) or not 0.0 < rpm < math.inf:
-        raise InputError(f"speed_rpm = {rpm!r}: allowed is a number > 0 (rpm)")
-    return rpm * math.pi / 30
+    speed: float = checked_value(declared_keys(Scene)["speed_rpm"], "speed_rpm", rpm)
+    return speed * RPM
 
 
 def _parts(mechanism: Mechanism) -> list[str]:

@@ -133,7 +133,6 @@ def _summary(name: str) -> str:
 
 
 def _execute(arguments: Sequence[str] | None) -> int:
-    """Parse the arguments and run the command that they name."""
     words = sys.argv[1:] if arguments is None else list(arguments)
     for text in words:
         if "\0" in text:

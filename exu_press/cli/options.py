@@ -48,10 +48,7 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
 def add_run_arguments(parser: argparse.ArgumentParser) -> None:
     """Add --set, --allow-code, --out, --quiet and those of pictures."""
     add_set_argument(parser, "the scene, as in film.viscosity=0.1")
-    add_code_argument(parser)
-    parser.add_argument("--out", metavar="DIR", help="where to write (default: out/SCENE)")
-    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    add_picture_arguments(parser)
+    _add_output_arguments(parser, "SCENE")
 
 
 def add_code_argument(parser: argparse.ArgumentParser) -> None:
@@ -86,8 +83,12 @@ def add_error_argument(parser: argparse.ArgumentParser) -> None:
 def add_study_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of every command on a study file."""
     parser.add_argument("study", metavar="STUDY.toml", help="a study file")
+    _add_output_arguments(parser, "STUDY")
+
+
+def _add_output_arguments(parser: argparse.ArgumentParser, folder: str) -> None:
     add_code_argument(parser)
-    parser.add_argument("--out", metavar="DIR", help="where to write (default: out/STUDY)")
+    parser.add_argument("--out", metavar="DIR", help=f"where to write (default: out/{folder})")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     add_picture_arguments(parser)
 
@@ -105,7 +106,6 @@ def add_picture_arguments(parser: argparse.ArgumentParser, *, to_files: bool = T
     """Add the arguments of pictures.
 
     Args:
-        parser: of a command.
         to_files: whether the command names their files itself, and may leave them out.
     """
     if to_files:

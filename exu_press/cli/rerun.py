@@ -10,7 +10,7 @@ from exu_press.cli.options import add_code_argument, scene_path
 from exu_press.errors import InputError
 from exu_press.files.digests import locate
 from exu_press.files.output_directory import check_writable
-from exu_press.report.find import Kind, find_output
+from exu_press.report.find import Kind, find_run
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.scene.provenance import Provenance, changed_inputs
@@ -44,9 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> int:
     """Repeat the run; return 0, or 1 where figures do not agree."""
-    kind, file = find_output(Path(options.path), Kind.RUN)
-    if kind is not Kind.RUN:
-        raise InputError(f"{options.path}: allowed is a run.nc, or the directory that run wrote to")
+    file = find_run(options.path)
     if options.out is not None:
         if Path(options.out).suffix != Path(Kind.RUN.value).suffix:
             raise InputError(f"--out {options.out}: allowed is a name that ends in .nc")
@@ -88,7 +86,6 @@ def _changes(provenance: Provenance, scene: Scene, options: argparse.Namespace) 
 
 
 def _scene_in(run: Result) -> Scene:
-    """Return the scene that a result holds, complete."""
     if not run.scene.has_unresolved_kinds:
         return run.scene
     return Scene.from_dict(run.scene.to_dict(), run.scene.asked)  # refuses what is not loaded
@@ -101,7 +98,6 @@ def _scene_of(run: Result, provenance: Provenance, options: argparse.Namespace) 
     earlier = _arguments_of(provenance["command"])
     scene = Scene.load(scene_path(earlier.scene), earlier.set, allow_code=options.allow_code)
     solver = run.scene.solver
-    assert solver is not None
     if solver.tolerance is not None:  # --within or errors may have made it finer
         scene = scene.replace({"solver.tolerance": solver.tolerance})
     return scene
@@ -133,7 +129,6 @@ def _change_lines(changes: dict[str, str]) -> list[str]:
 
 
 def _lines(compared: Agreement, run: Result) -> list[str]:
-    """Return how the figures agree, for the terminal."""
     total = len(compared.identical) + len(compared.within) + len(compared.different)
     if len(compared.identical) == total:
         return [f"all {total} figures are identical in all digits"]

@@ -231,7 +231,6 @@ def _load_pictures(options: argparse.Namespace) -> None:
 
 
 def _run(scene: Scene, start: State | None, directory: Path, options: argparse.Namespace) -> int:
-    """Run the scene in a directory of its own; return the exit status."""
     remarks: list[str] = []
     interrupted = False
     doubts = scene_warnings(scene)

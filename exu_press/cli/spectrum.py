@@ -4,8 +4,7 @@ import argparse
 from pathlib import Path
 
 from exu_press.cli.options import add_picture_arguments
-from exu_press.errors import InputError
-from exu_press.report.find import Kind, find_output
+from exu_press.report.find import find_run
 from exu_press.result import Result
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
@@ -38,9 +37,7 @@ def execute(options: argparse.Namespace) -> int:
     from exu_press.files.output_directory import output_directory
     from exu_press.studies.spectrum import DEFAULT, marks_of, spectra
 
-    kind, file = find_output(Path(options.path), Kind.RUN)
-    if kind is not Kind.RUN:
-        raise InputError(f"{options.path}: allowed is a run.nc, or the directory that run wrote to")
+    file = find_run(options.path)
     run = Result.load(file)
     spectra_list = spectra(
         run, [*dict.fromkeys(options.channels)] or [DEFAULT], window=options.window

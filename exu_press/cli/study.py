@@ -29,13 +29,7 @@ STOPPED = 3
 
 @dataclass(frozen=True)
 class Command:
-    """A study's command in the form of the modules of commands.
-
-    Attributes:
-        EXAMPLE: a call.
-        add_arguments: adds its arguments to a parser.
-        execute: does it, and returns the exit status.
-    """
+    """A study's command in the form of the modules of commands."""
 
     EXAMPLE: str
     add_arguments: Callable[[argparse.ArgumentParser], None]
@@ -101,8 +95,6 @@ def show_report(report: Report, directory: Path, options: argparse.Namespace) ->
     """Save, print and draw a report; return its exit status.
 
     Args:
-        report: of a study.
-        directory: of its files.
         options: with `quiet` and `no_pictures`.
     """
     report.save(directory)

@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 
 from exu_press.errors import InputError
-from exu_press.report.find import Kind, find_output, report_of
+from exu_press.report.find import find_output, find_run, report_of
 from exu_press.result import Result
 from exu_press.terminal.progress import Progress
 
@@ -61,7 +61,7 @@ def execute(options: argparse.Namespace) -> int:
     """Show the page or write the animation; return 0."""
     if options.save is None:
         return _open(options)
-    result = Result.load(_run_file(Path(options.path)))
+    result = Result.load(find_run(options.path))
     target = Path(options.save)
     from exu_press.view.save import check_target, is_animation
 
@@ -104,16 +104,7 @@ def _page_path(file: Path) -> Path:
     return Path(tempfile.mkdtemp(prefix="exu_press_")) / beside.name
 
 
-def _run_file(path: Path) -> Path:
-    """Return the run's result file at a path."""
-    kind, file = find_output(path)
-    if kind is not Kind.RUN:
-        raise InputError(f"{path}: holds {file.name}, many runs; allowed is one of them, a run.nc")
-    return file
-
-
 def _write(result: Result, target: Path, is_picture: bool, options: argparse.Namespace) -> None:
-    """Make the animation or the picture and write it."""
     from matplotlib.figure import Figure
 
     from exu_press.view import Animation, Look, instants, moment, save_animation, save_picture

@@ -1,6 +1,7 @@
 """A directory for results: known to be writable before anything is run, never half a file in it."""
 
 import json
+import math
 import secrets
 import tempfile
 from collections.abc import Iterator
@@ -17,6 +18,7 @@ __all__ = [
     "check_writable",
     "folder_name",
     "output_directory",
+    "plain_data",
     "refuse_link",
     "remove_pictures",
     "replacing",
@@ -144,6 +146,21 @@ def check_writable(path: Path) -> None:
         raise InputError(f"{path}: is a directory; allowed is a file")
     with writing(path), tempfile.TemporaryFile(dir=path.parent):
         pass
+
+
+def plain_data(data: Any) -> Any:
+    """Return data with null for NaN and infinity, and NumPy's numbers and arrays as Python's."""
+    if hasattr(data, "tolist"):
+        data = data.tolist()
+    if data is None or isinstance(data, (str, bool, int)):
+        return data
+    if isinstance(data, float):
+        return data if math.isfinite(data) else None
+    if isinstance(data, dict):
+        return {str(name): plain_data(value) for name, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [plain_data(value) for value in data]
+    raise TypeError(f"{type(data).__name__} in a file: allowed are numbers, texts, lists and dicts")
 
 
 def write_json(path: Path, data: Any) -> None:

@@ -79,8 +79,6 @@ class Batch(ExitStack):
             has_files: arguments of a run -> whether the files that it wrote still exist; a run
                 without them is repeated.
             modules: that a worker imports first, for their declarations.
-            label: of the progress bar.
-            quiet: no progress bar.
 
         Raises:
             InputError: the number of workers or the time limit is not positive.
@@ -214,7 +212,6 @@ class Batch(ExitStack):
         return row
 
     def _started_pool(self) -> Pool:
-        """Return the pool, started for the first task."""
         if self._pool is None:
             self._pool = self.enter_context(_pool(self._workers, self._dask, self._limit))
         return self._pool

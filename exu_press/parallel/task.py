@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -10,6 +9,7 @@ from importlib import import_module
 from typing import Any
 
 from exu_press.errors import InputError
+from exu_press.files.output_directory import plain_data
 from exu_press.files.sources import source_digest
 from exu_press.installation.versions import version_of
 from fe_models.errors import disk_full
@@ -70,9 +70,6 @@ def task_of(
     """Return the task of a function's name and its arguments.
 
     Args:
-        function: "module:name".
-        arguments: of the function, as JSON has them.
-        modules: that a worker imports first.
         task_versions: `versions` of function and modules; None: they are looked up.
 
     Raises:
@@ -152,26 +149,11 @@ def row_of(function: Function, arguments: dict[str, Any]) -> Row:
     """
     try:
         row = {"status": COMPLETED, "reason": "", **function(arguments)}
-        return dict(_strict(row))
+        return dict(plain_data(row))
     except Exception as error:
         if full := disk_full(error):
             raise full from None
         return {"status": FAILED, "reason": _in_a_line(error)}
-
-
-def _strict(data: Any) -> Any:
-    """Return data with null for NaN and infinity, and NumPy's numbers and arrays as Python's."""
-    if hasattr(data, "tolist"):
-        data = data.tolist()
-    if data is None or isinstance(data, (str, bool, int)):
-        return data
-    if isinstance(data, float):
-        return data if math.isfinite(data) else None
-    if isinstance(data, dict):
-        return {str(name): _strict(value) for name, value in data.items()}
-    if isinstance(data, (list, tuple)):
-        return [_strict(value) for value in data]
-    raise TypeError(f"{type(data).__name__} in a row: allowed are numbers, texts, lists and dicts")
 
 
 def _in_a_line(error: Exception) -> str:

@@ -86,11 +86,7 @@ def worker(task: Task) -> Child:
 
 
 def perform(task: Task, child: Callable[[Task], Child], time_limit: float | None) -> Row:
-    """Return a task's row; if its worker dies it is tried once more.
-
-    Raises:
-        InputError: the worker cannot import the task's function, or has other versions.
-    """
+    """Return a task's row; if its worker dies it is tried once more."""
     reason = ""
     for _ in range(ATTEMPTS):
         try:

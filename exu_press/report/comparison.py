@@ -40,7 +40,6 @@ def comparison_page(
     """Return the page of runs by label.
 
     Args:
-        results: by label.
         source: where they are from, to be shown.
         span: begin and end of their curves, s; None: those of the records.
         measured: section on measured curves beside them.

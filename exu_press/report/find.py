@@ -9,7 +9,7 @@ from exu_press.result import Result
 from exu_press.result.checkpoint import checkpoint_directory
 from exu_press.studies.base.report import REPORT_FILE
 
-__all__ = ["Kind", "find_output", "report_of"]
+__all__ = ["Kind", "find_output", "find_run", "report_of"]
 
 
 class Kind(Enum):
@@ -25,7 +25,6 @@ def find_output(path: Path, preferred: Kind | None = None) -> tuple[Kind, Path]:
     """Return a path's kind and the file to read: a result file, or a directory with one of them.
 
     Args:
-        path: of a file or a directory.
         preferred: kind that is taken of a directory with results of several commands.
 
     Raises:
@@ -55,12 +54,24 @@ def find_output(path: Path, preferred: Kind | None = None) -> tuple[Kind, Path]:
     return Kind.RUN, path
 
 
+def find_run(path: str | Path) -> Path:
+    """Return the result file of a run at a path.
+
+    Raises:
+        InputError: there is none, or results of another kind.
+    """
+    kind, file = find_output(Path(path), Kind.RUN)
+    if kind is not Kind.RUN:
+        raise InputError(
+            f"{path}: holds {file.name}; allowed is a run.nc, or the directory that run wrote to"
+        )
+    return file
+
+
 def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
     """Return the page (HTML) of what `find_output` found.
 
     Args:
-        kind: of the file.
-        file: to be read.
         span: begin and end of the curves of runs, s; None: those of the record.
 
     Raises:

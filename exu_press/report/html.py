@@ -88,7 +88,6 @@ def page(title: str, under: str, sections: Sequence[tuple[str, str | Live | None
     """Return a page.
 
     Args:
-        title: of it.
         under: line below the title.
         sections: heading and HTML of each, or the live part; a section of None is left out.
     """
@@ -147,9 +146,6 @@ def table(
     """Return a table; the first cell of a row is its head. A wide one scrolls by itself.
 
     Args:
-        head: of its columns.
-        rows: texts.
-        caption: above it.
         name: under which a script finds it.
     """
     known_as = f' id="{escape(name)}"' if name else ""

@@ -89,7 +89,6 @@ def run_report(result: Result, source: str, span: Span = ALL, directory: Path | 
     """Return the page of a run.
 
     Args:
-        result: of the run.
         source: name of its file, to be shown.
         span: begin and end of its curves, s; None: those of the record.
         directory: in which its pictures may be already.

@@ -53,7 +53,6 @@ def sweep_page(file: Path) -> str:
 
 
 def _page(file: Path, report: dict[str, Any]) -> str:
-    """Return the page of a report's data; pictures lie beside the file."""
     live = _live(report)
     title = "Curves" if report["points"] is None else str(report["points"]["title"])
     tables = [(entry["title"], _table(Table(**entry))) for entry in report["tables"]]

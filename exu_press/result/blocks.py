@@ -38,7 +38,6 @@ def block_by_block(
         settling: whether revolutions are added until films have settled, MOST_ADDED at most.
     """
     scene, solver = model.scene, model.scene.solver
-    assert solver is not None
     unfinished = unfinished if scene.revolutions > longest else None
     infos: list[Info] = []
     remaining, steps, added = scene.revolutions, solver.max_steps, 0

@@ -27,7 +27,6 @@ def to_next_revolution(model: Model, remaining: float) -> tuple[Model, float]:
         remaining: revolutions of the run that are left, at the scene's speed.
     """
     solver = model.scene.solver
-    assert solver is not None
     if model.scene.drive is None or solver.tolerance is None:
         return model, min(remaining, 1.0)
     if model.until is not None:

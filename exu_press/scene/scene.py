@@ -127,7 +127,7 @@ class Scene(Table):
     guide: "ElasticGuide | None" = None
     output: "Output | None" = None
     wear: "Wear | None" = None
-    solver: Solver | None = None
+    solver: Solver = dataclasses.field(default=cast(Any, None))  # until it is completed
     press: Press | None = None
     slider_crank: SliderCrank | None = None
 
@@ -163,7 +163,7 @@ class Scene(Table):
             table = table_from(TABLES[name], name, {} if table is None else table)
             object.__setattr__(self, name, table)
         sampled = self.output is not None and self.output.samples
-        if sampled and self.solver is not None and self.solver.step is not None:
+        if sampled and self.solver.step is not None:
             raise InputError(
                 "output.samples: allowed with solver.tolerance, as fixed steps end on a grid"
             )

@@ -68,6 +68,13 @@ class Solver(Table):
         return self.steps.max_step_deg
 
     @property
+    def accuracy(self) -> tuple[str, float]:
+        """The key that decides how exact steps are, and its value: a tolerance or a step."""
+        if isinstance(self.steps, FixedSteps):
+            return "step", self.steps.step
+        return "tolerance", self.steps.tolerance
+
+    @property
     def step(self) -> float | None:
         """Size of fixed steps, s, or None."""
         return self.steps.step if isinstance(self.steps, FixedSteps) else None

@@ -111,7 +111,6 @@ class SceneAdvice(Advice):
     def resolution(self, worst: UnresolvedImpact) -> str:
         """Return the step or the tolerance that resolves the impacts."""
         solver = self._scene.solver
-        assert solver is not None
         if solver.tolerance is not None:
             return f"solver.tolerance = {0.1 * solver.tolerance:.0e}"
         from exu_press.solving.impact_steps import impact_steps
@@ -171,7 +170,7 @@ def leapt_over_load(model: SolvableModel) -> str:
     Steps by tolerance end on its corners.
     """
     scene, solver = model.scene, model.scene.solver
-    if solver is None or solver.step is None:
+    if solver.step is None:
         return ""
     edges = {name: load.shortest_edge(scene) for name, load in applied_loads(scene).items()}
     name = min(edges, key=edges.__getitem__, default="")

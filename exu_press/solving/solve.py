@@ -38,7 +38,6 @@ def solve(model: SolvableModel, *, tuning: SolverTuning = DEFAULTS, quiet: bool 
     """
     scene = model.scene
     solver = scene.solver
-    assert solver is not None
     masses = {body.name: body.mass for body in model.mechanism.bodies}
     settings = settings_for(scene, keeps_redundant=model.constraints.keeps_redundant)
     settings.timeIntegration.startTime = model.begin
@@ -85,7 +84,6 @@ def settings_for(scene: Scene, *, keeps_redundant: bool = False) -> exu.Simulati
     A fixed step is the largest one not above `solver.step` that divides the run's duration.
     """
     solver = scene.solver
-    assert solver is not None
     settings = exu.SimulationSettings()
     integration = settings.timeIntegration
     largest = solver.step or math.radians(solver.max_step_deg) / scene.angular_speed

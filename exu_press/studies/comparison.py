@@ -37,11 +37,7 @@ READ_FROM = "read from revolutions"
 
 @dataclass(frozen=True)
 class Comparison:
-    """Runs beside each other, read from equally long windows.
-
-    Attributes:
-        results: by label.
-    """
+    """Runs beside each other, read from equally long windows."""
 
     results: Mapping[str, Result]
 
@@ -65,8 +61,7 @@ class Comparison:
         """Return what all runs have in common, in words."""
         runs = list(self.results.values())
         words = describe([run.scene for run in runs]).replace("\n", SEPARATOR).split(SEPARATOR)
-        solvers = [run.scene.solver for run in runs if run.scene.solver is not None]
-        tolerances = {solver.tolerance for solver in solvers if solver.tolerance is not None}
+        tolerances = {run.scene.solver.tolerance for run in runs} - {None}
         words += [f"tolerance {tolerances.pop():g}"] if len(tolerances) == 1 else []
         states = {str(run.info["status"]) for run in runs}
         words += states if len(states) == 1 else []

@@ -27,7 +27,6 @@ class CurveComparison:
     """A measured curve, and what a run has at its places, SI.
 
     Attributes:
-        curve: contents of the file.
         measured: (m,).
         values: computed ones there, (m,).
         unit: of both.
@@ -75,7 +74,6 @@ def comparison_rows(name: str, runs: Mapping[str, Mapping[str, Any]]) -> list[li
     """Return a table: the head, then a curve's differences from the runs, a column each.
 
     Args:
-        name: of the curve.
         runs: label of the run -> as `CurveComparison.plain` tells it.
     """
     first = next(iter(runs.values()))

@@ -87,7 +87,6 @@ def channel_polynomials(where: str, curve: CurveFile, result: Result) -> tuple[A
     Args:
         where: the file, said of a fault.
         curve: whose second column names a channel.
-        result: of the run.
 
     Returns:
         the run's times, s, or crank angles, deg, (n,); coefficients of the polynomials between

@@ -105,7 +105,6 @@ def _strongest(spectrum: Spectrum, every_line: bool) -> list[int]:
     """Return the places of the highest peaks above resolution and error, by frequency.
 
     Args:
-        spectrum: of a curve.
         every_line: whether each frequency is a line of its own, as the orders of a single
             revolution are.
     """
@@ -146,14 +145,10 @@ def spectra(
     """Return the spectra of channels, of the part that quantities are read from (after `settle`).
 
     Args:
-        run: with channels.
         names: of channels; NAME.x is a column of one with columns.
         window: of the spectrum over frequency; None takes whole revolutions without a window at
             constant speed, else the flat top. The order spectrum is of whole revolutions, and needs
             none where the motion repeats itself in each of them.
-
-    Raises:
-        InputError: a name or the window is not allowed.
     """
     result = settled_part(run)
     return [_spectra(result, name, window) for name in names]

@@ -12,7 +12,6 @@ def columns(
 
     Args:
         rows: the head's first, if there is one.
-        indent: of every line.
         right: whether the columns but for the first one end under each other.
         gap: blanks between columns.
 

@@ -8,6 +8,7 @@ a finer one.
 import math
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Self
 
 import numpy as np
@@ -22,6 +23,7 @@ from exu_press.result.windows import revolutions_of
 from exu_press.scene import Scene
 from exu_press.terminal.progress import Progress
 from exu_press.verification.estimate import ORDER
+from exu_press.verification.refinement import step_changes
 
 __all__ = [
     "BATCHES",
@@ -36,9 +38,6 @@ __all__ = [
 
 FINER = 0.1
 """Tolerance (or fixed step) of the finer revolution of a pair, over the scene's."""
-
-FINEST = 1e-8
-"""Finest tolerance of a revolution."""
 
 PAIRS = 5
 """Pairs of revolutions for the discretization error."""
@@ -69,7 +68,6 @@ class Distribution:
     """Distribution of a quantity over revolutions, in its unit.
 
     Attributes:
-        revolutions: number of them.
         mean: with its error.
         scatter: standard deviation, with its error.
         percentiles: percentile -> value and its bounds of 90 % confidence, widened by the
@@ -92,8 +90,8 @@ class Distribution:
         array = np.asarray(values, dtype=float)
         return cls(
             len(array),
-            (float(array.mean()), _jackknife(array, _mean) + discretization),
-            (float(array.std(ddof=1)), _jackknife(array, _deviation) + discretization),
+            (float(array.mean()), _jackknife(array, np.mean) + discretization),
+            (float(array.std(ddof=1)), _jackknife(array, partial(np.std, ddof=1)) + discretization),
             {
                 percent: (value, low - discretization, high + discretization)
                 for percent, (value, low, high) in percentiles(array.tolist()).items()
@@ -113,15 +111,7 @@ class Distribution:
         }
 
 
-def _mean(values: Array) -> float:
-    return float(values.mean())
-
-
-def _deviation(values: Array) -> float:
-    return float(values.std(ddof=1))
-
-
-def _jackknife(values: Array, statistic: Callable[[Array], float]) -> float:
+def _jackknife(values: Array, statistic: Callable[[Array], Any]) -> float:
     """Return half the 95 % confidence interval of a statistic, by the jackknife over batches.
 
     Consecutive revolutions are correlated, batches of them hardly are (B. Efron, The Jackknife, the
@@ -158,17 +148,7 @@ def discretization_error(differences: Sequence[float]) -> float:
 
 def finer(scene: Scene) -> Scene:
     """Return a scene at FINER times its tolerance, or fixed step."""
-    solver = scene.solver
-    assert solver is not None
-    if solver.tolerance is None:
-        assert solver.step is not None
-        return scene.replace({"solver.step": FINER * solver.step})
-    return scene.replace(
-        {
-            "solver.tolerance": max(FINER * solver.tolerance, FINEST),
-            "solver.max_step_deg": math.sqrt(FINER) * solver.max_step_deg,
-        }
-    )
+    return scene.replace(step_changes(scene, FINER))
 
 
 def percentiles(values: Sequence[float]) -> dict[float, tuple[float, float, float]]:
@@ -212,7 +192,6 @@ def distributions(
         tolerance: relative error of the medians.
         minimum: revolutions.
         maximum: revolutions.
-        quiet: False shows the progress.
 
     Raises:
         InputError: a run stopped early.

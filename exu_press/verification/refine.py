@@ -54,11 +54,9 @@ def refinements(
     the one before it.
 
     Args:
-        scene: to be simulated.
         start: state of another run, from which it goes on.
         unfinished: directory in which the first run is while it goes on, see `simulate`; it stays
             there, while finer ones go to a temporary directory.
-        quiet: False shows the progress.
         announce: is called before a finer run begins, with why, and how long it may take.
         meanwhile: is called when the first run is done, while its refinements are under way.
 
@@ -75,7 +73,6 @@ def refinements(
         doubts = f"{names[0]}{f' and {len(names) - 1} more' if len(names) > 1 else ''}"
         unknown = f"{doubts}: not known within {ENOUGH:.0%}"
         solver = result.scene.solver
-        assert solver is not None
         if solver.tolerance is None or solver.tolerance <= FINEST:
             yield result, f"{unknown} with these steps"
             return

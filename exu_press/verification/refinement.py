@@ -2,7 +2,7 @@
 
 import gc
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
 
 from exu_press.model.state import State
@@ -12,7 +12,7 @@ from exu_press.scene import Scene
 from fe_models.processes import Child, ChildError, may_copy
 from fe_models.temporary import remove_abandoned
 
-__all__ = ["RefinementRuns", "plan", "refine"]
+__all__ = ["RefinementRuns", "plan", "refine", "step_changes"]
 
 OF_STEPS = (2.0, 3.0, 4.0)
 """Fixed steps of the refinements over the run's: their errors and cost go with the step."""
@@ -32,8 +32,8 @@ The least ratio is first: it tells where the trajectories diverge.
 LOOSEST = 0.1
 """No run has a looser tolerance."""
 
-LARGEST_STEP = 15.0
-"""degrees"""
+FINEST, LARGEST_STEP = 1e-8, 15.0
+"""Least tolerance and largest step, deg, that a scene may have."""
 
 GIVES_WAY = 10
 """By how much nicer all but the first one are to what else runs; systems without it share alike."""
@@ -42,31 +42,34 @@ GIVES_WAY = 10
 def plan(scene: Scene) -> dict[float, Scene]:
     """Return the refinements of a scene, by the ratio of their tolerance (or step) to its own.
 
-    Finer ones may take as many more steps: one that stops early tells no error.
-
     One that ends when its press stands goes on to the end of its revolutions in all of them: each
     stands at another instant.
     """
     if scene.drive is not None and scene.drive.ends_after is not None:
         scene = scene.replace({"drive.ends_after": None})
+    key, value = scene.solver.accuracy
+    ratios: Sequence[float] = OF_STEPS
+    if key == "tolerance":
+        ratios = next(ratios for least, ratios in PLANS.items() if least * value <= LOOSEST)
+    return {ratio: scene.replace(step_changes(scene, ratio)) for ratio in ratios}
+
+
+def step_changes(scene: Scene, ratio: float) -> dict[str, float]:
+    """Return the keys with which a scene has `ratio` times its tolerance, or its fixed step.
+
+    The largest step of a tolerance goes with its root. Finer runs may take as many more steps.
+    """
     solver = scene.solver
-    assert solver is not None
-    if solver.step is not None:
-        return {ratio: scene.replace({"solver.step": ratio * solver.step}) for ratio in OF_STEPS}
-    tolerance = solver.tolerance
-    assert tolerance is not None
-    room = next(least for least in PLANS if least * tolerance <= LOOSEST)
-    scenes = {}
-    for ratio in PLANS[room]:
+    key, value = solver.accuracy
+    changes = {
+        f"solver.{key}": ratio * value,
+        "solver.max_steps": math.ceil(solver.max_steps / min(ratio, 1.0)),
+    }
+    if key == "tolerance":
+        changes["solver.tolerance"] = max(ratio * value, FINEST)
         longest = min(math.sqrt(ratio) * solver.max_step_deg, LARGEST_STEP)
-        scenes[ratio] = scene.replace(
-            {
-                "solver.tolerance": ratio * tolerance,
-                "solver.max_step_deg": longest,
-                "solver.max_steps": math.ceil(solver.max_steps / min(ratio, 1.0)),
-            }
-        )
-    return scenes
+        changes["solver.max_step_deg"] = longest
+    return changes
 
 
 def refine(scene: Scene, start: State | None) -> Result:

@@ -84,10 +84,8 @@ def simulate_with_errors(
     """Simulate, with refinement runs.
 
     Args:
-        scene: to be simulated.
         start: state of another run, from which this one and its refinements go on.
         unfinished: directory in which the run is while it goes on, see `simulate`.
-        quiet: False shows the progress.
         beside: the refinements run in a further process meanwhile; else in this one afterwards, as
             where all cores have their runs already.
         interruptible: Ctrl-C raises KeyboardInterrupt; else it ends the run early, or leaves it
@@ -142,7 +140,6 @@ def _with_refinements(
 
 
 def _with_errors_of(result: Result, refinements: Iterable[tuple[float, Result]]) -> Result:
-    """Return a result with the errors of its quantities."""
     return replace(result, info={**result.info, **errors_of(result, refinements)})
 
 
@@ -156,7 +153,6 @@ def errors_of(
     Refinement runs that stopped before the run itself are left out; without any, no error is known.
 
     Args:
-        result: of a run.
         refinements: ratio of tolerances or steps to the run's own, and the run; the least ratio,
             whose run is the nearest one, is first.
         declared: quantities by name; those of the scene if None.
@@ -177,7 +173,8 @@ def errors_of(
         later = {r: window(run, horizon, end) for r, run in runs.items()}
         beyond_horizon = {r: numbers_of(run, declared) for r, run in later.items()}
     rereadings = [(weight, numbers_of(read(result), declared)) for weight, read in READINGS]
-    oscillating = {name: q for name, q in declared.items() if _oscillates(q.quantity)}
+    sums = {name: q for name, q in declared.items() if q.quantity.cumulative}
+    oscillating = {name: q for name, q in sums.items() if q.quantity.signed}
     late = _late_values(runs, horizon, oscillating) if diverging.distances else []
     sizes, arm = _largest_values(whole[1.0], declared), mechanism_of(result.scene).size
     errors: dict[str, Error] = {}
@@ -226,14 +223,9 @@ def _error(
     any value is possible that scatters as theirs do.
 
     Args:
-        name: of the quantity.
-        extreme: which one it is.
-        whole: values over the whole motion.
         until_horizon: values until the horizon, and until instants before it; the largest error
             counts.
         beyond_horizon: values from the horizon on, if there is one.
-        least: least error.
-        diverging: divergence of the run from its refinements.
     """
     values = {ratio: numbers[name] for ratio, numbers in whole.items() if name in numbers}
     if len(values) < 2:
@@ -256,11 +248,6 @@ def _error(
     if all(abs(first[r] - value) <= SAME * abs(value) for r, value in values.items()):
         return convergent
     return prediction_interval(list(values.values()), least, distances)
-
-
-def _oscillates(quantity: Quantity) -> bool:
-    """Return whether a quantity is a running sum that rises and falls."""
-    return quantity.cumulative and quantity.signed
 
 
 def _late_values(

@@ -27,7 +27,6 @@ class StatedError:
         value: of the run, in the quantity's unit.
         reference: of the more accurate run.
         reading_error: of `reference`.
-        stated: by the run.
     """
 
     name: str

@@ -39,7 +39,6 @@ class AchievedAccuracy:
 
     Attributes:
         result: of the run, with its errors.
-        tolerance: of the run.
         unmet: quantities that no tolerance determines within the required error, with their
             distribution over revolutions; None where there is none.
     """
@@ -50,11 +49,7 @@ class AchievedAccuracy:
 
 
 def headline(result: Result, name: str | None = None) -> list[str]:
-    """Return the name of one quantity, or those of the headline quantities that are not zero.
-
-    Raises:
-        InputError: there is no such quantity.
-    """
+    """Return the name of one quantity, or those of the headline quantities that are not zero."""
     if name is not None:
         return [quantity_of(result.scene, name).name]
     headline_quantities = {
@@ -72,13 +67,11 @@ def find_tolerance(
         scene: its tolerance begins the search.
         required: error over value.
         name: of a quantity, dotted; None: the headline ones.
-        quiet: False shows the progress.
 
     Raises:
         InputError: the scene has fixed steps, or no such quantity.
     """
     solver = scene.solver
-    assert solver is not None
     if solver.tolerance is None:
         raise InputError("--within: finds a tolerance, and solver.step asks for fixed steps")
     if name is not None:
@@ -156,7 +149,6 @@ def accuracy_lines(achieved: AchievedAccuracy, required: float) -> list[str]:
 
 
 def _horizon_lines(result: Result) -> list[str]:
-    """Return the predictability horizon and the growth of errors."""
     horizon, rate = result.info["horizon"], result.info["lyapunov_exponent"]
     if horizon is None:
         return []

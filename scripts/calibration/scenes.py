@@ -83,7 +83,6 @@ def chaotic_scene(random: np.random.Generator, longest: float) -> Scene:
 def groups_of(scene: Scene) -> list[str]:
     """Return the groups of the table that a scene counts in."""
     solver, friction, guide = scene.solver, scene.friction, scene.guide
-    assert solver is not None
     given = scene.mechanism
     found = [f"mechanism: {given if isinstance(given, str) else 'own ' + given.name}"]
     if not isinstance(given, str) and _reach(given) < WATCH:

@@ -64,7 +64,7 @@ def read(arguments: dict[str, Any]) -> dict[str, Any]:
     result, repeated = simulate(scene), 0
     while result.info["status"] == SolverStatus.UNDER_RESOLVED.value and repeated < MOST_REPEATED:
         repeated += 1
-        assert scene.solver is not None and scene.solver.tolerance is not None
+        assert scene.solver.tolerance is not None
         scene = scene.replace({"solver.tolerance": scene.solver.tolerance / 3.0})
         result = simulate(scene)
     row = {key: result.info[key] for key in ("status", "reason")}

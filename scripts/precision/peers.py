@@ -217,7 +217,7 @@ def _time(peer: Peer, model: CompiledModel, tolerance: float, _number: int = 0) 
             reason = str(error)
         times = (time.perf_counter() - start,), (time.process_time() - cpu_start,)
     status = "failed" if reason else "completed"
-    return TimedRun(None, *times, status, reason, law_evaluations=evaluations)
+    return TimedRun(None, *times, status=status, reason=reason, law_evaluations=evaluations)
 
 
 def _measure(peer: Peer, model: CompiledModel, tolerance: float) -> TimedRun:

@@ -45,7 +45,7 @@ def test_a_directory_of_many_runs(tmp_path, capsys):
     (tmp_path / "comparison.json").write_text("{}")
     assert main(["view", str(tmp_path), "--save", str(tmp_path / "x.gif")]) == 2
     told = capsys.readouterr().err
-    assert "comparison.json, many runs; allowed is one of them, a run.nc" in told
+    assert "holds comparison.json; allowed is a run.nc" in told
 
 
 def test_without_save_the_page_opens_in_the_browser(run, monkeypatch, capsys):

@@ -38,7 +38,6 @@ class Exponent:
     Attributes:
         value: mean logarithm of the growth of a distance in a revolution.
         low: lower end; minus infinity where only an upper bound is known.
-        high: upper end.
         distances: of renormalisation, without dimension.
         revolutions: of each.
     """
@@ -84,7 +83,6 @@ def combine_exponents(
 
     Args:
         growths: for each distance, (n,) ln(d_i / d_0).
-        distances: d_0.
         error: distance that the integration's error makes of one point in a revolution.
     """
     intervals = []

@@ -50,12 +50,9 @@ class Attractor:
     """Long-run dynamics of a press.
 
     Attributes:
-        scene: complete.
         skip: revolutions before the first point.
         points: (n, k) in the section, one a revolution, without dimension (`Orbit.point`).
         error: largest error of a point, by those that revolutions make.
-        period: after which the motion comes back.
-        exponent: largest Lyapunov exponent.
         figures: quantity -> its value in each revolution, (n,); channel -> its value on the
             section.
         step_errors: error of each of these by the integration's steps.
@@ -112,30 +109,25 @@ class Attractor:
                 "revolutions": self.period.revolutions,
                 "decided": self.period.is_decided,
                 "in_words": str(self.period),
-                "distances": self.period.distances.tolist(),
+                "distances": self.period.distances,
                 "error": self.error,
                 "finer": self.period.finer,
             },
             "lyapunov_exponent": {
-                "per_revolution": _finite(self.exponent.value),
-                "low": _finite(self.exponent.low),
-                "high": _finite(self.exponent.high),
-                "per_second": _finite(value),
-                "low_per_second": _finite(low),
-                "high_per_second": _finite(high),
-                "distances": list(self.exponent.distances),
+                "per_revolution": self.exponent.value,
+                "low": self.exponent.low,
+                "high": self.exponent.high,
+                "per_second": value,
+                "low_per_second": low,
+                "high_per_second": high,
+                "distances": self.exponent.distances,
                 "revolutions": self.exponent.revolutions,
                 "motion": self.exponent.sign,
             },
-            "figures": {
-                name: [_finite(value) for value in values.tolist()]
-                for name, values in self.figures.items()
-            },
+            "figures": dict(self.figures),
             "units": dict(self.units),
-            "distributions": {
-                name: distribution.to_dict() for name, distribution in self.distributions.items()
-            },
-            "points": self.points.tolist(),
+            "distributions": {name: d.to_dict() for name, d in self.distributions.items()},
+            "points": self.points,
         }
 
 
@@ -160,7 +152,6 @@ def attractor(
             column), kept on the section; the headline quantities by default.
         most: revolutions up to which a period is looked for.
         start: state on the section to begin with; the scene's own start by default.
-        quiet: False shows the progress.
 
     Raises:
         InputError: there is no such quantity or channel, there are too few revolutions, or the
@@ -283,10 +274,11 @@ class _Walk:
             self.start_time = orbit.state["time"]
         finer_result = self._finer.advance(recorded=recorded) if done in self._checked else None
         growths: list[float] = []
-        if done > self.begin:
-            growths = [
-                _growth(orbit, *pair) for pair in zip(self._neighbours, DISTANCES, strict=True)
-            ]
+        for neighbour, distance in zip(self._neighbours, DISTANCES, strict=True):
+            if done > self.begin:
+                neighbour.advance()
+                now = _bring_back(orbit, neighbour, neighbour, distance)
+                growths.append(math.log(now / distance))
         if done == self.begin:  # towards states that fit all constraints
             self._pushed.advance()
             directions = self._pushed, self._finer
@@ -340,12 +332,6 @@ def _perturbed_scene(scene: Scene) -> Scene:
     return scene.replace({"gravity": scene.gravity + PUSH * speed * scene.angular_speed})
 
 
-def _growth(orbit: Orbit, neighbour: Orbit, distance: float) -> float:
-    """Advance a neighbour, bring it back to `distance`; return the logarithm of its growth."""
-    neighbour.advance()
-    return math.log(_bring_back(orbit, neighbour, neighbour, distance) / distance)
-
-
 def _bring_back(orbit: Orbit, neighbour: Orbit, direction: Orbit, distance: float) -> float:
     """Put a neighbour at a distance from the orbit, towards another one; return their distance."""
     distance_before = max(float(np.linalg.norm(direction.point() - orbit.point())), NOISE)
@@ -354,11 +340,6 @@ def _bring_back(orbit: Orbit, neighbour: Orbit, direction: Orbit, distance: floa
 
 
 def _unit(scene: Scene, name: str) -> str:
-    """Return the unit of a channel.
-
-    Raises:
-        InputError: the scene has no quantity and no channel of this name.
-    """
     known = run_once(scene.replace({"revolutions": SHORT, "settle": 0.0, "output": None}))
     try:
         return column_of(known, name)[1]
@@ -372,7 +353,3 @@ def _error_amplification(exponent: Exponent) -> float:
     """Return the error of a state due to all revolutions over that due to one."""
     rate = min(exponent.high, -0.05)  # neighbours that do not approach have no period
     return 1.0 / (1.0 - math.exp(rate))
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

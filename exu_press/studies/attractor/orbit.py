@@ -62,7 +62,7 @@ class Orbit:
                 "[drive] starts or stops: an orbit is one of a press that runs; allowed is a drive "
                 "that begins 'turning', without start_time, stop_time and stop_angle_deg"
             )
-        if motor and scene.solver is not None and scene.solver.tolerance is None:
+        if motor and scene.solver.tolerance is None:
             raise InputError(
                 "solver.step: a motor gets to its section at any instant; allowed is "
                 "solver.tolerance, whose steps end there"
@@ -157,7 +157,11 @@ class Orbit:
                 free, own, target["coordinates"][:2], strict=True
             )
         )
-        return _replace_coordinates(self.state, q, q_t)
+        state = copy.deepcopy(self.state)
+        state["coordinates"][:2] = [q.tolist(), q_t.tolist()]
+        for joint in (state["joints"] or {"joints": []})["joints"]:
+            joint[1][1:] = [[], [], []]  # the path's eccentricity, velocity and acceleration
+        return state
 
     def _towards_section(self, model: Model) -> Model:
         """Return a model on the section that goes on to the next one."""
@@ -178,12 +182,3 @@ class Orbit:
                 size = len(model.mbs.GetNodeParameter(node, "referenceCoordinates"))
                 free[first : first + size] = 0.0
         return free
-
-
-def _replace_coordinates(state: State, q: Array, q_t: Array) -> State:
-    """Return a state with other coordinates and rates."""
-    changed = copy.deepcopy(state)
-    changed["coordinates"][:2] = [q.tolist(), q_t.tolist()]
-    for joint in (changed["joints"] or {"joints": []})["joints"]:
-        joint[1][1:] = [[], [], []]  # the path's eccentricity, velocity and acceleration
-    return changed

@@ -37,7 +37,6 @@ class Period:
         is_decided: False where the error is too large, or the motion has not
             settled.
         why: it is undecided; empty otherwise.
-        most: longest period looked for.
         distances: (most,) largest distance of points 1, 2, ... revolutions apart.
         error: of a point.
         finer: factor on the tolerance that would decide it; 1.0 where it is decided.
@@ -83,29 +82,29 @@ def period_of(points: Array, error: float, most: int = MOST, *, diverging: bool 
         )
     distances = np.array([_distance(points, n) for n in range(1, most + 1)])
     within = distances <= SAME * error
+
+    def undecided_period(why: str, finer: float = 1.0) -> Period:
+        return Period(None, False, why, most, distances, error, finer)
+
     same = np.flatnonzero(within & (distances <= LARGEST))
     if within.any() and diverging:
         finer = float(distances.min() / (APART * error))
         why = f"neighbours part, but points lie within their error of {error:.2g}"
-        return Period(None, False, why, most, distances, error, finer)
+        return undecided_period(why, finer)
     if within.any() and (error > LARGEST or not len(same)):
         why = f"points lie {distances.min():.2g} clearances apart, with an error of {error:.2g}"
-        finer = (LARGEST if len(same) else float(distances.min()) / APART) / error
-        return Period(None, False, why, most, distances, error, finer)
+        return undecided_period(
+            why, (LARGEST if len(same) else float(distances.min()) / APART) / error
+        )
     if len(same):
         return Period(int(same[0]) + 1, True, "", most, distances, error)
     nearest = int(np.argmin(distances))
     half = len(points) // 2
-    first, second = (
-        _distance(half_points, nearest + 1) for half_points in (points[:half], points[half:])
-    )
-    if second < SETTLED * first:
-        why = "it still settles: skip more revolutions"
-        return Period(None, False, why, most, distances, error)
+    if _distance(points[half:], nearest + 1) < SETTLED * _distance(points[:half], nearest + 1):
+        return undecided_period("it still settles: skip more revolutions")
     if distances[nearest] < APART * error:
-        finer = distances[nearest] / (APART * error)
         why = f"points lie {distances[nearest]:.2g} apart, with an error of {error:.2g}"
-        return Period(None, False, why, most, distances, error, float(finer))
+        return undecided_period(why, float(distances[nearest] / (APART * error)))
     return Period(None, True, "", most, distances, error)
 
 

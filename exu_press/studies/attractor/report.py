@@ -1,10 +1,10 @@
 """The report of a motion in the long run: period, exponent, figures over revolutions."""
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from exu_press.files.output_directory import plain_data
 from exu_press.quantities.units import shown_unit, with_unit
 from exu_press.scene import Scene
 from exu_press.studies.attractor.motion import Attractor
@@ -15,11 +15,7 @@ __all__ = ["AttractorReport"]
 
 @dataclass(frozen=True)
 class AttractorReport(Report):
-    """The motion of a press in the long run.
-
-    Attributes:
-        motion: that was computed.
-    """
+    """The motion of a press in the long run."""
 
     name = "attractor"
     files = ("attractor.json",)
@@ -64,7 +60,7 @@ class AttractorReport(Report):
             for k, column in enumerate(motion.points.T.tolist())
         ]
         figures = [
-            quantity_column(name, _finite_values(values), default_unit=motion.units[name])
+            quantity_column(name, plain_data(values), default_unit=motion.units[name])
             for name, values in motion.figures.items()
         ]
         labels = [f"revolution {number}" for number in numbers]
@@ -78,7 +74,6 @@ class AttractorReport(Report):
         return self.motion.to_dict()
 
     def _period(self) -> list[str]:
-        """Return the period, and what would tell it."""
         motion, period = self.motion, self.motion.period
         lines = [
             f"period: {period}",
@@ -86,16 +81,11 @@ class AttractorReport(Report):
             f"{motion.error:.2g} (clearances)",
         ]
         if not period.is_decided and period.finer < 1.0:
-            solver = self.scene.solver
-            assert solver is not None
-            name = "step" if solver.tolerance is None else "tolerance"
-            present = solver.step if solver.tolerance is None else solver.tolerance
-            assert present is not None
+            name, present = self.scene.solver.accuracy
             lines.append(f"  try --set solver.{name}={period.finer * present:.1g}")
         return lines
 
     def _exponent(self) -> list[str]:
-        """Return the largest Lyapunov exponent, and its meaning."""
         exponent, (value, low, high) = self.motion.exponent, self.motion.per_second
         if math.isfinite(low):
             text = f"{value:.3g} 1/s, 95 % in [{low:.3g}, {high:.3g}]; per revolution "
@@ -112,7 +102,6 @@ class AttractorReport(Report):
         return [f"largest Lyapunov exponent: {text}", f"  motion: {exponent.sign}"]
 
     def _figure(self, name: str) -> list[str]:
-        """Return the row of a figure."""
         distribution = self.motion.distributions.get(name)
         values = distribution.mean[:1] if distribution else ()
         unit, scale = shown_unit(name, values, self.motion.units[name])
@@ -131,7 +120,3 @@ class AttractorReport(Report):
             f"{scatter:.2g} +- {scatter_error:.1g}",
             *(f"{value:.5g} [{low:.5g}, {high:.5g}]" for value, low, high in percentiles),
         ]
-
-
-def _finite_values(values: Iterable[float]) -> list[float | None]:
-    return [float(value) if math.isfinite(value) else None for value in values]

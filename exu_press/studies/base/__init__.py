@@ -1,8 +1,7 @@
 """The base of all studies: a file, keys that vary, runs side by side, their rows."""
 
-from exu_press.studies.base.inputs import arguments_of, scene_from
 from exu_press.studies.base.keys import Key, Normal, Range, Values
-from exu_press.studies.base.runs import Row, Runs, row_of, run_scene
+from exu_press.studies.base.runs import Row, Runs, arguments_of, row_of, run_scene, scene_from
 from exu_press.studies.base.study import Study, load_study
 
 __all__ = [

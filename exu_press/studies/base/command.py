@@ -33,11 +33,7 @@ class StudyCommand(ABC):
 
     @classmethod
     def load(cls, options: argparse.Namespace) -> Study:
-        """Return the study of the arguments, which are checked.
-
-        Raises:
-            InputError: not allowed.
-        """
+        """Return the study of the arguments, which are checked."""
         return load_study(options.study, cls.study, allow_code=options.allow_code)
 
     @staticmethod
@@ -46,7 +42,6 @@ class StudyCommand(ABC):
         """Do the runs that are missing, write the report, and return it.
 
         Args:
-            study: of the kind `study`.
             directory: of this study alone.
             how: quiet, and with `uses_workers` workers and dask, of `Runs`.
         """
@@ -109,11 +104,7 @@ class SceneCommand(StudyCommand):
 
     @classmethod
     def study_of(cls, scene: Scene, options: argparse.Namespace) -> SceneStudy:
-        """Return the study of a scene.
-
-        Raises:
-            InputError: arguments are not allowed.
-        """
+        """Return the study of a scene."""
         values = {field.name: getattr(options, field.name) for field in cls._own_fields()}
         lists = {name: tuple(value) for name, value in values.items() if isinstance(value, list)}
         return cls.study(scene=scene, label=Path(options.scene).stem, **{**values, **lists})

@@ -33,8 +33,6 @@ class Evaluation:
 
     Attributes:
         quantities: full names.
-        failures: kind of failure -> the reason of each run.
-        rows: of the points evaluated so far.
     """
 
     def __init__(
@@ -43,12 +41,7 @@ class Evaluation:
         quantities: Sequence[str],
         run: Callable[[Sequence[Scene]], Sequence[Row]],
     ) -> None:
-        """Take study, quantities and runner.
-
-        Args:
-            study: whose keys a point has.
-            quantities: full names.
-            run: returns the rows of scenes; `Runs.run_scenes`.
+        """Take study, full names of quantities, and `run`, which returns the rows of scenes.
 
         Raises:
             InputError: the scene has no such quantity.
@@ -56,15 +49,9 @@ class Evaluation:
         for name in quantities:
             quantity_of(study.scene, name)
         self.quantities = tuple(quantities)
-        self.failures: defaultdict[str, list[str]] = defaultdict(list)
-        self.rows: dict[tuple[Any, ...], Row] = {}
-        self._points: dict[tuple[Any, ...], Point] = {}
+        self._points: dict[str, Point] = {}
+        self._rows: dict[str, Row] = {}
         self._study, self._run = study, run
-
-    @property
-    def number_of_points(self) -> int:
-        """Number of different points that were evaluated."""
-        return len(self.rows)
 
     @property
     def points(self) -> list[Point]:
@@ -74,55 +61,50 @@ class Evaluation:
     @property
     def numbers(self) -> Array:
         """Quantities of `points`, (points, quantities), as a call returns them."""
-        return np.array([numbers_in(self.rows[key], self.quantities) for key in self._points])
+        return self(self.points)
 
     def __call__(self, points: Sequence[Point]) -> Array:
         """Return quantities, (points, quantities); NaN in all of a row whose run failed."""
-        rows = self.rows_of(points)
-        return np.array([numbers_in(row, self.quantities) for row in rows])
+        return np.array([numbers_in(row, self.quantities) for row in self.rows_of(points)])
 
     def rows_of(self, points: Sequence[Point]) -> list[Row]:
         """Return the rows of points; a point is run once."""
-        new: dict[tuple[Any, ...], Scene] = {}
-        for point in points:
-            key = _key(point)
+        keys = [repr(sorted(point.items())) for point in points]
+        new: dict[str, Scene] = {}
+        for key, point in zip(keys, points, strict=True):
             if key in self._points:
                 continue
             self._points[key] = dict(point)
             try:
                 new[key] = self._study.scene_at(point)
             except InputError as error:
-                self.rows[key] = {"status": NO_SCENE, "reason": str(error)}
-                self.failures[NO_SCENE].append(str(error))
-        for key, row in zip(new, self._run(list(new.values())), strict=True):
-            self.rows[key] = row
-            if kind := self._failure_kind(row):
-                self.failures[kind].append(str(row["reason"]))
-        return [self.rows[_key(point)] for point in points]
+                self._rows[key] = {"status": NO_SCENE, "reason": str(error)}
+        if new:
+            self._rows |= zip(new, self._run(list(new.values())), strict=True)
+        return [self._rows[key] for key in keys]
 
     def run_summary(self) -> list[str]:
         """Return lines: how many runs gave numbers, and why others failed."""
-        failed = sum(map(len, self.failures.values()))
-        number = self.number_of_points
+        reasons_by_kind = defaultdict(list)
+        for row in self._rows.values():
+            if kind := self._failure_kind(row):
+                reasons_by_kind[kind].append(str(row["reason"]))
+        failed, number = sum(map(len, reasons_by_kind.values())), len(self._rows)
         lines = [f"{number} runs: {number - failed} gave numbers, {failed} did not"]
-        for kind, reasons in sorted(self.failures.items(), key=lambda item: -len(item[1])):
+        for kind, reasons in sorted(reasons_by_kind.items(), key=lambda item: -len(item[1])):
             first = ("; the first: " if len(reasons) > 1 else ": ") + reasons[0]
             lines.append(f"  {len(reasons)} x {kind}{first if reasons[0] else ''}")
         return lines
 
     def summary_line(self) -> str:
         """Return `run_summary` in one line."""
-        return "; ".join(self.run_summary())
+        return "; ".join(line.strip() for line in self.run_summary())
 
     def _failure_kind(self, row: Row) -> str:
         if row["status"] != COMPLETED:
             return str(row["status"])
         missing = [name for name in self.quantities if row.get(name) is None]
         return f"too short to have {missing[0]}" if missing else ""
-
-
-def _key(point: Point) -> tuple[Any, ...]:
-    return tuple(sorted((name, repr(value)) for name, value in point.items()))
 
 
 def numbers_in(row: Row, quantities: Sequence[str]) -> list[float]:
@@ -136,11 +118,7 @@ def numbers_in(row: Row, quantities: Sequence[str]) -> list[float]:
 def require_key_kinds(
     study: Study, command: str, kinds: tuple[type, ...] = (Range,)
 ) -> tuple[str, ...]:
-    """Return the names of a study's keys, all of which must be of certain kinds.
-
-    Raises:
-        InputError: one is not.
-    """
+    """Return the names of a study's keys, all of which must be of certain kinds."""
     forms = {
         Range: "{low = a, high = b}, with log = true by its logarithm",
         Normal: "{mean = m, deviation = s}",

@@ -117,25 +117,24 @@ class Normal(Table):
 
     def quantile(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the quantiles of shares between 0 and 1."""
-        from scipy.stats import truncnorm
-
-        low, high = ((bound - self.mean) / self.deviation for bound in self._bounds)
-        values = truncnorm.ppf(share, low, high, loc=self.mean, scale=self.deviation)
-        return np.asarray(values, dtype=float)
+        return np.asarray(self._distribution.ppf(share), dtype=float)
 
     def share(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the shares of the distribution below values: the inverse of `quantile`."""
-        from scipy.stats import truncnorm
-
-        low, high = ((bound - self.mean) / self.deviation for bound in self._bounds)
-        shares = truncnorm.cdf(value, low, high, loc=self.mean, scale=self.deviation)
-        return np.asarray(shares, dtype=float)
+        return np.asarray(self._distribution.cdf(value), dtype=float)
 
     def plain(self) -> dict[str, Any]:
         """Return the variation in the form of the file."""
         bounds = {name: getattr(self, name) for name in ("low", "high")}
         finite = {name: bound for name, bound in bounds.items() if bound is not None}
         return {"mean": self.mean, "deviation": self.deviation, **finite}
+
+    @property
+    def _distribution(self) -> Any:
+        from scipy.stats import truncnorm
+
+        low, high = ((bound - self.mean) / self.deviation for bound in self._bounds)
+        return truncnorm(low, high, loc=self.mean, scale=self.deviation)
 
     @property
     def _bounds(self) -> tuple[float, float]:
@@ -174,11 +173,7 @@ def keys_from(table: Mapping[str, Any], prefix: str = "") -> dict[str, Key]:
 
 
 def key_from(name: str, value: Any) -> Key:
-    """Return how one key varies.
-
-    Raises:
-        InputError: in no allowed way.
-    """
+    """Return how one key varies."""
     if isinstance(value, (Values, Range, Normal)):
         return value
     with error_prefix(f"keys.{name}: "):

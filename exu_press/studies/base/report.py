@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from exu_press.files.digests import files_read
-from exu_press.files.output_directory import write_json
+from exu_press.files.output_directory import plain_data, write_json
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.units import shown_unit
 from exu_press.scene import Scene
@@ -45,11 +45,7 @@ class Table:
     """Texts in columns, with lines above and below them.
 
     Attributes:
-        title: heading on a page.
         head: names of the columns with their units; empty where there are lines alone.
-        rows: texts, a cell for each column.
-        above: lines above the head.
-        below: lines below the rows.
         indent: of the columns in a terminal.
         right: whether a terminal aligns the columns but for the first one to the right.
         excerpt: indices of the rows that a terminal shows; None for all.
@@ -81,7 +77,6 @@ class Picture:
 
     Attributes:
         name: of its file, without the ending.
-        caption: on a page.
         function: "module:function", from the report, and `arguments`, to a matplotlib figure, or
             None where there is nothing to draw; imported when it draws.
         arguments: of the function, after the report.
@@ -105,8 +100,7 @@ class Column:
         name: of the key or quantity.
         unit: of the values; "" where they have none.
         values: a number, a text, or None of a point that has none.
-        low: least values, where errors are known.
-        high: largest values, likewise.
+        low, high: bounds of the values, where errors are known.
     """
 
     name: str
@@ -122,11 +116,9 @@ class Points:
 
     Attributes:
         keys: columns of what varied.
-        quantities: columns of numbers of the runs.
         labels: text that opens with a point, as the command that runs it again.
         across, up: columns of the picture at first; "" for the first key and the first quantity.
         colour: column that the colours show at first; "" for the first key that is not across.
-        title: heading on a page.
     """
 
     keys: Sequence[Column]
@@ -143,12 +135,8 @@ class Line:
     """A curve of a panel.
 
     Attributes:
-        label: of it.
-        x: across.
-        y: up.
         points: whether it is drawn as points.
-        low: least values, where errors are known.
-        high: largest values.
+        low, high: bounds of the values, where errors are known.
     """
 
     label: str
@@ -164,10 +152,7 @@ class Panel:
     """Curves over one axis, which a page shows.
 
     Attributes:
-        title: above it.
         across: label of the x axis, with its unit.
-        up: label of the y axis.
-        lines: drawn over each other.
     """
 
     title: str
@@ -250,7 +235,7 @@ class Report(ABC):
         return []
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the contents of NAME.json; empty where there is no such file."""
+        """Return the contents of NAME.json, where NaN is null; empty where there is no file."""
         return {}
 
     def csv_files(self) -> dict[str, Mapping[str, Sequence[Value]]]:
@@ -269,7 +254,7 @@ class Report(ABC):
     def save(self, directory: Path) -> None:
         """Write NAME.json, CSV files, the scene, and the file of which a page is made."""
         if data := self.to_dict():
-            write_json(directory / f"{self.name}.json", data)
+            write_json(directory / f"{self.name}.json", plain_data(data))
         for name, values in self.csv_files().items():
             write_csv(directory / name, values)
         if self.scene_file and self.scene is not None:
@@ -308,7 +293,6 @@ def quantity_column(
     """Return a key or a quantity as a column, in the unit of `shown_unit`.
 
     Args:
-        name: of the key or the quantity.
         values: SI.
         low, high: bounds of the values, SI.
         default_unit: unit of a name that is neither key nor quantity.

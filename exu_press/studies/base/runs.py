@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from exu_press.errors import InputError, error_prefix
+from exu_press.files.digests import file_digest
 from exu_press.files.file_format import refuse_newer_format
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import output_directory, subdirectory, write_json
@@ -15,15 +16,37 @@ from exu_press.parallel.task import Function
 from exu_press.quantities import own_modules, values_of
 from exu_press.result import Result
 from exu_press.scene import Scene
+from exu_press.scene.provenance import files_in
 from exu_press.schema.kinds import custom_modules
 from exu_press.schema.stored import from_json
-from exu_press.studies.base.inputs import arguments_of, scene_from
 from exu_press.studies.base.report import FORMAT, Report
 from exu_press.studies.base.study import Study
 
-__all__ = ["Row", "Runs", "row_of", "run_scene"]
+__all__ = ["Row", "Runs", "arguments_of", "row_of", "run_scene", "scene_from"]
 
 STUDY_FILE = "study.json"
+
+
+def arguments_of(scene: Scene) -> dict[str, Any]:
+    """Return what identifies a run of a scene: its keys and the digests of its files."""
+    data = scene.to_dict()
+    files = {path: file_digest(path) for path in files_in(data)}
+    return {"scene": data, "files": files} if files else {"scene": data}
+
+
+def scene_from(arguments: dict[str, Any]) -> Scene:
+    """Return the scene of a run's arguments.
+
+    Raises:
+        InputError: one of its files has been changed since they were made, or is gone.
+    """
+    for path, digest in arguments.get("files", {}).items():
+        if file_digest(path) != digest:
+            raise InputError(
+                f"{path}: has been changed while the study goes on; the same command does the run "
+                "with the new file"
+            )
+    return Scene.from_dict(arguments["scene"])
 
 
 class Runs(Batch):
@@ -48,12 +71,10 @@ class Runs(Batch):
         """Prepare; processes start with the first run.
 
         Args:
-            study: whose runs these are.
             directory: of this study alone.
             report: of the study; its files are written in the end.
             label: of the progress bar; the report's name where there is none.
             function: of a run's arguments, for `rows`; `run_scene` by default.
-            quiet: False shows the progress on standard error.
             workers: `workers` or `dask`, as of a `Batch`.
 
         Raises:
@@ -157,13 +178,9 @@ def _claim(directory: Path, study: Mapping[str, Any], written: Sequence[str]) ->
     with error_prefix(f"{path}: "):
         refuse_newer_format(str(stored.pop("format", "")), FORMAT)
     if stored != own:
+        names = (name for name in {**own, **stored} if stored.get(name) != own.get(name))
+        where = f" in {next(names, '')}" if stored else ""  # it cannot be read
         raise InputError(
-            f"{directory}: belongs to another study ({path.name} differs{_where(stored, own)}); "
+            f"{directory}: belongs to another study ({path.name} differs{where}); "
             "allowed is another directory, or to remove this one"
         )
-
-
-def _where(stored: dict[str, Any], own: dict[str, Any]) -> str:
-    """Return the first key in which two studies differ, in words; nothing of an unreadable one."""
-    names = (name for name in {**own, **stored} if stored.get(name) != own.get(name))
-    return f" in {next(names, '')}" if stored else ""

@@ -116,11 +116,7 @@ class Study(Table):
 
 
 def names_in(name: str, value: Any) -> tuple[str, ...]:
-    """Return the value of a key that is a list of names of quantities.
-
-    Raises:
-        InputError: it is no such list, or empty.
-    """
+    """Return the value of a key that is a list of names of quantities."""
     if isinstance(value, list | tuple) and value and all(isinstance(text, str) for text in value):
         return tuple(value)
     raise InputError(f"{name} = {value!r:.200}: allowed is a list of names of quantities")
@@ -130,8 +126,6 @@ def load_study(path: str | Path, kind: type[S], *, allow_code: bool = False) -> 
     """Return the study of a TOML file; a scene's path is relative to the study's directory.
 
     Args:
-        path: of the file.
-        kind: of the study.
         allow_code: import the modules that kinds of joints name; they run with the user's rights.
 
     Raises:

@@ -20,7 +20,6 @@ class BearingCoefficients:
     """A bearing in the equilibrium of a load, in the drawing's axes.
 
     Attributes:
-        joint: its name.
         load: on the journal, N.
         speed_rpm: of the journal, counter-clockwise.
         eccentricity: journal's centre - bearing's centre, m.
@@ -70,7 +69,6 @@ def bearing_coefficients(
     An oil that warms has the temperature of its heat balance in the equilibrium.
 
     Args:
-        scene: that has the joint.
         joint: name of a lubricated journal; its bearing is at rest as it is drawn.
         load: on the journal, x and y of the drawing, N.
         speed_rpm: of the journal, counter-clockwise.
@@ -81,7 +79,10 @@ def bearing_coefficients(
     """
     scene = scene if isinstance(scene, Scene) else Scene.from_dict(scene)
     journal_joint(scene, joint)
-    _check_numbers(load, speed_rpm)
+    if not 0.0 < math.hypot(*load) < math.inf:
+        raise InputError(f"load = {tuple(load)!r}: allowed is a force on the journal, not 0, in N")
+    if not 0.0 < abs(speed_rpm) < math.inf:
+        raise InputError(f"speed_rpm = {speed_rpm!r}: allowed is a speed of the journal, not 0")
     journal = Journal(scene, joint, speed_rpm * math.tau / 60.0)
     temperature = _balance_heat(journal, load) if journal.oil is not None else None
     e = journal.equilibrium(load)
@@ -173,14 +174,6 @@ def journal_joint(scene: Scene, name: str) -> tuple[LubricatedJoint, JournalFilm
     ]
     allowed = ", ".join(lubricated) or "none here: --set joints.NAME=lubricated makes one"
     raise InputError(f"{name}: is no lubricated journal; allowed: {allowed}")
-
-
-def _check_numbers(load: tuple[float, float], speed_rpm: float) -> None:
-    """Raise InputError for a load or a speed that is 0 or no number."""
-    if not 0.0 < math.hypot(*load) < math.inf:
-        raise InputError(f"load = {tuple(load)!r}: allowed is a force on the journal, not 0, in N")
-    if not 0.0 < abs(speed_rpm) < math.inf:
-        raise InputError(f"speed_rpm = {speed_rpm!r}: allowed is a speed of the journal, not 0")
 
 
 def _balance_heat(journal: Journal, load: tuple[float, float]) -> float:

@@ -44,7 +44,6 @@ def bearing_figure(report: BearingReport) -> Figure:
 
 
 def _pressure(panel: Axes, report: BearingReport) -> None:
-    """Draw Reynolds' pressure at the equilibria."""
     for k, row in enumerate(report.rows[:MOST_CURVES]):
         angle, pressure = _largest_pressure(report, row)
         label = f"{math.hypot(*row.load):g} N, {row.speed_rpm:g} rpm"

@@ -8,7 +8,7 @@ from typing import Any
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.scene import Scene
 from exu_press.schema.csv_table import Value
-from exu_press.studies.base.report import Column, Picture, Points, Report, Table
+from exu_press.studies.base.report import Column, Points, Report, Table
 from exu_press.studies.bearing.coefficients import BearingCoefficients, journal_joint
 from exu_press.studies.bearing.study import BearingStudy
 
@@ -34,15 +34,13 @@ FIGURES: Mapping[str, tuple[str, float, Read]] = {
 
 @dataclass(frozen=True)
 class BearingReport(Report):
-    """A bearing under loads and at speeds.
-
-    Attributes:
-        study: whose report this is.
-        rows: one for each load at each speed.
-    """
+    """A bearing under loads and at speeds."""
 
     name = "bearing"
     files = ("bearing.json", "bearing.csv")
+    drawn = (
+        ("bearing", "Pressure around the bearing, the journal's locus, and the coefficients."),
+    )
 
     study: BearingStudy
     rows: Sequence[BearingCoefficients]
@@ -88,11 +86,6 @@ class BearingReport(Report):
             Table("Equilibrium", head, figures, above=[self.subtitle]),
             Table("Stiffness and damping", [*names, *units], matrices),
         ]
-
-    def pictures(self) -> list[Picture]:
-        """Return the picture of pressure, locus and coefficients."""
-        caption = "Pressure around the bearing, the journal's locus, and the coefficients."
-        return [Picture("bearing", caption, "exu_press.studies.bearing.figure:bearing_figure")]
 
     def points(self) -> Points:
         """Return the equilibria over load and speed."""

@@ -145,7 +145,6 @@ def _periods(panel: Axes, rows: list[list[Row]], longest: int) -> None:
 
 
 def _colour_index(row: Row, longest: int) -> int:
-    """Return the index of a run's colour."""
     if row["status"] != "completed":
         return longest + 2
     if not row["decided"]:

@@ -1,12 +1,14 @@
 """The report of a bifurcation study, and its points as a dataset."""
 
 import dataclasses
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
 
 from exu_press.errors import required_package
+from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import COMPLETED
 from exu_press.quantities.units import meaning_of, unit_of, with_unit
 from exu_press.studies.base import Row
@@ -25,9 +27,7 @@ class Branch:
 
     Attributes:
         name: "up", "down" or "from the start".
-        values: in their order.
         rows: of `run_point`; one that failed has status and reason alone.
-        second: value of the second key, or None.
     """
 
     name: str
@@ -44,7 +44,6 @@ class BifurcationReport(Report):
     """The result: the motions in the long run over one key, or over two.
 
     Attributes:
-        study: whose report this is.
         branches: one or two, for each value of the second key.
     """
 
@@ -146,30 +145,33 @@ class BifurcationReport(Report):
         """
         xarray = required_package("xarray", "to_xarray", "xarray")
         study = self.study
-        completed = [row for branch in self.branches for row in branch.rows if "points" in row]
+        rows = [row for branch in self.branches for _, row in sorted(branch, key=itemgetter(0))]
+        size = len(study.seconds), len(self.ways), len(study.values)
+
+        def table(read: Callable[[Row], Any], missing: Any) -> Array:
+            """Return what a run has, over way and keys."""
+            read_rows = [read(row) if "points" in row else missing for row in rows]
+            numbers = np.array(read_rows, dtype=float)
+            ordered = np.moveaxis(numbers.reshape(*size, *numbers.shape[1:]), 0, 2)
+            return ordered if study.second is not None else ordered[:, :, 0]
+
+        figures = {
+            "period": table(lambda row: (row["period"] or 0) if row["decided"] else None, None),
+            "error": table(itemgetter("error"), None),
+        }
+        exponents = table(itemgetter("exponent"), (None, None, None))
+        for number, end in enumerate(("", "_low", "_high")):
+            figures[f"exponent{end}"] = exponents[..., number]
+        completed = [row for row in rows if "points" in row]
         section = (
             np.shape(completed[0]["points"]) if completed else (study.bifurcation.revolutions, 0)
         )
+        points = table(itemgetter("points"), np.full(section, np.nan))
         keys = {study.name: list(study.values)}
         if study.second is not None:
             keys[study.second] = [second for second in study.seconds if second is not None]
-        axes: dict[str, Sequence[object]] = {"way": self.ways, **keys}
-        size = tuple(map(len, axes.values()))
-        figures = {name: np.full(size, np.nan) for name in ("period", "error")}
-        figures |= {f"exponent{end}": np.full(size, np.nan) for end in ("", "_low", "_high")}
-        points = np.full((*size, *section), np.nan)
-        for branch in self.branches:
-            for value, row in branch:
-                if "points" not in row:
-                    continue
-                index = [self.ways.index(branch.name), study.values.index(value)]
-                index += [] if branch.second is None else [study.seconds.index(branch.second)]
-                points[tuple(index)] = row["points"]
-                ends = [np.nan if end is None else end for end in row["exponent"]]
-                period = (row["period"] or 0) if row["decided"] else np.nan
-                for name, entry in zip(figures, (period, row["error"], *ends), strict=True):
-                    figures[name][tuple(index)] = entry
-        variables = {name: (tuple(axes), values) for name, values in figures.items()}
+        axes = "way", *keys
+        variables = {name: (axes, values) for name, values in figures.items()}
         attributes = {n: {"units": unit_of(n), "long_name": meaning_of(n)} for n in keys}
         return xarray.Dataset(
             {"points": ((*axes, "revolution", "coordinate"), points), **variables},

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -27,45 +28,33 @@ def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> Bifurc
     hysteresis shows. Both ways, and the values of a second key, run side by side. After a run that
     failed, the next one starts as the scene does.
 
-    Args:
-        study: to be run.
-        directory: of this study alone.
-        how: workers, dask, quiet of `exu_press.studies.base.Runs`.
+    Arguments and errors are those of `exu_press.studies.base.Runs`.
     """
     values = study.values
     with Runs(study, directory, report=BifurcationReport, function=run_point, **how) as runs:
-        if study.bifurcation.way == FROM_THE_START:
-            points = [(value, second) for second in study.seconds for value in values]
-            rows = iter(runs.rows([_arguments(study, *point, None) for point in points]))
-            branches = [
-                Branch(FROM_THE_START, values, [next(rows) for _ in values], second)
-                for second in study.seconds
-            ]
-        else:
-            ways = {"up": values, "down": values[::-1]}
-            names = [name for name in ways if name in study.bifurcation.way]
-            chain_rows: list[list[Row]] = []
-            branches, chains = [], []
-            for second in study.seconds:
-                for name in names:
-                    chain_rows.append([])
-                    branches.append(Branch(name, ways[name], chain_rows[-1], second))
-                    chains.append(_follow_values(study, ways[name], second, chain_rows[-1]))
-            runs.follow(chains, len(chains) * len(values))
+        ways = {"up": values, "down": values[::-1], FROM_THE_START: values}
+        names = [name for name in ways if name in study.bifurcation.way]
+        branches, chains = [], []
+        for second, name in product(study.seconds, names):
+            rows: list[Row] = [{} for _ in values]
+            branches.append(Branch(name, ways[name], rows, second))
+            numbers = range(len(values))
+            for chain in [(n,) for n in numbers] if name == FROM_THE_START else [numbers]:
+                chains.append(_follow_values(study, branches[-1], rows, chain))
+        runs.follow(chains, len(branches) * len(values))
     report = BifurcationReport(study, branches)
     report.save(Path(directory))
     return report
 
 
 def _follow_values(
-    study: Bifurcation, values: Sequence[float], second: float | None, rows: list[Row]
+    study: Bifurcation, branch: Branch, rows: list[Row], numbers: Sequence[int]
 ) -> Chain:
-    """Yield the arguments of one run after another, and add their rows to `rows`."""
+    """Yield the arguments of some of a branch's runs, each after the one before, and keep rows."""
     last = None
-    for value in values:
-        row = yield _arguments(study, value, second, last)
-        rows.append(row)
-        last = value, row
+    for n in numbers:
+        rows[n] = yield _arguments(study, branch.values[n], branch.second, last)
+        last = branch.values[n], rows[n]
 
 
 def _arguments(
@@ -91,11 +80,6 @@ def rescale_state(state: State, old_speed: float, new_speed: float) -> State:
     """Return a state on the section rescaled to another speed of the crank.
 
     Time, velocities and accelerations are rescaled with it, so that they satisfy the constraints.
-
-    Args:
-        state: on the section.
-        old_speed: speed at which it was found, in any unit.
-        new_speed: likewise.
     """
     ratio = new_speed / old_speed
     q, q_t, *further = state["coordinates"]

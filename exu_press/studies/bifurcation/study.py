@@ -36,9 +36,6 @@ class LongRun(Table):
 class Bifurcation(Study):
     """A study file with one key or two, and its table [bifurcation].
 
-    Attributes:
-        bifurcation: how long each run is, and where it begins.
-
     Raises:
         InputError: there are more keys than two, a key's values are no numbers that increase, or
             the runs are too short for the period asked.
@@ -103,7 +100,6 @@ class Bifurcation(Study):
         return point
 
     def _numbers(self, name: str) -> tuple[float, ...]:
-        """Return the values of a key."""
         variation = self.keys[name]
         values = variation.values if isinstance(variation, Values) else ()
         numbers = tuple(

@@ -34,10 +34,6 @@ class Curve(Table):
         low_cut, high_cut: corner frequencies of the sensor's band, Hz: a number, or two between
             which it is unknown; both filters are of second order (Butterworth).
         under: key of the scene that differs in the measurement -> its value.
-        measured: data of the file.
-
-    Raises:
-        InputError: not allowed.
     """
 
     table = "curve"
@@ -141,7 +137,6 @@ def fit_sensor(
     projection: G. Golub, V. Pereyra, Inverse Problems 19 (2003) R1-R26).
 
     Args:
-        curve: measured data, and unknowns of the sensor.
         measured: values, SI, (m,).
         at: times or angles of the run's values, (n,), increasing.
         polynomials: coefficients of the computed curve between them, (4, n - 1).

@@ -35,19 +35,15 @@ def fit_figure(report: FitReport) -> Figure:
     if number:
         first = axes.pop(0)
         rows = np.arange(number)[::-1]
-        residuals = [
-            (computed - (entry.value or 0.0)) / (entry.uncertainty or 1.0)
-            for entry, computed in zip(study.measured, report.numbers, strict=True)
-        ]
         first.axvspan(-2.0, 2.0, color=SHADE, zorder=0)
         first.axvline(0.0, color="black", linewidth=0.8)
         first.errorbar(
-            residuals, rows, xerr=report.errors[:number], fmt="o", color=COLOURS["blue"],
+            report.residuals, rows, xerr=report.errors[:number], fmt="o", color=COLOURS["blue"],
             markersize=5, elinewidth=1.2,
         )  # fmt: skip
         first.set_yticks(rows, [plain(entry.name) for entry in study.measured])
         first.set_ylim(-0.6, number - 0.4)
-        most = max(3.0, 1.15 * max(map(abs, residuals)))
+        most = max(3.0, 1.15 * float(np.abs(report.residuals).max()))
         first.set_xlim(-most, most)
         first.set_title("Numbers")
         first.set_xlabel("(computed - measured) / uncertainty; bars: error of the run")

@@ -33,7 +33,6 @@ def jacobian(evaluate: Evaluate, x: Array, residuals: Array, step: Array) -> Arr
     where a run fails.
 
     Args:
-        evaluate: see Evaluate.
         x: point, (keys,).
         residuals: there, (numbers,).
         step: of each key, (keys,).
@@ -73,7 +72,6 @@ def steps(evaluate: Evaluate, x: Array, residuals: Array, errors: Array) -> Arra
     It is doubled from STEP on, up to LARGEST.
 
     Args:
-        evaluate: see Evaluate.
         x: point, (keys,).
         residuals: there, (numbers,).
         errors: of evaluations, in the unit of residuals, (numbers,).

@@ -19,9 +19,6 @@ class MeasuredNumber(Table):
     Attributes:
         quantity: full name, with its kind of observation, as a peak averaged over 1 ms.
         under: key of the scene that differs in the measurement -> its value.
-
-    Raises:
-        InputError: not allowed.
     """
 
     table = "measured"

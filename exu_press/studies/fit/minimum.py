@@ -15,6 +15,8 @@ DISTINCT = 0.05
 """Scaled distance above which two minima are distinct."""
 
 MOST_STEPS = 25
+"""Evaluations of one search, less those of differences."""
+
 CHANGE = 1e-4
 """Relative change of the sum of squares that ends a search."""
 
@@ -48,10 +50,6 @@ def select_starts(
     """Return the best distinct points of a sample over the ranges, best first.
 
     Args:
-        evaluate: see Evaluate.
-        keys: number of keys.
-        count: largest number of points.
-        seed: of the sample.
         start: a point that is always among them, whatever its residuals.
     """
     number = 2 ** int(np.ceil(np.log2(4 * keys)))
@@ -68,7 +66,7 @@ def select_starts(
 
 
 def search_minima(
-    evaluate: Evaluate, starts: list[Minimum], step: Array, most: int = MOST_STEPS
+    evaluate: Evaluate, starts: list[Minimum], step: Array
 ) -> tuple[list[Minimum], int]:
     """Return the minima that starts lead to, best first, and the number of diverged starts.
 
@@ -76,16 +74,13 @@ def search_minima(
     the region smaller.
 
     Args:
-        evaluate: see Evaluate.
-        starts: of the searches.
         step: of the differences, (keys,).
-        most: evaluations of one search, less those of differences.
     """
     minima: list[Minimum] = []
     diverged = 0
     for start in starts:
         try:
-            minimum = _search(evaluate, start, step, most)
+            minimum = _search(evaluate, start, step)
         except EvaluationError:
             diverged += 1
             continue
@@ -99,7 +94,7 @@ def search_minima(
     return sorted(minima, key=lambda m: m.chi_square), diverged
 
 
-def _search(evaluate: Evaluate, start: Minimum, step: Array, most: int) -> Minimum:
+def _search(evaluate: Evaluate, start: Minimum, step: Array) -> Minimum:
     known = {start.x.tobytes(): start.residuals}
 
     def residuals(x: Array) -> Array:
@@ -118,7 +113,7 @@ def _search(evaluate: Evaluate, start: Minimum, step: Array, most: int) -> Minim
         ftol=CHANGE,
         xtol=SHIFT,
         gtol=1e-6,
-        max_nfev=most,
+        max_nfev=MOST_STEPS,
     )
     return Minimum(result.x, result.fun)
 

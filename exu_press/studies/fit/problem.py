@@ -3,7 +3,6 @@
 import dataclasses
 import hashlib
 import json
-import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from pathlib import Path
@@ -21,6 +20,7 @@ from exu_press.studies.base.evaluation import Evaluation, Point, error_in, numbe
 from exu_press.studies.curve_file import channel_polynomials
 from exu_press.studies.fit.curve import Curve, RecordedCurve, fit_sensor
 from exu_press.studies.fit.study import Fit
+from exu_press.verification.refinement import step_changes
 
 __all__ = ["Problem", "file_of"]
 
@@ -46,8 +46,6 @@ class Problem:
     remaining error is one further unknown: the covariance is I + e e^T, with e = REMAINS d.
 
     Attributes:
-        study: to be run.
-        evaluation: its runs.
         errors: of runs in the unit of residuals, (numbers,): of curves with their signs.
     """
 
@@ -61,9 +59,11 @@ class Problem:
         self._keys = {n: varied for n, varied in study.keys.items() if isinstance(varied, Range)}
         under = [*(m.under for m in study.measured), *(c.under for c in study.curve)]
         self._under: list[Point] = [u for n, u in enumerate(under) if u not in under[:n]]
-        sizes = [len(curve.read.at) for curve in study.curve]
-        ends = len(study.measured) + np.cumsum([0, *sizes])
-        self._curves = [slice(a, b) for a, b in pairwise(ends)]
+        # with the number of their conditions
+        self._measured = [(entry, self._under.index(entry.under)) for entry in study.measured]
+        self._curves = [(curve, self._under.index(curve.under)) for curve in study.curve]
+        ends = len(study.measured) + np.cumsum([0, *(len(c.read.at) for c in study.curve)])
+        self._samples = [slice(a, b) for a, b in pairwise(ends)]
         self.errors = np.zeros(ends[-1])
         self._known_at: Array | None = None
 
@@ -92,7 +92,7 @@ class Problem:
         residuals = self._of_runs(points)
         number = len(self.study.measured)
         residuals[:, :number] /= np.hypot(1.0, OF_DEVIATION * self.errors[:number])
-        for curve in self._curves:
+        for curve in self._samples:
             residuals[:, curve] -= self.errors[curve]
             e = REMAINS * self.errors[curve]
             square = float(e @ e)
@@ -120,15 +120,9 @@ class Problem:
     def compute(self, x: Array) -> tuple[list[float], list[tuple[Array, RecordedCurve | None]]]:
         """Return the numbers at a point, and each curve as measured and as computed, SI."""
         rows = self.evaluation.rows_of([{**self.point(x), **under} for under in self._under])
-        numbers = [
-            numbers_in(rows[self._under.index(entry.under)], [entry.quantity])[0]
-            for entry in self.study.measured
-        ]
         scenes = self.scenes(x)
-        return numbers, [
-            self._fit_sensor(curve, scenes[self._under.index(curve.under)])
-            for curve in self.study.curve
-        ]
+        numbers = [numbers_in(rows[n], [entry.quantity])[0] for entry, n in self._measured]
+        return numbers, [self._fit_sensor(curve, scenes[n]) for curve, n in self._curves]
 
     def renew_errors(self, x: Array, run_with_errors: Callable[[Array], Sequence[Row]]) -> bool:
         """Renew the runs' errors at a point far from that of the known ones; return whether.
@@ -144,27 +138,19 @@ class Problem:
         if self._known_at is not None and np.abs(x - self._known_at).max(initial=0.0) <= FAR:
             return False
         rows, errors = run_with_errors(x), []
-        for entry in self.study.measured:
-            error = error_in(rows[self._under.index(entry.under)], entry.quantity)
+        for entry, condition in self._measured:
+            error = error_in(rows[condition], entry.quantity)
             errors.append((error or 0.0) / entry.uncertainty * entry.weight**0.5)
         self.errors[: len(errors)] = errors
         if self._curves:
-            solver = self.study.scene.solver
-            assert solver is not None
-            name = "tolerance" if solver.step is None else "step"
-            finer = {
-                f"solver.{name}": FINER * getattr(solver, name),
-                "solver.max_step_deg": FINER**0.5 * solver.max_step_deg,
-                "solver.max_steps": math.ceil(solver.max_steps / FINER),
-            }
-            difference = (self._of_runs(x[None]) - self._of_runs(x[None], **finer))[
-                0, len(errors) :
-            ]
+            finer = step_changes(self.study.scene, FINER)
+            change = self._of_runs(x[None]) - self._of_runs(x[None], **finer)
+            difference = change[0, len(errors) :]
             if not np.isfinite(difference).all():
                 raise InputError(
                     f"{self.evaluation.summary_line()}: no run with a {FINER:g} times as large "
-                    f"solver.{name} tells the errors of curves; the cure is narrower ranges, or "
-                    "what the runs' reasons say"
+                    f"{next(iter(finer))} tells the errors of curves; the cure is narrower "
+                    "ranges, or what the runs' reasons say"
                 )
             self.errors[len(errors) :] = difference
         self._known_at = x
@@ -176,13 +162,9 @@ class Problem:
         Args:
             x: a point that has run.
             rows: its runs with errors, one for each condition of measurement.
-
-        Raises:
-            InputError: a channel is missing, or a curve is too long.
         """
         scenes = self.scenes(x)
-        for curve in self.study.curve:
-            condition = self._under.index(curve.under)
+        for curve, condition in self._curves:
             path = self._directory / file_of(scenes[condition])
             if not path.exists():
                 raise InputError(f"{curve.file}: the run at the start failed")
@@ -204,13 +186,11 @@ class Problem:
                 )
 
     def _residuals(self, keys: Sequence[Point], rows: Sequence[Row]) -> Array:
-        """Return the residuals of one point's runs."""
         blocks: list[Any] = []
-        for entry in self.study.measured:
-            (value,) = numbers_in(rows[self._under.index(entry.under)], [entry.quantity])
+        for entry, condition in self._measured:
+            (value,) = numbers_in(rows[condition], [entry.quantity])
             blocks.append(np.array([(value - entry.value) / entry.uncertainty * entry.weight**0.5]))
-        for curve in self.study.curve:
-            condition = self._under.index(curve.under)
+        for curve, condition in self._curves:
             size = len(curve.read.at)
             block = np.full(size, np.nan)
             if rows[condition]["status"] == COMPLETED:

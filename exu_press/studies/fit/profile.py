@@ -95,11 +95,8 @@ def profile(evaluate: Evaluate, best: Minimum, jacobian: Array, key: int, level:
     where the model is linear.
 
     Args:
-        evaluate: see Evaluate.
         best: the minimum.
         jacobian: there, (numbers, keys).
-        key: its number.
-        level: such as 0.95.
     """
     rise = float(np.sqrt(chi2.ppf(level, 1)))
     fits = [best]

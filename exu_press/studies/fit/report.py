@@ -31,6 +31,11 @@ UNREACHED = (
 """Line of a report where the minimum is larger than chi-square of the true values, of all numbers,
 is with the probability UNLIKELY."""
 
+UNEXPLAINED = (
+    "the scene does not explain the measurement: intervals hold only if the uncertainties are "
+    "right and the scene is; look at the largest residuals"
+)
+
 EXACT = 0.3
 """Error of a run over the uncertainty of a number, above which a line warns."""
 
@@ -43,20 +48,17 @@ class FitReport(Report):
     """The result of a fit; keys in the study's order.
 
     Attributes:
-        study: whose report this is.
         values: key -> best value.
         low, high: key -> ends of its interval.
         remarks: key -> remarks on the low and on the high end; mostly empty.
         minima: best first.
         diverged: number of starts that led to failing runs.
-        identifiability: of the keys.
         effect: change of all residuals over a key's whole range, (keys,).
         profiles: key -> its values and chi-square above the least, (points, 2).
         count: independent numbers less the sensors' parameters.
         numbers: computed values of [[measured]].
         curves: (measured, computed) of [[curve]].
         errors: of runs over the uncertainties, of numbers and of samples of curves, (numbers,).
-        run_summary: how many runs gave numbers, in lines.
     """
 
     name = "fit"
@@ -84,6 +86,12 @@ class FitReport(Report):
     def largest_error(self) -> float:
         """Largest error of a run in a number or a sample of a curve, over its uncertainty."""
         return float(self.errors.max(initial=0.0))
+
+    @property
+    def residuals(self) -> Array:
+        """Computed less measured numbers, over their uncertainties."""
+        pairs = zip(self.study.measured, self.numbers, strict=True)
+        return np.array([(number - entry.value) / entry.uncertainty for entry, number in pairs])
 
     @property
     def chi_square(self) -> float:
@@ -130,7 +138,7 @@ class FitReport(Report):
                 "Numbers and curves",
                 head if numbers else (),
                 numbers,
-                below=[*self._curve_lines(), *_inexact(self.largest_error)],
+                below=self._curve_lines(),
             ),
         ]
 
@@ -153,16 +161,10 @@ class FitReport(Report):
             for curve, (measured, model) in zip(self.study.curve, self.curves, strict=True)
         ]
         if self.study.measured:
-            residuals = np.array(
-                [
-                    (number - entry.value) / entry.uncertainty
-                    for entry, number in zip(self.study.measured, self.numbers, strict=True)
-                ]
-            )
-            errors = self.errors[: len(residuals)]
-            low, high = (residuals - errors).tolist(), (residuals + errors).tolist()
+            errors = self.errors[: len(self.residuals)]
+            low, high = (self.residuals - errors).tolist(), (self.residuals + errors).tolist()
             title = "(computed - measured) / uncertainty"
-            line = Line(title, list(range(len(low))), residuals.tolist(), True, low, high)
+            line = Line(title, list(range(len(low))), self.residuals.tolist(), True, low, high)
             panels.append(Panel("Numbers", "place in the table", "in uncertainties", [line]))
         for name, points in self.profiles.items():
             at, risen = points.T
@@ -187,23 +189,19 @@ class FitReport(Report):
             }
             for name, value in self.values.items()
         }
-        correlation = [
-            [None if np.isnan(x) else float(x) for x in row]
-            for row in self.identifiability.correlation
-        ]
         return {
             "keys": keys,
             "level": self.study.fit.level,
             "chi_square": self.chi_square,
             "degrees_of_freedom": self.freedom,
             "probability": self.probability,
-            "correlation": correlation,
-            "not_determined": [d.vector.tolist() for d in self.identifiability.open],
-            "singular_values": self.identifiability.singular.tolist(),
+            "correlation": self.identifiability.correlation,
+            "not_determined": [d.vector for d in self.identifiability.open],
+            "singular_values": self.identifiability.singular,
             "minima": [[m.chi_square, m.times] for m in self.minima],
             "measured": [
                 {"name": entry.name, "value": entry.value, "uncertainty": entry.uncertainty,
-                 "computed": number, "error_over_uncertainty": float(error)}
+                 "computed": number, "error_over_uncertainty": error}
                 for entry, number, error in zip(
                     self.study.measured, self.numbers, self.errors, strict=False
                 )
@@ -217,13 +215,13 @@ class FitReport(Report):
                     "channel": curve.read.name,
                     "unit": model.unit,
                     "across": _axis_label(curve),
-                    "at": curve.read.at.tolist(),
-                    "measured": measured.tolist(),
-                    "computed": model.values.tolist(),
+                    "at": curve.read.at,
+                    "measured": measured,
+                    "computed": model.values,
                 }
                 for curve, (measured, model) in zip(self.study.curve, self.curves, strict=True)
             },
-            "profiles": {name: points.tolist() for name, points in self.profiles.items()},
+            "profiles": self.profiles,
             "largest_error_over_uncertainty": self.largest_error,
             "runs": self.run_summary,
         }  # fmt: skip
@@ -237,7 +235,6 @@ class FitReport(Report):
         return [f"chi-square of the minima found: {minima}{diverged}"]
 
     def _key_rows(self) -> list[tuple[str, ...]]:
-        """Return each key with its interval."""
         rows: list[tuple[str, ...]] = []
         for name, best in self.values.items():
             low, high = self.low[name], self.high[name]
@@ -284,9 +281,8 @@ class FitReport(Report):
             for j in range(i)
             if np.isfinite(table[i, j])
         ]
-        return [
-            f"correlation: {', '.join(text for _, text in sorted(pairs, reverse=True)[:6])}"
-        ] * (len(pairs) > 0)
+        texts = [text for _, text in sorted(pairs, reverse=True)[:6]]
+        return [f"correlation: {', '.join(texts)}"] if texts else []
 
     def _misfit(self) -> list[str]:
         chance = self.probability
@@ -295,24 +291,14 @@ class FitReport(Report):
             text += ": nothing is left to judge the scene by"
             reached = chi2.sf(self.chi_square, self.count) >= UNLIKELY
             return [text] if reached else [text, UNREACHED]
-        text += (
-            f": chance alone makes it as large in {significant(100 * chance, 2)} % of measurements"
-        )
-        if chance < UNLIKELY:
-            return [
-                text,
-                "the scene does not explain the measurement: intervals hold only if the "
-                "uncertainties are right and the scene is; look at the largest residuals",
-            ]
-        return [text]
+        share = significant(100 * chance, 2)
+        text += f": chance alone makes it as large in {share} % of measurements"
+        return [text, UNEXPLAINED] if chance < UNLIKELY else [text]
 
     def _residual_rows(self) -> list[tuple[str, ...]]:
-        """Return each number with its residual."""
         rows: list[tuple[str, ...]] = []
-        number = len(self.study.measured)
-        for entry, computed, error in zip(
-            self.study.measured, self.numbers, self.errors[:number], strict=True
-        ):
+        numbers = zip(self.numbers, self.residuals, self.errors, strict=False)
+        for entry, (computed, residual, error) in zip(self.study.measured, numbers, strict=False):
             unit, scale = shown_unit(entry.quantity, [entry.value])
             rows.append(
                 (
@@ -321,13 +307,12 @@ class FitReport(Report):
                     significant(scale * entry.uncertainty, 2),
                     f"{scale * computed:.6g}",
                     f"{scale * error * entry.uncertainty / entry.weight**0.5:.1g}",
-                    f"{(computed - entry.value) / entry.uncertainty:+.2f}",
+                    f"{residual:+.2f}",
                 )
             )
         return rows
 
     def _curve_lines(self) -> list[str]:
-        """Return each curve with its residual and its sensor."""
         lines = []
         for curve, (measured, model) in zip(self.study.curve, self.curves, strict=True):
             size = float(np.sqrt(np.mean((model.values - measured) ** 2))) / curve.uncertainty
@@ -335,6 +320,11 @@ class FitReport(Report):
             lines.append(
                 f"curve {curve.name}: {len(measured)} samples, rms residual {size:.2f} "
                 f"uncertainties; sensor: {sensor}"
+            )
+        if self.largest_error > EXACT:
+            lines.append(
+                f"a run's own error is up to {significant(self.largest_error, 2)} of an "
+                "uncertainty; the cure is a lower solver.tolerance"
             )
         return lines
 
@@ -347,16 +337,5 @@ def _digits(best: float, low: float, high: float) -> int:
     return min(max(2, 2 + math.ceil(math.log10(abs(best) / half) - 1e-9)), 7)
 
 
-def _inexact(largest_error: float) -> list[str]:
-    """Return a line where the largest error of runs over its uncertainty affects the fit."""
-    if largest_error <= EXACT:
-        return []
-    return [
-        f"a run's own error is up to {significant(largest_error, 2)} of an uncertainty; the cure "
-        "is a lower solver.tolerance"
-    ]
-
-
 def _axis_label(curve: Curve) -> str:
-    """Return the label of a curve's axis."""
     return "time, s" if curve.read.over == "time" else "crank angle, deg"

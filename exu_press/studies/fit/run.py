@@ -28,16 +28,10 @@ REPEATED_SEARCHES = 2
 def fit(study: Fit, directory: str | Path, **how: Any) -> FitReport:
     """Do the runs that are missing, write fit.json and fitted.toml, and return the result.
 
-    Called again after a kill or Ctrl-C, it goes on.
-
-    Args:
-        study: to be run.
-        directory: of this study alone.
-        how: workers, dask, quiet of `exu_press.studies.base.Runs`.
+    Arguments and errors are those of `exu_press.studies.base.Runs`.
 
     Raises:
-        InputError: the directory cannot be used or belongs to another study, no scheduler answers,
-            a curve is not in a run, or no run gives numbers.
+        InputError: also where a curve is not in a run, or no run gives numbers.
     """
     directory = Path(directory)
     with Runs(study, directory, report=FitReport, **how) as runs:
@@ -61,12 +55,8 @@ def fit_problem(problem: Problem, run_with_errors: Any) -> FitReport:
     """Search minima and intervals, and repeat the search from better points of the intervals.
 
     Args:
-        problem: to be fitted.
         run_with_errors: returns the rows with errors at a scaled point, one for each condition of
             measurement.
-
-    Raises:
-        InputError: a curve is not in a run, or no run gives numbers.
     """
     study = problem.study
     names, settings = list(study.keys), study.fit

@@ -43,10 +43,7 @@ class Fit(Study):
     """A fit's file, complete.
 
     Attributes:
-        measured: numbers.
-        curve: curves.
         start: key -> value where one search begins; by default the middle of the ranges.
-        fit: settings of the search.
 
     Raises:
         InputError: not allowed, no measurement, or more keys than numbers.

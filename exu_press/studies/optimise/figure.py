@@ -70,7 +70,6 @@ def _all(report: OptimiseReport, quantity: str) -> Array:
 def _points(
     panel: Axes, report: OptimiseReport, across: Array, up: Array, names: tuple[str, str]
 ) -> None:
-    """Draw all points, the front with its errors, and the chosen one."""
     panel.plot(across, up, ".", color="0.75", markersize=4, label="tried")
     bars: dict[str, Any] = {}
     for side, name in zip(("xerr", "yerr"), names, strict=True):

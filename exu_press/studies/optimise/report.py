@@ -33,7 +33,6 @@ class OptimiseReport(Report):
     """The result of an optimisation.
 
     Attributes:
-        study: whose report this is.
         method: of the search.
         why: it was taken.
         trials: all points, with their objectives and limited quantities.
@@ -41,7 +40,6 @@ class OptimiseReport(Report):
         chosen: position of the chosen one in the front.
         errors: quantity -> errors of the front's points, NaN where not looked for or unknown.
         finer: quantities of the chosen point at a tenth of the tolerance.
-        run_summary: how many runs gave numbers, in lines.
     """
 
     name = "optimise"
@@ -130,12 +128,10 @@ class OptimiseReport(Report):
     def points(self) -> Points:
         """Return the trials; one of the front opens with its scene."""
         names = list(dict.fromkeys(self.study.quantities))
-        positions = [self._position(trial) for trial in range(len(self.trials.points))]
-        kinds = ["trial" if position is None else "front" for position in positions]
-        labels = [
-            "a trial that others beat" if n is None else f"exu-press run front/{n + 1:02}.toml"
-            for n in positions
-        ]
+        kinds = ["trial"] * len(self.trials.points)
+        labels = ["a trial that others beat"] * len(kinds)
+        for n, trial in enumerate(self.places, 1):
+            kinds[trial], labels[trial] = "front", f"exu-press run front/{n:02}.toml"
         trials, keys = self._trial_columns(), list(self.study.keys)
         across, up = (names[0], names[1]) if len(names) > 1 else (keys[0], names[0])
         columns = [Column("front", "", kinds), *(quantity_column(k, trials[k]) for k in keys)]
@@ -144,8 +140,7 @@ class OptimiseReport(Report):
 
     def csv_files(self) -> dict[str, Mapping[str, Sequence[Value]]]:
         """Return keys and quantities of all trials, and which lie on the front."""
-        on_front = set(self.places)
-        marks = [int(n in on_front) for n in range(len(self.trials.points))]
+        marks = [int(n in self.places) for n in range(len(self.trials.points))]
         return {"trials.csv": {**self._trial_columns(), "front": marks}}
 
     def to_dict(self) -> dict[str, Any]:
@@ -155,10 +150,7 @@ class OptimiseReport(Report):
             {
                 "keys": dict(self.trials.points[trial]),
                 "quantities": {
-                    name: {
-                        "value": float(self.numbers(name)[n]),
-                        "error": None if np.isnan(error := self.errors[name][n]) else float(error),
-                    }
+                    name: {"value": self.numbers(name)[n], "error": self.errors[name][n]}
                     for name in names
                 },
             }
@@ -195,24 +187,17 @@ class OptimiseReport(Report):
         return columns
 
     def _trial_table(self) -> Table:
-        """Return all trials, for the page."""
         trials = [quantity_column(name, v) for name, v in self._trial_columns().items()]
         cells = [
             [f"{v:.6g}" if isinstance(v, float) else "-" if v is None else str(v) for v in t.values]
             for t in trials
         ]
-        marks = []
-        for trial in range(len(self.trials.points)):
-            position = self._position(trial)
-            name = "" if position is None else f"{position + 1:02}.toml"
-            marks.append(name + ", chosen" * (position == self.chosen))
+        marks = [""] * len(self.trials.points)
+        for n, trial in enumerate(self.places):
+            marks[trial] = f"{n + 1:02}.toml" + ", chosen" * (n == self.chosen)
         head = [*(with_unit(trial.name, trial.unit) for trial in trials), "front"]
         rows = list(zip(*cells, marks, strict=True))
         return Table("Trials", head, rows, of_points=True, on_terminal=False)
-
-    def _position(self, trial: int) -> int | None:
-        """Return a trial's position in the front; None outside of it."""
-        return self.places.index(trial) if trial in self.places else None
 
     def _number(self, name: str, position: int, scale: float) -> str:
         """Return a quantity of a point of the front with its error."""

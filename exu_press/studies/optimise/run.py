@@ -9,7 +9,6 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import Row
-from exu_press.scene import Scene
 from exu_press.studies.base import Range, Runs
 from exu_press.studies.base.command import StudyCommand
 from exu_press.studies.base.evaluation import (
@@ -47,17 +46,11 @@ SCREEN = 4
 def optimise(study: Optimise, directory: str | Path, **how: Any) -> OptimiseReport:
     """Do the runs that are missing, write optimise.json, trials.csv and scenes; return the result.
 
-    Called again after a kill or Ctrl-C, it goes on.
-
-    Args:
-        study: to be run.
-        directory: of this study alone.
-        how: workers, dask, quiet of `exu_press.studies.base.Runs`.
+    Arguments and errors are those of `exu_press.studies.base.Runs`.
 
     Raises:
-        InputError: the directory cannot be used or belongs to another study, no scheduler answers,
-            optuna is needed and not installed, an objective does not move, or no run keeps the
-            limits.
+        InputError: also where optuna is needed and not installed, an objective does not move, or no
+            run keeps the limits.
     """
     directory = Path(directory)
     with Runs(study, directory, report=OptimiseReport, **how) as runs:
@@ -73,7 +66,9 @@ def optimise(study: Optimise, directory: str | Path, **how: Any) -> OptimiseRepo
             raise InputError(_none_within(trials, violations))
         weights = [objective.weight for objective in study.objective]
         best = choose_compromise(values[places], weights)
-        (row,) = runs.run_scenes([_finer(study.scene_at(trials.points[places[best]]))])
+        chosen = study.scene_at(trials.points[places[best]])
+        name, value = chosen.solver.accuracy
+        (row,) = runs.run_scenes([chosen.replace({f"solver.{name}": FINER * value})])
     names = list(dict.fromkeys(study.quantities))
     few = sorted({best, *np.linspace(0, len(places) - 1, MOST_CHECKED).astype(int).tolist()})
     rows = run_with_errors([trials.points[places[n]] for n in few])
@@ -164,7 +159,7 @@ def _demand_movement(study: Optimise, trials: Evaluation) -> None:
 
 def _none_within(trials: Evaluation, violations: Array) -> str:
     """Return the message that no run keeps the limits, with the nearest one."""
-    summary = "; ".join(line.strip() for line in trials.run_summary())
+    summary = trials.summary_line()
     if not np.isfinite(trials.numbers).all(axis=1).any():
         return f"{summary}: nothing to choose from"
     nearest = int(np.nanargmin(violations))
@@ -173,13 +168,6 @@ def _none_within(trials: Evaluation, violations: Array) -> str:
         f"no run keeps the limits ({summary}); the nearest one, with {where}, violates them by "
         f"{100 * violations[nearest]:.2g} %; the cure is wider limits or ranges"
     )
-
-
-def _finer(scene: Scene) -> Scene:
-    """Return a scene with a tenth of its tolerance or step."""
-    assert scene.solver is not None
-    name = "tolerance" if scene.solver.step is None else "step"
-    return scene.replace({f"solver.{name}": FINER * getattr(scene.solver, name)})
 
 
 class OptimiseCommand(StudyCommand):

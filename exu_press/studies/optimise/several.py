@@ -39,11 +39,8 @@ def search_front(
 
     Args:
         ask: evaluates points, and stores them.
-        keys: name -> its variation.
-        objectives: number of objectives.
         trials: at most.
         method: TPE or NSGA.
-        seed: of the random numbers.
 
     Raises:
         InputError: optuna is not installed.
@@ -78,7 +75,6 @@ def search_front(
 
 
 def _point(trial: Any, keys: Mapping[str, Key]) -> dict[str, Any]:
-    """Return the point that a trial proposes."""
     point: dict[str, Any] = {}
     for name, key in keys.items():
         if isinstance(key, Values):

@@ -49,7 +49,6 @@ def simplex(judge: Judge, start: Array, trials: int) -> None:
     Args:
         judge: see Judge; it stores its points.
         start: scaled, within the limits if such a point is known.
-        trials: at most.
     """
     corners = np.tile(start, (len(start) + 1, 1))
     for key in range(len(start)):
@@ -69,9 +68,7 @@ def evolve(judge: Judge, keys: int, trials: int, seed: int) -> None:
 
     Args:
         judge: see Judge; it stores its points.
-        keys: number of keys.
         trials: approximate limit.
-        seed: of the random numbers.
     """
     size = max(POPULATION * keys, 5)
     differential_evolution(

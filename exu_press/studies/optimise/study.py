@@ -85,11 +85,6 @@ class Search(Table):
 class Optimise(Study):
     """An optimum's file, complete.
 
-    Attributes:
-        objective: quantities to be made small or large.
-        limit: limits of quantities.
-        optimise: settings of the search.
-
     Raises:
         InputError: not allowed, no objective, or a method that does not suit keys and objectives.
     """

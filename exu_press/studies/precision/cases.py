@@ -61,7 +61,6 @@ class Case:
 
     Attributes:
         name: on the command line and in the files.
-        title: in words.
         scene: of the runs; None for a system that is no scene.
         steps: fixed ones, s.
         tolerances: of the step control.

@@ -57,11 +57,8 @@ class Trajectory:
     def until(self, end: float) -> "Trajectory":
         """Return the part before an instant, s."""
         is_before = self.time <= end * (1.0 + 1e-12)
-        parts: dict[str, Any] = {
-            name: values if values is None else values[is_before]
-            for name, values in vars(self).items()
-        }
-        return Trajectory(**parts)
+        parts: list[Any] = [v if v is None else v[is_before] for v in vars(self).values()]
+        return Trajectory(*parts)
 
 
 def trajectory_of(result: Result) -> Trajectory:
@@ -163,7 +160,6 @@ def whole_run_errors(
     """Return the errors of figures of a whole dry run; None where no surfaces touch.
 
     Args:
-        run: to be judged.
         reference: the truth until trajectories diverge.
         starts: more of the run, from starts that differ by less than is known.
         reference_starts: the same of the reference.

@@ -74,7 +74,6 @@ def precision_figure(report: PrecisionReport, name: str) -> Figure:
 
 
 def _draw(axes: Axes, series: Mapping[str, Sequence[Row]], error: str, case: Any) -> None:
-    """Draw one kind of error of every solver."""
     axes.set(xscale="log", yscale="log")
     axes.margins(0.06, 0.08)
     floor = case["reference"]["floor"].get(error.removeprefix("error_"))
@@ -151,7 +150,6 @@ def _style(solver: str, index: int) -> dict[str, Any]:
 
 
 def _words(report: PrecisionReport, case: Mapping[str, Any]) -> str:
-    """Return the reference of the errors, and the machine of the times."""
     reference = case["reference"]
     text = f"reference: {reference['method']}"
     if reference["status"] != "ok":

@@ -5,7 +5,7 @@ an error below ten times that difference says nothing but "at most this", and st
 as that.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 
@@ -64,8 +64,8 @@ class Reference:
     @property
     def floor(self) -> Errors:
         """Smallest errors that this reference resolves."""
-        d = self.difference
-        return Errors(_above(d.position), _above(d.velocity), _above(d.peak_acceleration))
+        differences = astuple(self.difference)
+        return Errors(*(None if d is None else RESERVE * d for d in differences))
 
 
 def closed_form(scene: Scene) -> Reference:
@@ -84,16 +84,15 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
     so the horizon.
 
     Args:
-        scene: of the runs.
-        tolerance: of the reference.
         step: smallest fixed one, with twice it beside, s.
         starts: further ones, where trajectories diverge.
     """
     method = f"tolerance {tolerance:.0e} against fixed steps {2 * step:.0e}, {step:.0e} s"
     tight = run_scene(scene, "tolerance", tolerance).trajectory
     near = run_scene(scene, "tolerance", NEIGHBOUR_TOLERANCE * tolerance).trajectory
+    failed = Reference(f"{method}: not all of them reached the end", None, NO_ERRORS)
     if tight is None or near is None:
-        return Reference(f"{method}: not all of them reached the end", None, NO_ERRORS)
+        return failed
     diverged = divergence(scene, tight, near)
     horizon = scene.duration
     if diverged.horizon is not None:  # of whole milliseconds, as steps are
@@ -103,7 +102,7 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
     coarse = run_scene(until_horizon, "step", 2.0 * step).trajectory
     fine = run_scene(until_horizon, "step", step).trajectory
     if coarse is None or fine is None:
-        return Reference(f"{method}: not all of them reached the end", None, NO_ERRORS)
+        return failed
     instants = instants_until(horizon)
     position, velocity = (
         float(np.abs(f + (f - c) / 3.0 - t).max())  # second order, at step zero
@@ -113,14 +112,9 @@ def from_own(scene: Scene, tolerance: float, step: float, starts: int) -> Refere
     )
     peak = errors_of(fine, tight, horizon).peak_acceleration  # as sampled; no order to rely on
     difference = Errors(position, velocity, peak)
-    neighbour_scenes = (
-        [shift_start(scene, -n) for n in range(1, starts + 1)]
-        if diverged.horizon is not None
-        else []
-    )
     runs = [
-        run_scene(neighbour, "tolerance", START_TOLERANCE * tolerance).trajectory
-        for neighbour in neighbour_scenes
+        run_scene(shift_start(scene, -n), "tolerance", START_TOLERANCE * tolerance).trajectory
+        for n in range(1, starts + 1 if diverged.horizon is not None else 1)
     ]
     neighbours = tuple(run for run in runs if run is not None)
     return Reference(f"{method}, extrapolated", tight, difference, diverged, neighbours)
@@ -136,7 +130,3 @@ def divergence(scene: Scene, first: Trajectory, second: Trajectory) -> Growth:
         return NO_GROWTH
     second_position, _ = second.interpolate(np.clip(first.time, second.time[0], second.time[-1]))
     return growth(first.time, np.abs(first.position - second_position) / min(clearances), DIVERGED)
-
-
-def _above(difference: float | None) -> float | None:
-    return None if difference is None else RESERVE * difference

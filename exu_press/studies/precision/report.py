@@ -54,11 +54,9 @@ class PrecisionReport(Report):
     Attributes:
         quick: whether it is the reduced form, whose times mean nothing.
         cases: name -> title, scene, duration, horizon (s) and reference.
-        rows: one a run.
         orders: observed orders, one entry a case and solver.
         stated: stated against true errors, one entry a case and tolerance.
         left_out: runs that were left out, and why.
-        machine: processor, system, versions.
     """
 
     name = "precision"

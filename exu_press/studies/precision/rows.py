@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from statistics import linear_regression
 from typing import Any
 
 from exu_press.studies.precision.errors import Errors, WholeRunErrors
-from exu_press.studies.precision.timing import Attempt, TimedRun
+from exu_press.studies.precision.timing import OUTCOME, Attempt, Outcome, TimedRun
 
 __all__ = ["ERRORS", "Row", "order_of", "orders_of", "row_of", "series_of"]
 
@@ -15,12 +15,10 @@ ERRORS = ("error_position", "error_velocity", "error_peak_acceleration")
 
 
 @dataclass(frozen=True)
-class Row:
+class Row(Outcome):
     """One run.
 
     Attributes:
-        case: name.
-        solver: name of the solver.
         setting: "step", "tolerance" or "modes".
         value: of the setting, s, dimensionless or a number.
         error_position: largest up to the horizon, m; None if the run failed or there is no
@@ -31,12 +29,6 @@ class Row:
         wall_time: median, s.
         cpu_time: median of the processor time, s.
         wall_times: of every repetition, s.
-        steps: accepted ones.
-        rejected_steps: repeated ones.
-        newton_iterations: of all steps.
-        law_evaluations: of the joints' forces, or of the right-hand side.
-        status: "completed" or how it failed.
-        reason: why it failed.
         late: figures of the whole of a dry run.
     """
 
@@ -51,17 +43,7 @@ class Row:
     wall_time: float
     cpu_time: float
     wall_times: tuple[float, ...]
-    steps: int | None
-    rejected_steps: int | None
-    newton_iterations: int | None
-    law_evaluations: int | None
-    status: str
-    reason: str
     late: WholeRunErrors | None
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the row as it stands in precision.json."""
-        return asdict(self)
 
     @property
     def error_peaks(self) -> float | None:
@@ -84,7 +66,7 @@ def row_of(
 ) -> Row:
     """Return the row of a run; errors below the floor are raised to it and marked."""
     names = dict(zip(ERRORS, ("position", "velocity", "peak_acceleration"), strict=True))
-    values: dict[str, float | None] = {}
+    values: dict[str, Any] = {}
     at_most = []
     for error, name in names.items():
         value, least = getattr(errors, name), getattr(floor, name)
@@ -101,13 +83,8 @@ def row_of(
         wall_time=run.wall_time,
         cpu_time=run.cpu_time,
         wall_times=run.wall_times,
-        steps=run.steps,
-        rejected_steps=run.rejected_steps,
-        newton_iterations=run.newton_iterations,
-        law_evaluations=run.law_evaluations,
-        status=run.status,
-        reason=run.reason,
         late=late,
+        **{name: getattr(run, name) for name in OUTCOME},
         **values,
     )
 

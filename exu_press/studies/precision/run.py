@@ -32,10 +32,8 @@ def precision(
     Args:
         cases: of a user's scene from `case_of`, or a table of your own.
         quick: a reduced form, whose times mean nothing.
-        quiet: False shows the progress on standard error.
         after_case: called after every case with the report so far: all of them take half
             an hour.
-        left_out: runs that were left out, and why.
     """
     amount = QUICK if quick else FULL
     rows: list[Row] = []
@@ -88,7 +86,6 @@ def _run(
 def _describe(
     case: Case, reference: Reference, horizon: float, rows: Sequence[Row]
 ) -> dict[str, Any]:
-    """Return the entry of a case in precision.json."""
     is_resolved = any(row.resolved_error(error) is not None for row in rows for error in ERRORS)
     return {
         "title": case.title,

@@ -17,8 +17,6 @@ class StatedErrors:
     """The stated errors of one run.
 
     Attributes:
-        case: name.
-        tolerance: of the run.
         figures: that are compared.
         covered: how many of them are stated well enough.
         ratio: of stated and true error in the median; None where there are next to no errors.

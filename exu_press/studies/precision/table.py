@@ -114,7 +114,6 @@ def stated_tables(stated: Sequence[StatedErrors]) -> list[Table]:
 
 
 def _difference(reference: Mapping[str, Any]) -> str:
-    """Return how far the two integrators of a reference are apart."""
     if reference["status"] != "ok":
         return "NO REFERENCE: its integrators are too far apart, or one failed"
     parts = reference["difference"]
@@ -130,7 +129,7 @@ def _cells(row: Row) -> tuple[str, ...]:
     return (
         row.solver,
         _setting(row),
-        *(_error(row, name) for name in ERRORS),
+        *("<" * (name in row.at_most) + _number(getattr(row, name), 2) for name in ERRORS),
         f"{row.wall_time:.3g}" + ("" if len(row.wall_times) > 1 else "*"),
         f"{row.cpu_time:.3g}",
         *(_number(count, 7) for count in counts),
@@ -143,12 +142,7 @@ def _setting(row: Row) -> str:
     return f"{row.value:g}{' s' if row.setting == 'step' else ''}"
 
 
-def _error(row: Row, name: str) -> str:
-    return ("<" if name in row.at_most else "") + _number(getattr(row, name), 2)
-
-
 def _late_tables(title: str, rows: Sequence[Row]) -> list[Table]:
-    """Return the figures of whole dry runs, where any errors are."""
     cells: list[tuple[str, ...]] = [
         (
             row.solver,

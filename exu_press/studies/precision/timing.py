@@ -7,7 +7,8 @@ it is the wall time, and on a busy one it can still be compared.
 import statistics
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
 from exu_press.model import build
 from exu_press.result import Result, record
@@ -17,8 +18,10 @@ from exu_press.studies.precision.errors import Trajectory, trajectory_of
 __all__ = [
     "FIXED",
     "LONG_RUN",
+    "OUTCOME",
     "TOLERANCE",
     "Attempt",
+    "Outcome",
     "TimedRun",
     "attempt",
     "fixed_steps",
@@ -40,32 +43,43 @@ LONG_RUN = 5.0
 """s; a run that takes longer is not repeated: noise of tenths of seconds does not matter there."""
 
 
-@dataclass(frozen=True)
-class TimedRun:
-    """Trajectory and cost of one run.
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """End of a run, and what the integrator counted; None where it does not say.
 
     Attributes:
-        trajectory: None if it failed.
-        starts: of repetitions from starts that differ by less than is known.
-        wall_times: of the integration alone, of every repetition, s.
-        cpu_times: processor time of the same, s.
-        status: as in summary.json.
-        reason: empty when completed.
-        steps: accepted ones, None where the integrator does not say.
+        status: "completed" or how it failed.
+        steps: accepted ones.
         rejected_steps: repeated ones.
         newton_iterations: of all steps.
-        law_evaluations: evaluations of the joints' forces, or of the right-hand side.
+        law_evaluations: of the joints' forces, or of the right-hand side.
     """
 
-    trajectory: Trajectory | None
-    wall_times: tuple[float, ...]
-    cpu_times: tuple[float, ...]
     status: str = "completed"
     reason: str = ""
     steps: int | None = None
     rejected_steps: int | None = None
     newton_iterations: int | None = None
     law_evaluations: int | None = None
+
+
+OUTCOME = tuple(field.name for field in fields(Outcome))
+
+
+@dataclass(frozen=True)
+class TimedRun(Outcome):
+    """Trajectory and cost of one run.
+
+    Attributes:
+        trajectory: None if it failed.
+        wall_times: of the integration alone, of every repetition, s.
+        cpu_times: processor time of the same, s.
+        starts: of repetitions from starts that differ by less than is known.
+    """
+
+    trajectory: Trajectory | None
+    wall_times: tuple[float, ...]
+    cpu_times: tuple[float, ...]
     starts: tuple[Trajectory, ...] = ()
 
     @property
@@ -102,8 +116,6 @@ def time_runs(attempt: Attempt, repeats: int, longest: float = LONG_RUN) -> Time
     """Run an attempt several times; the trajectory is that of the first run.
 
     Args:
-        attempt: to be run.
-        repeats: how often.
         longest: once does where a run takes longer than this, s.
     """
     first = attempt.run()
@@ -121,17 +133,13 @@ def time_runs(attempt: Attempt, repeats: int, longest: float = LONG_RUN) -> Time
 
 def timed_run_of(result: Result, cpu_time: float) -> TimedRun:
     """Return a result of the package as a measurement, with its processor time, s."""
-    info = result.info
+    info: dict[str, Any] = {**result.info}
     return TimedRun(
         trajectory=trajectory_of(result) if result.completed else None,
         wall_times=(float(info["wall_time"]),),
         cpu_times=(cpu_time,),
         status="completed" if result.completed else info["status"],  # coarse steps are its subject
-        reason=info["reason"],
-        steps=info["steps"],
-        rejected_steps=info["rejected_steps"],
-        newton_iterations=info["newton_iterations"],
-        law_evaluations=info["law_evaluations"],
+        **{name: info[name] for name in OUTCOME if name != "status"},
     )
 
 

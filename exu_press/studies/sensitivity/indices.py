@@ -46,9 +46,7 @@ class Indices:
 
     Attributes:
         first: share of a key alone.
-        first_bounds: of that share.
         total: share of a key with all its interactions.
-        total_bounds: of that share.
     """
 
     first: Array
@@ -68,7 +66,6 @@ def sample(evaluate: Callable[[Array], Array], keys: int, n: int, seed: int) -> 
 
     Args:
         evaluate: from shares (m, keys) to values (m, s); NaN in all of a row that failed.
-        keys: number of them.
         n: a power of two.
         seed: of the Sobol' sequence's scrambling.
 
@@ -82,7 +79,9 @@ def sample(evaluate: Callable[[Array], Array], keys: int, n: int, seed: int) -> 
         count = n if drawn == 0 else min(n - len(valid), MOST_DRAWN * n - drawn)
         pairs = sequence.random(count).reshape(count, 2, keys)
         drawn += count
-        design = np.array([_design(a, b) for a, b in pairs])  # (count, keys + 2, keys)
+        first, second = pairs[:, :1], pairs[:, 1:]
+        mixed = np.where(np.eye(keys, dtype=bool), second, first)  # each key of b in turn
+        design = np.concatenate([pairs, mixed], axis=1)  # (count, keys + 2, keys)
         values = evaluate(design.reshape(-1, keys)).reshape(count, keys + 2, -1)
         is_valid = np.isfinite(values).all(axis=(1, 2))
         valid += list(values[is_valid])
@@ -91,12 +90,6 @@ def sample(evaluate: Callable[[Array], Array], keys: int, n: int, seed: int) -> 
         return None
     a, b, *ab = np.array(valid).transpose(1, 2, 0)
     return Sample(np.array(points).swapaxes(0, 1), a, b, np.array(ab), drawn)
-
-
-def _design(a: Array, b: Array) -> Array:
-    """Return a, b, and a with each key from b in turn, (keys + 2, keys)."""
-    mixed = np.where(np.eye(len(a), dtype=bool), b, a)
-    return np.concatenate([a[None], b[None], mixed])
 
 
 def indices(values: Sample, level: float = 0.95) -> list[Indices | None]:

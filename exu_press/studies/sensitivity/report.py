@@ -36,14 +36,10 @@ class SensitivityReport(Report):
     """The result of a sensitivity study; quantities and keys in the study's order.
 
     Attributes:
-        study: whose report this is.
-        sample: values at the sampled points.
         indices: of each quantity; None of one that does not move.
-        spreads: of each quantity.
         middle: values with all keys at their medians, (s,).
         bars: values with one key at the ends of its distribution, (k, 2, s).
         errors: of each quantity in the run with all keys at their medians; None where unknown.
-        run_summary: how many runs gave numbers, in lines.
     """
 
     name = "sensitivity"
@@ -109,15 +105,14 @@ class SensitivityReport(Report):
         return keys | dict(zip(names, self.sample.values.tolist(), strict=True))
 
     def _entry(self, index: int) -> dict[str, Any]:
-        """Return the entry of one quantity."""
         shares, spread = self.indices[index], self.spreads[index]
         keys: dict[str, Any] = {}
         for n, key in enumerate(self.study.keys):
-            ends = self.bars[n, :, index]
-            keys[key] = {"alone": [None if np.isnan(end) else float(end) for end in ends]}
-            if shares is not None:
-                keys[key]["first_order"] = _index_entry(shares.first, shares.first_bounds, n)
-                keys[key]["total_order"] = _index_entry(shares.total, shares.total_bounds, n)
+            keys[key] = {"alone": self.bars[n, :, index]}
+            for order in ("first", "total") if shares is not None else ():
+                low, high = getattr(shares, f"{order}_bounds")[n]
+                entry = {"value": getattr(shares, order)[n], "low": low, "high": high}
+                keys[key][f"{order}_order"] = entry
         return {
             "percentiles": {"5": spread.low, "50": spread.middle, "95": spread.high},
             "mean": spread.mean,
@@ -131,7 +126,6 @@ class SensitivityReport(Report):
         }
 
     def _table(self, index: int, name: str) -> Table:
-        """Return the spread of a quantity, and its share by key."""
         study, shares, spread = self.study, self.indices[index], self.spreads[index]
         quantity = quantity_of(study.scene, name).quantity.in_scaled_unit([spread.middle])
         scale = quantity.scale
@@ -177,11 +171,6 @@ class SensitivityReport(Report):
             )
         head = ("key", "alone", "with others", f"5 to 95 % of the key alone,{unit}")
         return Table(f"Shares: {name}", head, rows, above=lines, indent=2)
-
-
-def _index_entry(values: Array, bounds: Array, index: int) -> dict[str, float]:
-    low, high = map(float, bounds[index])
-    return {"value": float(values[index]), "low": low, "high": high}
 
 
 def to_resolution(value: float, resolution: float) -> str:

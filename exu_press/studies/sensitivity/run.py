@@ -21,16 +21,10 @@ __all__ = ["SensitivityCommand", "sensitivity"]
 def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> SensitivityReport:
     """Do the runs that are missing, write sensitivity.json and samples.csv; return the result.
 
-    Called again after a kill or Ctrl-C, it goes on.
-
-    Args:
-        study: to be run.
-        directory: of this study alone.
-        how: workers, dask, quiet of `exu_press.studies.base.Runs`.
+    Arguments and errors are those of `exu_press.studies.base.Runs`.
 
     Raises:
-        InputError: the directory cannot be used or belongs to another study, no scheduler answers,
-            or so many runs fail that no sample is left.
+        InputError: also where so many runs fail that no sample is left.
     """
     settings, keys = study.sensitivity, study.keys
     with Runs(study, directory, report=SensitivityReport, **how) as runs:

@@ -22,8 +22,6 @@ class Spread:
 
     Attributes:
         low, middle, high: 5, 50 and 95 % lie below.
-        mean: of the sample.
-        deviation: standard deviation.
         half: distance from the median within which the share lies.
         half_error: its standard error, by resampling.
     """
@@ -70,7 +68,6 @@ def tornado(evaluate: Callable[[Array], Array], keys: int) -> tuple[Array, Array
 
     Args:
         evaluate: from shares (m, keys) to values (m, s); NaN where a run failed.
-        keys: number of keys.
 
     Returns:
         (s,) and (keys, 2, s).

@@ -46,11 +46,7 @@ class SensitivitySettings(Table):
 
 @dataclasses.dataclass(frozen=True)
 class Sensitivity(Study):
-    """A sensitivity study's file, complete.
-
-    Attributes:
-        sensitivity: its settings.
-    """
+    """A sensitivity study's file, complete."""
 
     tables = MappingProxyType({"sensitivity": SensitivitySettings})
 

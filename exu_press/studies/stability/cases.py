@@ -34,7 +34,6 @@ class Case:
         name: unique.
         axis: key or choice that is varied.
         value: in words, as the map shows it; of a pair, the two.
-        scene: complete.
     """
 
     name: str
@@ -45,8 +44,7 @@ class Case:
 
 def extremes(scene: Scene, name: str) -> tuple[Case, ...]:
     """Return the scene as it is, then with every number that it uses times each of FACTORS."""
-    allowed = BUDGET if scene.solver is None else min(scene.solver.max_steps, BUDGET)
-    scene = scene.replace({"solver.max_steps": allowed})
+    scene = scene.replace({"solver.max_steps": min(scene.solver.max_steps, BUDGET)})
     cases = [Case(f"{AS_IT_IS}, {name}", AS_IT_IS, AS_IT_IS, scene)]
     for key, value in flat(scene.to_dict()).items():
         is_fixed = {key, key.partition(".")[0]} & NOT_PUSHED

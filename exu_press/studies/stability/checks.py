@@ -49,7 +49,6 @@ class Check:
     """One figure that must not be above its limit.
 
     Attributes:
-        name: of the check.
         value: None where it is not finite.
         limit: in the same unit.
         note: the worst one, where there are several.
@@ -73,9 +72,7 @@ class Check:
 def checks_of(result: Result) -> list[Check]:
     """Return the checks of one run that reached its end."""
     scale, lost = energy_scale(result), result["energy_dissipated"]
-    solver = result.scene.solver
-    assert solver is not None
-    coarse = COARSE_RESIDUAL * (solver.tolerance or 0.0)
+    coarse = COARSE_RESIDUAL * (result.scene.solver.tolerance or 0.0)
     created = float((np.maximum.accumulate(lost) - lost).max())
     drift, where = max(_joint_openings(result), default=(0.0, ""))
     checks = [

@@ -45,9 +45,11 @@ def stability_figure(report: StabilityReport) -> Figure:
     single = [row for row in report.rows if row.axis != PAIRS]
     pairs = [row for row in report.rows if row.axis == PAIRS]
     lines = list(dict.fromkeys(map(_line, single)))
+    sample = "a fixed sample of " if report.quick else ""
+    text = f"{sample}{len(report.rows)} cases: {report.subtitle}"
     height = 1.0 + 0.23 * max(len(lines), 20)
     heights = [height, SQUARE] if pairs else [height]
-    figure = figure_with_title("Stiff and extreme cases", _words(report), (9.5, 1.6 + sum(heights)))
+    figure = figure_with_title("Stiff and extreme cases", text, (9.5, 1.6 + sum(heights)))
     panels = figure.subplots(len(heights), 1, squeeze=False, height_ratios=heights).flat
     upper, *lower = panels
     colours = ScalarMappable(LogNorm(*RESIDUALS, clip=True), PATH_COLOURS)
@@ -98,7 +100,6 @@ def _draw_axes(
 
 
 def _draw_pairs(axes: Axes, rows: Sequence[Row], colours: ScalarMappable) -> None:
-    """Draw the pairs of extremes as a matrix."""
     names = list(dict.fromkeys(name for row in rows for name in row.value.split(" + ")))
     for row in rows:
         across, down = (names.index(name) for name in row.value.split(" + "))
@@ -114,12 +115,3 @@ def _mark(axes: Axes, x: float, y: float, row: Row, colours: ScalarMappable) -> 
     if "color" not in style:
         style["color"] = colours.to_rgba(np.array([row.residual]))
     axes.scatter([x], [y], zorder=3, **style)
-
-
-def _words(report: StabilityReport) -> str:
-    counts = report.counts()
-    sample = "a fixed sample of " if report.quick else ""
-    return (
-        f"{sample}{len(report.rows)} cases: {counts['right']} right, {counts['stopped']} stopped, "
-        f"{counts['wrong']} wrong"
-    )

@@ -6,15 +6,13 @@ from exu_press.integrate import SolverStatus
 from exu_press.scene import Scene
 from exu_press.studies.base import scene_from
 from exu_press.studies.stability.checks import agreement, checks_of
+from exu_press.verification.refinement import FINEST
 from exu_press.verification.run import with_errors
 from exu_press.verification.simulate import simulate
 
 __all__ = ["RIGHT", "STOPPED", "WRONG", "finer", "judge"]
 
 RIGHT, STOPPED, WRONG = "right", "stopped", "wrong"
-
-FINEST = 1e-8
-"""Smallest tolerance that a scene may ask for."""
 
 TOO_FINE = (SolverStatus.STEP_TOO_SMALL, SolverStatus.NOT_CONVERGED)
 
@@ -75,10 +73,7 @@ def judge(case: dict[str, Any]) -> dict[str, Any]:
 
 def finer(scene: Scene, share: float = 0.1) -> Scene:
     """Return a scene with a share of its tolerance; a fixed step is replaced by a tolerance."""
-    solver = scene.solver
-    assert solver is not None
-    if solver.tolerance is None:
-        tolerance = FINER_THAN_A_STEP
-    else:
+    solver, tolerance = scene.solver, FINER_THAN_A_STEP
+    if solver.tolerance is not None:
         tolerance = max(share * solver.tolerance, FINEST)
     return scene.replace({"solver.tolerance": tolerance, "solver.max_steps": 5 * solver.max_steps})

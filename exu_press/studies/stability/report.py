@@ -29,7 +29,6 @@ class Row:
         verdict: RIGHT, STOPPED or WRONG.
         status: of its run, or of the worker that failed.
         reason: why it stopped or is wrong.
-        checks: of the run.
         residual: of the energy balance, relative.
         steps: accepted ones.
         wall_time: s.
@@ -55,7 +54,6 @@ class StabilityReport(Report):
     Attributes:
         base: scene of the study.
         quick: whether it is the fixed sample.
-        rows: one a case.
     """
 
     name = "stability"
@@ -127,7 +125,6 @@ class StabilityReport(Report):
         return [axes, *not_right, Table("All cases", above=[summary])]
 
     def _axis(self, axis: str) -> tuple[str, ...]:
-        """Return the row of an axis."""
         rows = [row for row in self.rows if row.axis == axis]
         counts = Counter(row.verdict for row in rows)
         worst = max((row.residual for row in rows if row.residual is not None), default=None)

@@ -60,15 +60,7 @@ class StabilityStudy(SceneStudy):
 def stability(study: StabilityStudy, directory: str | Path, **how: Any) -> StabilityReport:
     """Judge the cases, write stability.json, and return the report.
 
-    Called again after a kill or Ctrl-C, it goes on.
-
-    Args:
-        study: of a scene, or with a table of cases of its own.
-        directory: of this study alone.
-        how: workers, dask, quiet of `exu_press.studies.base.Runs`.
-
-    Raises:
-        InputError: the directory cannot be used or belongs to another study.
+    Arguments and errors are those of `exu_press.studies.base.Runs`.
     """
     cases = study.cases
     with Runs(study, directory, report=StabilityReport, function=judge, **how) as runs:
@@ -81,13 +73,10 @@ def stability(study: StabilityStudy, directory: str | Path, **how: Any) -> Stabi
 
 def _row(case: Case, row: Mapping[str, Any]) -> Row:
     """Return the result of a case; a run that failed is wrong."""
-    about: dict[str, Any] = {"name": case.name, "axis": case.axis, "value": case.value}
-    about["parameters"] = case.scene.to_dict()
+    about = case.name, case.axis, case.value, case.scene.to_dict()
     if "verdict" not in row:
-        reason = f"{row['status']}: {row['reason']}"
-        return Row(**about, verdict=WRONG, status=row["status"], reason=reason)
-    names = ("verdict", "status", "reason", "checks", "residual", "steps", "wall_time")
-    return Row(**about, **{name: row[name] for name in names})
+        return Row(*about, WRONG, row["status"], f"{row['status']}: {row['reason']}")
+    return Row(*about, **{name: entry for name, entry in row.items() if name != "name"})
 
 
 class StabilityCommand(SceneCommand):

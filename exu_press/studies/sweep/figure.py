@@ -1,6 +1,5 @@
 """A sweep in one picture: quantities of its runs over one or two of the keys that vary."""
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -27,11 +26,7 @@ LOGARITHMIC_FROM = 50.0
 
 
 def axes_of(report: SweepReport, chosen: Sequence[str] = ()) -> tuple[str, ...]:
-    """Return the one or two keys to draw over: those wanted, or the first numbers that vary.
-
-    Raises:
-        InputError: a wanted key does not vary, or is no number.
-    """
+    """Return the one or two keys to draw over: those wanted, or the first numbers that vary."""
     study = report.study
     possible = [
         name for name in study.keys if report.is_numeric(name) and len(set(report[name])) > 1
@@ -55,15 +50,15 @@ def sweep_figure(report: SweepReport, axes: Sequence[str], quantities: Sequence[
     two keys, or points. Runs without a number are crosses.
 
     Args:
-        report: of the sweep.
         axes: one or two numeric columns.
         quantities: numeric columns.
     """
     columns = min(2, len(quantities))
     rows = -(-len(quantities) // columns)
     heading = f"{len(report)} runs over {' and '.join(map(words, axes))}"
+    text = f"{describe(report.study.scenes, 80 * columns)}\n{report.ends}"
     size = (6.4 * columns, 1.0 + 3.7 * rows)
-    figure = figure_with_title(heading, _words(report, int(80 * columns)), size)
+    figure = figure_with_title(heading, text, size)
     panels = figure.subplots(rows, columns, squeeze=False)
     curves = _curves(report, axes)
     for panel, quantity in zip(panels.flat, quantities, strict=False):
@@ -79,11 +74,7 @@ def sweep_figure(report: SweepReport, axes: Sequence[str], quantities: Sequence[
 
 
 def sweep_picture(report: SweepReport) -> Figure | None:
-    """Return the picture of a sweep; None where no number varies or none came out.
-
-    Raises:
-        InputError: an axis or a quantity is not there.
-    """
+    """Return the picture of a sweep; None where no number varies or none came out."""
     axes, quantities = axes_of(report, report.axes), report.quantities()
     return sweep_figure(report, axes, quantities) if axes and quantities else None
 
@@ -107,12 +98,6 @@ def _curves(report: SweepReport, axes: Sequence[str]) -> dict[str, list[int]] | 
     if len(runs_of_curve) <= MOST_CURVES:
         return runs_of_curve
     return None if len(axes) == 2 and len(more_keys) == 1 else {"": everything}
-
-
-def _words(report: SweepReport, width: int) -> str:
-    ends = Counter(report["status"])
-    statuses = ", ".join(f"{number} {status}" for status, number in ends.items())
-    return f"{describe(report.study.scenes, width)}\n{statuses}"
 
 
 def _draw_curves(

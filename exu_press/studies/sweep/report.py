@@ -68,7 +68,6 @@ class SweepReport(Report):
     """The result of a sweep.
 
     Attributes:
-        study: of the runs.
         columns: name -> values, one a run in the study's order, None where a run has none. First
             the keys that vary, then status and reason, then the scalars of the summaries.
         axes: keys on the picture's axes; the first two numbers that vary where none is chosen.
@@ -109,7 +108,7 @@ class SweepReport(Report):
     @property
     def subtitle(self) -> str:
         """Number of runs, and how they ended."""
-        return f"{len(self)} runs over {', '.join(self.study.keys)}: {self._ends()}"
+        return f"{len(self)} runs over {', '.join(self.study.keys)}: {self.ends}"
 
     @property
     def scenes(self) -> Sequence[Scene]:
@@ -143,7 +142,7 @@ class SweepReport(Report):
         below = []
         if len(self) > MOST_LINES:
             below.append(f"... and {len(self) - MOST_LINES} more in table.csv")
-        below.append(f"{len(self)} runs: {self._ends()}")
+        below.append(f"{len(self)} runs: {self.ends}")
         reasons = Counter(
             f"{status}: {reason}"
             for status, reason in zip(self["status"], self["reason"], strict=True)
@@ -200,8 +199,9 @@ class SweepReport(Report):
                 cells.append("-" if value is None else str(value))
         return cells
 
-    def _ends(self) -> str:
-        """Return how many runs ended in each way."""
+    @property
+    def ends(self) -> str:
+        """How many runs ended in each way."""
         counts = Counter(self["status"])
         return ", ".join(f"{count} {status}" for status, count in counts.items())
 
@@ -282,29 +282,19 @@ def report_of(study: Sweep, rows: Sequence[Mapping[str, Any]], files: Sequence[s
     """Return the report of a study's rows.
 
     Args:
-        study: of the runs.
         rows: as the runs gave them, nested, in the study's order.
         files: where the runs are, or nothing.
     """
-    runs = []
-    for number, (point, scene, row) in enumerate(
-        zip(study.points, study.scenes, rows, strict=True)
-    ):
-        scalars = _scalars({**row, "scene": scene.to_dict()})
-        keys = {name: cell_value(value) for name, value in point.items()}
-        head = {**keys, "status": scalars.pop("status"), "reason": scalars.pop("reason")}
+    lines: list[dict[str, Value]] = []
+    for point, scene, row in zip(study.points, study.scenes, rows, strict=True):
+        head = {name: cell_value(value) for name, value in point.items()}
+        head |= {name: row[name] for name in ("status", "reason")}
         if files:
-            head["file"] = files[number]
-        times = {name: scalars.pop(name) for name in RUN_TIMES if name in scalars}
-        runs.append((head, scalars, times))
-    names = dict.fromkeys(
-        name
-        for column in zip(*runs, strict=True)
-        for columns_of_run in column
-        for name in columns_of_run
-    )
-    lines: list[dict[str, Value]] = [{**times, **scalars, **head} for head, scalars, times in runs]
-    return SweepReport(study, {name: tuple(line.get(name) for line in lines) for name in names})
+            head["file"] = files[len(lines)]
+        lines.append({**head, **_scalars({**row, "scene": scene.to_dict()}), **head})
+    names = dict.fromkeys(name for line in lines for name in line)
+    ordered = sorted(names, key=lambda name: name in RUN_TIMES)
+    return SweepReport(study, {name: tuple(line.get(name) for line in lines) for name in ordered})
 
 
 def cell_value(value: Any) -> Value:

@@ -19,16 +19,7 @@ __all__ = ["SweepCommand", "sweep"]
 def sweep(study: Sweep, directory: str | Path, **how: Any) -> SweepReport:
     """Run the points that are missing, write table.csv and table.nc, and return the report.
 
-    Called again after a kill or Ctrl-C, it goes on; see `exu_press.parallel.Batch`.
-
-    Args:
-        study: to be run.
-        directory: of this study alone.
-        how: workers, dask, quiet of `exu_press.studies.base.Runs`.
-
-    Raises:
-        InputError: the directory cannot be used or belongs to another study, or no scheduler
-            answers.
+    Arguments and errors are those of `exu_press.studies.base.Runs`.
     """
     directory = Path(directory)
     with Runs(study, directory, report=SweepReport, **how) as runs:

@@ -103,11 +103,7 @@ GRID, LIST, SAMPLE = "grid", "list", "sample"
 
 @dataclasses.dataclass(frozen=True)
 class SweepTable(Table):
-    """The table [sweep].
-
-    Raises:
-        InputError: not allowed, or n or seed without a sample.
-    """
+    """The table [sweep]."""
 
     table = "sweep"
 

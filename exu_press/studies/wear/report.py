@@ -53,8 +53,6 @@ class WearReport(Report):
     """The course of wear, and how it ended.
 
     Attributes:
-        study: whose report this is.
-        course: points from the start on.
         reason: why it ended before all strokes were done; empty where they are.
     """
 

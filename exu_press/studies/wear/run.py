@@ -39,11 +39,8 @@ def wear(study: WearStudy, directory: str | Path, **how: Any) -> WearReport:
     difference from the jump with the first run's wear in the first half. This error over the
     clearance is kept below the tolerance, and decides the length of the next jump.
 
-    Args:
-        study: to be run.
-        directory: of this study alone.
-        how: workers, dask, quiet of `exu_press.studies.base.Runs`; a run needs the previous one, so
-            that further workers are idle.
+    Arguments and errors are those of `exu_press.studies.base.Runs`; a run needs the previous one,
+    so that further workers are idle.
     """
     points: list[Point] = []
     reasons: list[str] = []
@@ -138,7 +135,6 @@ def _course(study: WearStudy, points: list[Point], reasons: list[str]) -> Chain:
 
 
 def _rates(row: Row, study: WearStudy) -> dict[str, Contacts]:
-    """Return joint -> the contacts of a stroke, which wear it."""
     rates = {}
     for joint in study.joints:
         stored = dict(row["contacts"][joint])

@@ -52,9 +52,6 @@ class Strokes(Table):
 class WearStudy(Study):
     """A wear study's file, complete: a scene with [wear], and how many strokes.
 
-    Attributes:
-        wear: its settings.
-
     Raises:
         InputError: nothing in the scene wears, its runs are shorter than a revolution, or keys are
             given that it does not use.

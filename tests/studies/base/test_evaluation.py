@@ -39,7 +39,7 @@ def test_failed_runs_are_counted_and_give_no_number():
     found = evaluation([point(s) for s in (100.0, 300.0, 400.0, 100.0)] + [point(100.0, 0.001)])
     assert found[[0, 3]].tolist() == [[1.0, 7.0], [1.0, 7.0]]
     assert np.isnan(found[[1, 2, 4]]).all()
-    assert (len(runs.scenes), evaluation.number_of_points) == (3, 4)
+    assert (len(runs.scenes), len(evaluation.points)) == (3, 4)
     told = evaluation.run_summary()
     assert told[0] == "4 runs: 1 gave numbers, 3 did not"
     assert any("failed: too fast" in line for line in told)

@@ -145,7 +145,9 @@ def test_series_run_from_coarse_to_fine():
 
 def test_long_runs_and_failed_ones_are_not_repeated():
     def attempt(seconds, status="completed"):
-        return Attempt("s", "step", 1.0, lambda: TimedRun(None, (seconds,), (seconds,), status))
+        return Attempt(
+            "s", "step", 1.0, lambda: TimedRun(None, (seconds,), (seconds,), status=status)
+        )
 
     assert len(time_runs(attempt(1.0), 3).wall_times) == 3
     assert len(time_runs(attempt(100.0), 3).wall_times) == 1

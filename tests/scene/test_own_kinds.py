@@ -68,7 +68,9 @@ def test_a_file_never_imports_what_it_names(key, value, mark, capsys):
     assert not mark.exists()
 
 
-def test_with_permission_they_run_are_stored_and_shown_without_being_imported(mark, capsys):
+def test_with_permission_they_run_are_stored_and_shown_without_being_imported(
+    mark, capsys, monkeypatch
+):
     saved(own)
     with pytest.raises(InputError, match="names code, the module 'own_kinds'"):
         Scene.load("scene.toml")
@@ -105,10 +107,11 @@ def test_with_permission_they_run_are_stored_and_shown_without_being_imported(ma
     Scene(mechanism="eccentric_press", revolutions=0.02, joints={}).save("plain.toml")
     assert main(["compare", "run.nc", "plain.toml", *more]) == 0
     assert own("bushing") in capsys.readouterr().out
+    monkeypatch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
     assert main(["report", "run.nc"]) == 0
     page = Path("report.html").read_text()
     assert own("bushing") in page and own("cushion") in page
-    for command in (["spectrum", "run.nc"], ["view", "run.nc", "--save", "a.png"]):
+    for command in (["spectrum", "run.nc", "--no-pictures"], ["view", "run.nc", "--save", "a.png"]):
         main(command)
     for refused in (lambda: simulate(shorter), lambda: Scene.load("shorter.toml")):
         with pytest.raises(InputError, match="names code, the module 'own_kinds'"):

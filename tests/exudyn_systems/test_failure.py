@@ -93,6 +93,7 @@ def test_periods_that_no_level_resolves_are_told():
 
 
 def test_a_run_ends_in_time():
+    """Between two levels, or within one where the machine is slow."""
     outcome = refused_result(double_pendulum(0.1), settings(12.0, 50_000), max_time=1.0)
     assert outcome.wall_time < 20.0
-    assert "the budget" in outcome.reason
+    assert re.search("the budget|the time was used up", outcome.reason)

@@ -1,6 +1,6 @@
 """Whether fits recover known keys: 40 synthetic measurements with noise of three scenes.
 
-Run with: python scripts/fit_recovers.py [--out DIR] [--workers N]
+Run with: python scripts/fit_recovers.py [--out DIR] [--workers N] [--measurements N]
 """
 
 import argparse
@@ -18,6 +18,7 @@ def parser() -> argparse.ArgumentParser:
     found = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     found.add_argument("--out", metavar="DIR", default="out/recovery", help="where to write")
     found.add_argument("--workers", type=int, metavar="N", help="processes (default: the cores)")
+    found.add_argument("--measurements", type=int, metavar="N", help="of each scene (13 or 14)")
     found.add_argument("--quiet", action="store_true", help="print nothing but the table")
     return found
 
@@ -32,6 +33,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             found = recover(
                 name,
                 Path(options.out) / name.replace(" ", "_"),
+                measurements=options.measurements,
                 workers=options.workers,
                 quiet=options.quiet,
             )

@@ -10,7 +10,6 @@ import attack_files
 import attack_scenes
 from exu_press.studies.stability.cases import PAIRS
 from fit_recovers import main
-from recovery.cases import CASES
 from stability.cases import cases, quick_cases
 
 
@@ -45,11 +44,12 @@ def test_a_few_inputs_end_without_a_fault(kind, count, capsys):
 
 
 @pytest.mark.long
-def test_forty_measurements_of_three_scenes(tmp_path, capsys):
-    assert sum(case.measurements for case in CASES.values()) == 40
-    assert main(["--quiet", "--out", str(tmp_path)]) == 0
-    printed = capsys.readouterr().out
-    assert 36.0 <= float(re.search(r"hold the true key: ([\d.]+) of 40", printed)[1]) <= 40.0
+def test_nine_measurements_of_three_scenes(tmp_path, capsys):
+    """Of 21 intervals 20 are expected to hold the true key; those of a fit are not independent."""
+    assert main(["--quiet", "--measurements", "3", "--out", str(tmp_path)]) == 0
+    held = re.search(r"(\d+) of 21 intervals hold the true key", capsys.readouterr().out)
+    assert held is not None
+    assert int(held[1]) >= 18
 
 
 @pytest.fixture(scope="module")

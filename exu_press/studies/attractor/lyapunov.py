@@ -7,9 +7,10 @@ Giorgilli, Strelcyn, Meccanica 15 (1980) 9-20; Wolf, Swift, Swinney, Vastano, Ph
 .. math:: \lambda = \frac{1}{n T} \sum_{i=1}^n \ln\frac{d_i}{d_0}
 
 Where contacts begin and end the tangent jumps, and distances count: several d_0 are taken, and
-their difference belongs to the interval. d_0 is to be well above the error of the integration: each
-of two neighbours may be off by it, so that their distance is known within twice of it. A motion
-that comes back together faster than to that error has only an upper bound of its exponent.
+their difference belongs to the interval. So does what finer steps of both neighbours change of the
+growth in the revolutions whose errors are measured, but no more than if each were off by the error
+of a point, one to either side. A motion that comes back together faster than to its own error has
+only an upper bound of its exponent.
 """
 
 import math
@@ -77,19 +78,23 @@ def exponent_of(growths: Array) -> tuple[float, float, float]:
 
 
 def combine_exponents(
-    growths: Sequence[Array], distances: Sequence[float], error: float
+    growths: Sequence[Array],
+    distances: Sequence[float],
+    error: float,
+    growth_errors: Sequence[float],
 ) -> Exponent:
     """Return the exponent of several renormalisation distances.
 
     Args:
         growths: for each distance, (n,) ln(d_i / d_0).
         error: distance that the integration's error makes of one point in a revolution.
+        growth_errors: for each distance, the integration's error of the mean logarithm.
     """
     intervals = []
-    for series, distance in zip(growths, distances, strict=True):
+    for series, distance, measured in zip(growths, distances, growth_errors, strict=True):
         mean, low, high = exponent_of(series)
         final_distance = distance * math.exp(mean)
-        error_of_growth = math.log1p(2.0 * error / final_distance)
+        error_of_growth = min(measured, math.log1p(2.0 * error / final_distance))
         intervals.append(
             (
                 mean,

@@ -192,7 +192,8 @@ def attractor(
     settled = [np.array(series[walk.begin == skip - 1 :]) for series in walk.growths]
     error = max(*walk.point_errors, NOISE)
     if len(values) >= 2 * BATCHES:
-        exponent = combine_exponents(settled, DISTANCES, error)
+        growth_errors = [discretization_error(errors) for errors in walk.growth_errors]
+        exponent = combine_exponents(settled, DISTANCES, error, growth_errors)
     else:
         exponent = Exponent(math.nan, -math.inf, math.inf, DISTANCES, len(settled[0]))
     transient, section = np.array(walk.points[:skip]), np.array(walk.points[skip:])
@@ -231,6 +232,7 @@ class _Walk:
         values: of each revolution after the transient.
         growths: of each neighbour, its logarithms after the transient.
         point_errors: of the points of the revolutions whose errors are measured.
+        growth_errors: of each neighbour, what finer steps change of its logarithms there.
         last: records of the last revolutions.
         start_time: s, at the end of the transient.
     """
@@ -245,7 +247,8 @@ class _Walk:
     ) -> None:
         self._orbit = Orbit(scene, start)
         self._neighbours = [Orbit(scene) for _ in DISTANCES]
-        self._finer, self._pushed = Orbit(finer(scene)), Orbit(_perturbed_scene(scene))
+        self._finer, self._finer_neighbour = Orbit(finer(scene)), Orbit(finer(scene))
+        self._pushed = Orbit(_perturbed_scene(scene))
         self._skip, self._read = skip, read
         self.begin = min(1, skip - 1)
         later = (skip + int(share * revolutions) for share in LATER)
@@ -253,6 +256,7 @@ class _Walk:
         self.points: list[Array] = []
         self.values: list[dict[str, float]] = []
         self.growths: list[list[float]] = [[] for _ in DISTANCES]
+        self.growth_errors: list[list[float]] = [[] for _ in DISTANCES]
         self.point_errors: list[float] = []
         self.last: list[Result] = []
         self.start_time = 0.0
@@ -274,11 +278,16 @@ class _Walk:
             self.start_time = orbit.state["time"]
         finer_result = self._finer.advance(recorded=recorded) if done in self._checked else None
         growths: list[float] = []
-        for neighbour, distance in zip(self._neighbours, DISTANCES, strict=True):
-            if done > self.begin:
+        finer_growths: list[float] = []
+        if done > self.begin:
+            for neighbour, distance in zip(self._neighbours, DISTANCES, strict=True):
+                if finer_result is not None:
+                    self._finer_neighbour.set_state(neighbour.state)
+                    self._finer_neighbour.advance()
+                    finer_growths.append(_growth(self._finer, self._finer_neighbour, distance))
                 neighbour.advance()
-                now = _bring_back(orbit, neighbour, neighbour, distance)
-                growths.append(math.log(now / distance))
+                growths.append(_growth(orbit, neighbour, distance))
+                _bring_back(orbit, neighbour, neighbour, distance)
         if done == self.begin:  # towards states that fit all constraints
             self._pushed.advance()
             directions = self._pushed, self._finer
@@ -289,9 +298,11 @@ class _Walk:
             return
         self.values.append(self._read(result))
         self.last = [*self.last[-LAST + 1 :], result]
-        for series, growth in zip(self.growths, growths, strict=True):
-            series.append(growth)
+        for index, growth in enumerate(growths):
+            self.growths[index].append(growth)
         if finer_result is not None:
+            for index, growth in enumerate(finer_growths):
+                self.growth_errors[index].append(growths[index] - growth)
             self._pairs.append((self.values[-1], self._read(finer_result)))
             apart = np.linalg.norm(orbit.point() - self._finer.point())
             self.point_errors.append(float(apart))
@@ -304,7 +315,8 @@ class _Walk:
     def close(self) -> State:
         """Return the state in which the orbit ends, and let all systems go."""
         state = self._orbit.state
-        for system in (self._orbit, self._finer, self._pushed, *self._neighbours):
+        beside = self._finer, self._finer_neighbour, self._pushed
+        for system in (self._orbit, *beside, *self._neighbours):
             system.close()
         return state
 
@@ -332,11 +344,18 @@ def _perturbed_scene(scene: Scene) -> Scene:
     return scene.replace({"gravity": scene.gravity + PUSH * speed * scene.angular_speed})
 
 
-def _bring_back(orbit: Orbit, neighbour: Orbit, direction: Orbit, distance: float) -> float:
-    """Put a neighbour at a distance from the orbit, towards another one; return their distance."""
-    distance_before = max(float(np.linalg.norm(direction.point() - orbit.point())), NOISE)
-    neighbour.set_state(orbit.towards(direction.state, distance / distance_before))
-    return distance_before
+def _growth(orbit: Orbit, neighbour: Orbit, distance: float) -> float:
+    """Return the logarithm by which a neighbour's distance has grown."""
+    return math.log(_distance(orbit, neighbour) / distance)
+
+
+def _bring_back(orbit: Orbit, neighbour: Orbit, direction: Orbit, distance: float) -> None:
+    """Put a neighbour at a distance from the orbit, towards another one."""
+    neighbour.set_state(orbit.towards(direction.state, distance / _distance(orbit, direction)))
+
+
+def _distance(orbit: Orbit, neighbour: Orbit) -> float:
+    return max(float(np.linalg.norm(neighbour.point() - orbit.point())), NOISE)
 
 
 def _unit(scene: Scene, name: str) -> str:

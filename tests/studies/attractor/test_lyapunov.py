@@ -12,6 +12,8 @@ from exu_press.quantities import quantities_of
 from exu_press.studies.attractor import attractor
 from exu_press.studies.attractor.lyapunov import combine_exponents, exponent_of
 from exu_press.studies.attractor.orbit import NoMotion, Orbit
+from exu_press.verification.distribution import discretization_error
+from exu_press.verification.estimate import ORDER
 
 FILM = Scene(
     mechanism="slider_crank",
@@ -47,18 +49,18 @@ def henon(x):
 )
 def test_a_map_has_its_exponent(step, start, known):
     growths = [grown(step, np.array(start), d, 4000) for d in (1e-6, 1e-7)]
-    found = combine_exponents(growths, (1e-6, 1e-7), 1e-15)
+    found = combine_exponents(growths, (1e-6, 1e-7), 1e-15, (0.0, 0.0))
     assert found.low < known < found.high < found.low + 0.1
     assert found.sign == "chaotic"
 
 
 def test_a_contraction_is_known_down_to_the_error():
     growths = [np.full(40, math.log(0.5)) + 1e-3 * np.arange(40) for _ in range(2)]
-    found = combine_exponents(growths, (1e-2, 1e-3), 1e-6)
+    found = combine_exponents(growths, (1e-2, 1e-3), 1e-6, (0.0, 0.0))
     assert found.value == pytest.approx(math.log(0.5), abs=0.03)
     assert found.sign == "regular"
     below = combine_exponents(
-        [np.full(40, math.log(1e-6 / d)) for d in (1e-2, 1e-3)], (1e-2, 1e-3), 1e-6
+        [np.full(40, math.log(1e-6 / d)) for d in (1e-2, 1e-3)], (1e-2, 1e-3), 1e-6, (2.0, 2.0)
     )
     assert below.low == -math.inf
     assert below.sign == "regular"
@@ -71,17 +73,32 @@ def test_an_interval_that_has_not_aligned_holds_the_exponent_that_it_tends_to():
         np.diff(np.log(np.hypot(np.exp(-0.30 * turn), part * np.exp(-0.238 * turn))))
         for part in (0.02, 0.5)
     ]
-    found = combine_exponents(growths, (1e-2, 1e-3), 1e-9)
+    found = combine_exponents(growths, (1e-2, 1e-3), 1e-9, (0.0, 0.0))
     assert found.low < -0.3 and found.high > -0.245
 
 
-@pytest.mark.parametrize("distance", [1e-2, 3e-2])
-def test_a_distance_within_the_error_is_a_bound_only_with_the_error(distance):
-    """Neighbours with an exponent of -0.4 that steps bring together to less than their error."""
-    error = 4e-3
-    nearer = max(distance * math.exp(-0.4) - 2.0 * error, 1e-4)
-    found = combine_exponents([np.full(40, math.log(nearer / distance))], (distance,), error)
-    assert found.low < -0.4 < found.high
+def contraction_exponent(random, error, distance=1e-2):
+    """Return the exponent of a contraction by exp(-1.2) whose steps err, half of it alike."""
+    growths, differences = [], []
+    alike, separation = random.normal(0.0, error, 2), np.array([distance, 0.0])
+    for _ in range(20):
+        ends = [
+            separation * [math.exp(-1.2), 0.1] + size * (alike + random.normal(0.0, error, 2))
+            for size in (1.0, 0.1**ORDER)
+        ]
+        coarse, fine = (math.log(np.linalg.norm(end) / distance) for end in ends)
+        growths.append(coarse)
+        differences.append(coarse - fine)
+        separation = ends[0] * math.exp(-coarse)
+    growth_error = discretization_error(differences[::4])
+    return combine_exponents([np.array(growths)], (distance,), error, (growth_error,))
+
+
+def test_what_finer_steps_change_of_a_growth_belongs_to_its_interval():
+    random, error = np.random.default_rng(1), 3e-4
+    exponents = [contraction_exponent(random, error) for _ in range(200)]
+    assert sum(exponent.low < -1.2 < exponent.high for exponent in exponents) > 190
+    assert np.median([exponent.high - exponent.low for exponent in exponents]) < 1.0
 
 
 def test_the_interval_holds_the_mean_in_most_of_many_series():

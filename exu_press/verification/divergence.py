@@ -10,7 +10,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.quantities.kind import ROUNDING
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
-from exu_press.verification.estimate import single_difference_factor
+from exu_press.verification.estimate import ORDER, single_difference_factor
 from exu_press.verification.growth import Growth, growth
 
 __all__ = ["Divergence", "divergence"]
@@ -27,7 +27,8 @@ class Divergence:
         growth: of the distance from the exact motion.
         nearest: error up to the horizon over the difference from the nearest refinement, where only
             that one still follows the run; else 0.
-        distances: largest ones from the refinements, in clearances; none without clearances.
+        distances: largest ones from the refinements, over that from the exact motion, which is a
+            clearance at most; none without clearances.
     """
 
     growth: Growth
@@ -38,10 +39,10 @@ class Divergence:
 def divergence(result: Result, refinements: Mapping[float, Result]) -> Divergence:
     """Return how fast a run diverges from the exact motion, in clearances, and from when on.
 
-    Errors are proportional to the tolerance until motions have diverged: a run at half of it lies
-    half-way to the exact motion. The largest estimate of all refinements counts, as one may agree
-    by chance. Where only the nearest one still follows the run, its distance keeps the factor that
-    it had, or `single_difference_factor` if that is larger.
+    Errors go with ORDER of the tolerance until motions have diverged, as those of figures do. The
+    largest estimate of all refinements counts, as one may agree by chance. Where only the nearest
+    one still follows the run, its distance keeps the factor that it had, or
+    `single_difference_factor` if that is larger.
 
     Args:
         result: of the run; its instants count.
@@ -49,21 +50,23 @@ def divergence(result: Result, refinements: Mapping[float, Result]) -> Divergenc
     """
     distances = {ratio: _distance(result, run) for ratio, run in refinements.items()}
     (ratio, nearest), *coarser_runs = distances.items()
-    share = min(abs(1.0 - ratio), 1.0)
+    share = min(abs(1.0 - ratio**ORDER), 1.0)
     error = nearest / share
     only_nearest = 0  # from this step on
     for coarser_ratio, distance in coarser_runs:
         follows = int(np.searchsorted(distance, DIVERGED))
-        error[:follows] = np.maximum(error[:follows], distance[:follows] / abs(1.0 - coarser_ratio))
+        coarser_share = abs(1.0 - coarser_ratio**ORDER)
+        error[:follows] = np.maximum(error[:follows], distance[:follows] / coarser_share)
         only_nearest = max(only_nearest, follows)
-    factor = single_difference_factor(ratio) if ratio < 1.0 else 1.0 / share
+    factor = single_difference_factor(ratio**ORDER) if ratio < 1.0 else 1.0 / share
     if only_nearest:
         factor = max(factor, error[only_nearest - 1] / max(nearest[only_nearest - 1], ROUNDING))
         error[only_nearest:] = factor * nearest[only_nearest:]
     error_growth = growth(result.time, error, DIVERGED)
     end = result.time[-1] if error_growth.horizon is None else error_growth.horizon
     follows_to_end = 0 < only_nearest <= np.searchsorted(result.time, end)
-    largest = {ratio: float(distance[-1]) for ratio, distance in distances.items() if distance[-1]}
+    whole = min(max(float(error[-1]), ROUNDING), 1.0)
+    largest = {r: float(distance[-1]) / whole for r, distance in distances.items() if distance[-1]}
     return Divergence(error_growth, float(factor) if follows_to_end else 0.0, largest)
 
 

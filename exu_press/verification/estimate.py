@@ -89,8 +89,8 @@ def prediction_interval(
     Args:
         values: of diverged runs, normally distributed; the first one is reported.
         least: error, in the quantity's unit, on top.
-        shares: distance of each further run from the first, over that of diverged motions: half of
-            it shows half of the scatter; None: all have diverged.
+        shares: distance of each further run from the first, over that of the exact motion: half of
+            it shows half of the scatter; None: all are as far.
     """
     differences = np.asarray(values[1:]) - values[0]
     if shares is not None:

@@ -85,7 +85,8 @@ def engine_exponent():
             apart = float(np.linalg.norm(gone))
             growths[i].append(math.log(apart / d))
             near[i] = x + gone * d / apart
-    return combine_exponents([np.array(each[1:]) for each in growths], distances, ERROR)
+    errors = [math.log1p(2.0 * ERROR / d) for d in distances]
+    return combine_exponents([np.array(each[1:]) for each in growths], distances, ERROR, errors)
 
 
 @pytest.mark.validation(

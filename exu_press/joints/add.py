@@ -5,9 +5,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
+import numpy as np
 from exudyn.itemInterface import SensorUserFunction
 
 from exu_press.errors import InputError
+from exu_press.joints.ends import BodyEnd
 from exu_press.joints.guideway import GuidewayContact, SpatialGuidewayContact
 from exu_press.joints.guideway_film import GuidewayFilm
 from exu_press.joints.interface import DryInterface, FilmInterface, InterfaceLaw
@@ -317,11 +319,12 @@ def add_guideway_film(
     viscosity: float,
     asperity_onset: float,
     half_width: float = 0.0,
+    on: int | None = None,
 ) -> ClearanceJoint:
-    """Fill the gaps between a body and a straight guideway of the frame with oil.
+    """Fill the gaps between a body and a straight guideway, of the frame or a body, with oil.
 
-    Contacts of both ends act in parallel: `add_guideway_contact` with the clearance less the
-    asperities' onset.
+    Contacts of both ends act in parallel: `add_guideway_contact`, or on a body
+    `add_moving_guideway_contact`, with the clearance less the asperities' onset.
 
     Args:
         mbs: system, not yet assembled.
@@ -336,6 +339,8 @@ def add_guideway_film(
         viscosity: dynamic viscosity, Pa s.
         asperity_onset: gap at which the surfaces begin to touch, m, below the clearance.
         half_width: of the body: shear acts so far beside its middle, m.
+        on: number of the body with the guideway, in whose frame are middle and direction; None: the
+            frame.
 
     Returns:
         The film, a joint as others; `add_joint_sensor` records it.
@@ -353,10 +358,13 @@ def add_guideway_film(
             f"asperity_onset = {asperity_onset:g}: allowed is a number > 0 and below the "
             f"clearance, {clearance:g} m"
         )
+    point = [float(middle[0]), float(middle[1]), 0.0]
     film = GuidewayFilm(
         spatial_end(mbs, rear),
         spatial_end(mbs, front),
-        (float(middle[0]), float(middle[1])),
+        BodyEnd("Ground", 0, np.zeros(0), np.array(point))
+        if on is None
+        else spatial_end(mbs, (on, point)),
         along,
         law=pad_with_asperities(plane_pad(length, face_width), asperity_onset),
         viscosity=viscosity,

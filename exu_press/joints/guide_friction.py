@@ -7,7 +7,8 @@ derivatives by multipliers: without them each iteration leaves mu times the slop
 body's force turns aside, some hundredths of the error, but more than all of it where a film holds
 the crank. So the integration adds them (`multiplier_partials`).
 
-Friction acts in the line of the point that is guided, and has no moment about it. Accelerations at
+Friction acts in the line of the point that is guided, and has no moment about it; on a moving guide
+its opposite acts there. Accelerations at
 the start are those without it, as the multipliers are not known yet: the first step mends that.
 """
 
@@ -18,6 +19,7 @@ import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 
+from exu_press.joints.guide_line import GuideLine
 from exu_press.laws.friction import Friction, LuGre
 from exu_press.numerics.arrays import Array
 
@@ -42,9 +44,6 @@ def guide_frictions(mbs: exu.MainSystem) -> list["GuideFriction"]:
 class HeldSide:
     """Normal force of a constraint that holds the body across an ideal guide."""
 
-    partials: tuple[Array, Array] | None = None
-    """By the coordinates of the body's nodes and by their rates, (n,); None: as if it were even."""
-
     def __init__(self, mbs: exu.MainSystem, constraint: int) -> None:
         """Take the object number of a constraint with one row of length 1."""
         self._data: Any = mbs.systemData
@@ -63,31 +62,27 @@ class HeldSide:
         current = exu.ConfigurationType.Current
         return float(self._data.GetAECoordinates(current, False)[self.index])
 
+    def partials(self, q: Array, q_t: Array) -> tuple[Array, Array] | None:
+        """Return None: its derivatives are those of `multiplier_partials`."""
+        return None
+
 
 class SpringSide:
     """Normal force of a spring and damper across an elastic guide."""
 
-    def __init__(self, stiffness: float, damping: float, across: Array, missed: float) -> None:
-        """Take a spring.
-
-        Args:
-            stiffness: N/m.
-            damping: N s/m.
-            across: (n,), displacement of the body across its guide by each coordinate.
-            missed: displacement across the guide where the coordinates are zero, m.
-        """
-        self._stiffness, self._damping = stiffness, damping
-        self._across, self._missed = across, missed
+    def __init__(self, stiffness: float, damping: float, line: GuideLine) -> None:
+        """Take stiffness, N/m, and damping, N s/m, of a spring across the line of a guide."""
+        self._stiffness, self._damping, self._line = stiffness, damping, line
 
     def force(self, q: Array, q_t: Array) -> float:
         """Return the force of the spring, N."""
-        moved = float(self._across @ q) + self._missed
-        return self._stiffness * moved + self._damping * float(self._across @ q_t)
+        rate = float(self._line.normal_row(q) @ q_t)
+        return self._stiffness * self._line.lateral_displacement(q) + self._damping * rate
 
-    @property
-    def partials(self) -> tuple[Array, Array] | None:
-        """Its derivatives by the coordinates and by their rates."""
-        return self._stiffness * self._across, self._damping * self._across
+    def partials(self, q: Array, q_t: Array) -> tuple[Array, Array] | None:
+        """Return its derivatives by the coordinates and by their rates, (n,)."""
+        across, turning = self._line.normal_row(q), self._line.turning(self._line.direction_row(q))
+        return self._stiffness * across + self._damping * turning @ q_t, self._damping * across
 
 
 SideForce = HeldSide | SpringSide
@@ -134,13 +129,13 @@ class SlidingFriction:
 
 
 class GuideFriction:
-    """One massless item over the nodes of a guided body."""
+    """One massless item over the nodes of a guided body, and of the one on which it slides."""
 
     def __init__(
         self,
         mbs: exu.MainSystem,
         nodes: Sequence[int],
-        along: Array,
+        line: GuideLine,
         side: SideForce,
         law: Friction | LuGre,
     ) -> None:
@@ -148,13 +143,13 @@ class GuideFriction:
 
         Args:
             mbs: not yet assembled.
-            nodes: of the body.
-            along: (n,), displacement of the body along its guide by each coordinate.
+            nodes: of the body, and of the one on which it slides unless that is the frame.
+            line: of the guide, by the coordinates of these nodes.
             side: the force across it.
             law: friction coefficient of a sliding velocity.
         """
         self.friction = SlidingFriction(law)
-        self._along, self._side = along, side
+        self._line, self._side = line, side
         self._mbs, self._nodes = mbs, list(nodes)
         self._rows: Array | None = None  # of the body's coordinates among the system's
         self._data: Any = mbs.systemData
@@ -174,8 +169,9 @@ class GuideFriction:
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Array:
         self._begin_step(time)
         q, q_t = np.asarray(q), np.asarray(q_t)
-        mu, _ = self.friction(float(self._along @ q_t))
-        return -mu * abs(self._side.force(q, q_t)) * self._along
+        along = self._line.direction_row(q)
+        mu, _ = self.friction(float(along @ q_t))
+        return -mu * abs(self._side.force(q, q_t)) * along
 
     def _jacobian(
         self,
@@ -189,14 +185,16 @@ class GuideFriction:
     ) -> exu.MatrixContainer:
         self._begin_step(time)
         q, q_t = np.asarray(q), np.asarray(q_t)
-        mu, slope = self.friction(float(self._along @ q_t))
+        along, turning = self._line.direction_row(q), self._line.turning(-self._line.normal_row(q))
+        mu, slope = self.friction(float(along @ q_t))
         side = self._side.force(q, q_t)
-        row = by_q_t * slope * abs(side) * self._along
-        if self._side.partials is not None:
-            by_places, by_rates = self._side.partials
+        row = slope * abs(side) * (by_q_t * along + by_q * turning @ q_t)
+        partials = self._side.partials(q, q_t)
+        if partials is not None:
+            by_places, by_rates = partials
             row = row + mu * np.sign(side) * (by_q * by_places + by_q_t * by_rates)
         matrix = exu.MatrixContainer()  # a container would add to what it was given before
-        matrix.SetWithDenseMatrix(np.outer(self._along, row))
+        matrix.SetWithDenseMatrix(np.outer(along, row) + by_q * mu * abs(side) * turning)
         return matrix
 
     def multiplier_partials(self) -> tuple[Array, int, Array]:
@@ -213,10 +211,13 @@ class GuideFriction:
             starts = [self._mbs.GetNodeODE2Index(node) for node in self._nodes]
             pairs = zip(starts, sizes, strict=True)
             self._rows = np.concatenate([start + np.arange(size) for start, size in pairs])
-        rates = np.asarray(self._data.GetODE2Coordinates_t(exu.ConfigurationType.Current, False))
-        mu, _ = self.friction(float(self._along @ rates[self._rows]))
-        side = self._side.force(rates, rates)
-        return self._rows, self._side.index, mu * np.sign(side) * self._along
+        current = exu.ConfigurationType.Current
+        q = np.asarray(self._data.GetODE2Coordinates(current, False))[self._rows]
+        rates = np.asarray(self._data.GetODE2Coordinates_t(current, False))[self._rows]
+        along = self._line.direction_row(q)
+        mu, _ = self.friction(float(along @ rates))
+        side = self._side.force(q, rates)
+        return self._rows, self._side.index, mu * np.sign(side) * along
 
     def _begin_step(self, time: float) -> None:
         """Tell the friction about the step that is being tried."""

@@ -1,7 +1,8 @@
 """The oil films between a guided body and its guideways: a pad on either side.
 
 The gaps at the body's two ends follow from how far these lie beside the guideway's middle, and the
-films' forces act at the ends, across the guideway and along it. The sliding velocity is that of the
+films' forces act at the ends, across the guideway and along it, and their opposite at the same
+points on the body that has the guideway, with which it turns. The sliding velocity is that of the
 body's face, half a width beside its middle.
 """
 
@@ -10,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.joints.ends import BodyEnd, Vector
+from exu_press.joints.ends import BodyEnd, Vector, cross, rotate
 from exu_press.joints.joint import JointState
 from exu_press.joints.path import Path
 from exu_press.laws.film.plane_pad import PadFilm, PadLaw
@@ -35,7 +36,7 @@ class GuidewayFilm:
         self,
         rear: BodyEnd,
         front: BodyEnd,
-        middle: tuple[float, float],
+        line: BodyEnd,
         along: tuple[float, float],
         *,
         law: PadLaw,
@@ -50,8 +51,8 @@ class GuidewayFilm:
         Args:
             rear: end of the body that lies behind in the direction of the guideway.
             front: the other end, of the same body.
-            middle: a point in the middle of the guideway, m.
-            along: unit vector along it.
+            line: a point in the middle of the guideway, of the body that has it or of the frame.
+            along: unit vector along it, in that body's frame.
             law: of a pad, that goes on where the surfaces touch.
             viscosity: dynamic, Pa s.
             clearance: on each side, m.
@@ -61,11 +62,11 @@ class GuidewayFilm:
         """
         assert rear.indices == front.indices
         self.clearance, self.contact_onset = clearance, contact_onset
-        self.indices = list(rear.indices)
+        self.indices = [*rear.indices, *line.indices]
         self.path = Path()
-        self._ends = rear, front
-        self._middle = middle
-        self._along: Vector = (along[0], along[1], 0.0)
+        self._ends, self._line = (rear, front), line
+        self._drawn: Vector = (along[0], along[1], 0.0)
+        self._along: Vector = self._drawn
         self._across: Vector = (along[1], -along[0], 0.0)
         self._law, self._viscosity = law, viscosity
         self._length, self._half_width = length, half_width
@@ -78,19 +79,23 @@ class GuidewayFilm:
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the generalised forces to `out`."""
         rear, front = self._ends
-        rear.move(q, q_t)
-        front.move(q, q_t)
+        for end in (rear, front, self._line):
+            end.move(q, q_t)
+        self._along = along_x, along_y, _ = rotate(self._line.rotation, self._drawn)
+        self._across = along_y, -along_x, 0.0
+        velocities = self._relative_velocity(rear), self._relative_velocity(front)
         self._places = beside_1, beside_2 = (
             self._lateral_displacement(rear),
             self._lateral_displacement(front),
         )
         self._rates = rate_1, rate_2 = (
-            _in(rear.velocity, self._across),
-            _in(front.velocity, self._across),
+            _in(velocities[0], self._across),
+            _in(velocities[1], self._across),
         )
-        moving = _in(rear.velocity, self._along), _in(front.velocity, self._along)
+        moving = _in(velocities[0], self._along), _in(velocities[1], self._along)
         self._sliding = sliding = 0.5 * (moving[0] + moving[1])
-        self._turning = turning = rear.angular_velocity[2]
+        turning = rear.angular_velocity[2] - self._line.angular_velocity[2]
+        self._turning = turning
         across_1 = across_2 = along = moment = 0.0
         self._films = []
         for side in (1.0, -1.0):
@@ -111,6 +116,9 @@ class GuidewayFilm:
         for end, across, turn in zip(self._ends, self._loads[:2], (mu * moment, 0.0), strict=True):
             x, y = self._in_plane(across, 0.5 * mu * along)
             end.add_forces((x, y, 0.0), (0.0, 0.0, turn), out)
+            arm_x, arm_y, _ = self._arm(end)
+            opposite = arm_y * x - arm_x * y - turn
+            self._line.add_forces((-x, -y, 0.0), (0.0, 0.0, opposite), out)
 
     def jacobian(self, by_q: float, by_q_t: float) -> Array:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t), less the terms of turning arms, by rows."""
@@ -130,8 +138,15 @@ class GuidewayFilm:
                 row[2] += factor * by_q_t * sliding
                 row[3] += factor * lever * by_q_t * sliding
         nowhere, axis = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+        n, t = self._across, self._along
         rear, front = (
-            end.rates_along(self._across, self._along, axis, nowhere) for end in self._ends
+            np.hstack(
+                [
+                    end.rates_along(n, t, axis, nowhere),
+                    -self._line.rates_along(n, t, axis, self._arm(end)),
+                ]
+            )
+            for end in self._ends
         )
         rates = np.array((rear[0], front[0], 0.5 * (rear[1] + front[1]), rear[2]))
         return np.asarray(rates.T @ (-self._viscosity * np.array(partials) @ rates)).ravel()
@@ -198,8 +213,19 @@ class GuidewayFilm:
 
     def _lateral_displacement(self, end: BodyEnd) -> float:
         """Return the displacement of an end from the guideway's middle, m."""
-        x, y, _ = end.position
-        return (x - self._middle[0]) * self._across[0] + (y - self._middle[1]) * self._across[1]
+        return _in(self._arm(end), self._across)
+
+    def _arm(self, end: BodyEnd) -> Vector:
+        """Return the vector from the middle of the guideway to an end, m."""
+        (x, y, z), (line_x, line_y, line_z) = end.position, self._line.position
+        return x - line_x, y - line_y, z - line_z
+
+    def _relative_velocity(self, end: BodyEnd) -> Vector:
+        """Return the velocity of an end as seen from the body that has the guideway, m/s."""
+        u, v, w = self._line.velocity
+        a, b, c = cross(self._line.angular_velocity, self._arm(end))
+        x, y, z = end.velocity
+        return x - u - a, y - v - b, z - w - c
 
 
 def _in(v: Vector, direction: Vector) -> float:

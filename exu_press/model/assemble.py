@@ -20,6 +20,7 @@ from exu_press.model.stall import Stall, holding_torque
 from exu_press.model.system import System
 from exu_press.scene import IdealJoint, Scene
 from exu_press.scene.joint import oil_of
+from exu_press.schema.table import plain
 
 if TYPE_CHECKING:
     from exu_press.joints.guide_friction import GuideFriction
@@ -69,10 +70,12 @@ def _ideal_scene(scene: Scene) -> Scene:
     Clearance and friction leave a body in its guide no determined position.
     """
     changes: dict[str, Any] = {f"joints.{name}": "ideal" for name in scene.joints.with_clearance}
-    guide = scene.guide
-    is_elastic = guide is not None and guide.clearance is None and guide.soft
-    changes |= {"guide.friction": "none"} if is_elastic else {"guide": None}
-    return scene.replace(changes | {"drive": None, "load": {}})
+    elastic = {
+        name: {**plain(guide.support), "friction": "none"}
+        for name, guide in scene.guides.items()
+        if guide.support is not None and guide.clearance is None
+    }
+    return scene.replace(changes | {"drive": None, "load": {}, "guide": elastic or None})
 
 
 def _assemble(
@@ -181,13 +184,20 @@ def _guide_friction(
     system: System, guides: Mapping[str, Mapping[str, int]]
 ) -> dict[str, "GuideFriction"]:
     """Add the friction of guides without clearance; return it by their names."""
-    table = system.scene.guide
-    if table is None or not table.rubs or table.clearance is not None:
+    rubbing = [
+        guide
+        for guide in system.mechanism.guides
+        if guide.name in system.scene.guides
+        and system.scene.guides[guide.name].rubs
+        and guide.guideway is None
+    ]
+    if not rubbing:
         return {}
-    for guide in system.mechanism.guides:
+    for guide in rubbing:
         if guide.key in system.constraints.undetermined:
+            path = system.scene.guide_key(guide.name, "friction")
             raise InputError(
-                f"guide.friction: the force of {guide.key}, which decides it, is not determined "
+                f"{path}: the force of {guide.key}, which decides it, is not determined "
                 "beside gears and ideal joints; allowed is friction in a guide with stiffness or "
                 "clearance"
             )
@@ -195,8 +205,8 @@ def _guide_friction(
 
     return {
         guide.name: add_guide_friction(system, guide, guides[guide.name])
-        for guide in system.mechanism.guides
-        if not guide.is_slot and (guide.lateral or "force" in guides[guide.name])
+        for guide in rubbing
+        if guide.lateral or "force" in guides[guide.name]
     }
 
 

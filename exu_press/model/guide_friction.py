@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from exu_press.joints.guide_friction import GuideFriction, HeldSide, SideForce, SpringSide
+from exu_press.joints.guide_line import FixedLine, GuideLine
 from exu_press.mechanism import Guide
 from exu_press.model.system import System
 
@@ -19,24 +20,28 @@ def add_guide_friction(system: System, guide: Guide, numbers: Mapping[str, int])
         guide: ideal or elastic.
         numbers: object numbers, as `add_guide` returns them.
     """
-    table, mbs = system.scene.guide, system.mbs
-    assert table is not None
-    offset = np.zeros(3)
-    if guide.body in system.flexible:
+    mbs = system.mbs
+    line: GuideLine
+    nodes = [system.nodes[name] for name in (guide.body, guide.on) if name in system.nodes]
+    normal = np.array(guide.normal)
+    if not guide.is_rail:
+        from exu_press.model.moving_guides import turning_line
+
+        line = turning_line(system, guide)
+    elif guide.body in system.flexible:
         from exu_press.model.flexible_body import guided_motion
 
         body = system.flexible[guide.body]
         values, rows = guided_motion(mbs, body, system.parts[guide.body])
-        offset = values - system.ideal[guide.body].position[0]
+        missed = float(normal @ (values - system.ideal[guide.body].position[0])[:2])
         nodes = body.nodes
+        line = FixedLine(np.array(guide.direction) @ rows[:2], normal @ rows[:2], missed)
     else:
-        nodes, rows = [system.rigid[guide.body].node], np.eye(3)
+        line = FixedLine(np.array([*guide.direction, 0.0]), np.array([*normal, 0.0]))
     side: SideForce
     if guide.lateral is None:
         side = HeldSide(mbs, numbers["force"])
     else:
-        normal, spring = np.array(guide.normal), guide.lateral
-        relaxed = float(normal @ offset[:2])
-        side = SpringSide(spring.stiffness, spring.damping, normal @ rows[:2], relaxed)
-    law = table.friction_table(system.scene.friction or {}).friction()
-    return GuideFriction(mbs, nodes, np.array(guide.direction) @ rows[:2], side, law)
+        side = SpringSide(guide.lateral.stiffness, guide.lateral.damping, line)
+    law = system.scene.guides[guide.name].friction_table(system.scene.friction or {}).friction()
+    return GuideFriction(mbs, nodes, line, side, law)

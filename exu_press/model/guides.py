@@ -31,6 +31,11 @@ def add_guide(system: System, guide: Guide) -> dict[str, int]:
         return _add_flexible_guide(system, guide)
     body, on = system.in_guide(guide)
     holds_across, holds_angle = system.constraints.guides[guide.name]
+    if guide.lateral is not None and guide.tilting is not None and not guide.is_rail:
+        from exu_press.model.moving_guides import add_springs_on_body
+
+        add_springs_on_body(system, guide, guide.lateral, guide.tilting)
+        return {}
     added = {}
     if guide.lateral is not None:
         added["force"] = _lateral_spring(system, guide, guide.lateral)

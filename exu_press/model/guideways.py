@@ -21,10 +21,10 @@ __all__ = ["add_guideways"]
 def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[ClearanceJoint, ...]:
     """Add the contacts of both ends of a body with its guideways, and the film if there is one."""
     scene = system.scene
-    assert scene.guide is not None
-    contact, oil = scene.guide.contact(scene.contact or {}), scene.guide.oil
+    table = scene.guides[guide.name]
+    contact, oil = table.contact(scene.contact or {}), table.oil
     assert contact is not None
-    friction = scene.guide.friction_table(scene.friction or {})
+    friction = table.friction_table(scene.friction or {})
     body = system.mechanism.body(guide.body)
     along = np.array(guide.direction)
     middle = np.array(guide.at or body.centre_of_mass)
@@ -33,35 +33,34 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
     ends = [_end(system, guided, body.local((float(x), float(y)))) for x, y in points]
     onset = 0.0 if oil is None else oil.contact_gap
     elastic = hertz(guideway.stiffness, 1.0)
-    if not guide.is_rail:
-        laws = {
-            "contact": contact.normal_contact(elastic, guideway.clearance, scene.angular_speed),
-            "friction": friction.friction(),
-        }
-        return tuple(
-            _add_moving(system, guide, guideway, end, **laws)
-            for end in (ends[:1] if guide.is_slot else ends)
-        )
-    contacts = [
-        add_guideway_contact(
-            system.mbs,
-            end,
-            middle=body.centre_of_mass,
-            direction=guide.direction,
-            clearance=guideway.clearance - onset,
-            contact=contact.normal_contact(elastic, guideway.clearance, scene.angular_speed),
-            friction=friction.friction(),
-            half_width=guideway.half_width,
-        )
-        for end in ends
-    ]
+    laws: dict[str, Any] = {
+        "contact": contact.normal_contact(elastic, guideway.clearance, scene.angular_speed),
+        "friction": friction.friction(),
+        "clearance": guideway.clearance - onset,
+        "half_width": guideway.half_width,
+    }
+    on, at, direction = None, body.centre_of_mass, guide.direction
+    if guide.is_rail:
+        contacts = [
+            add_guideway_contact(system.mbs, end, middle=at, direction=direction, **laws)
+            for end in ends
+        ]
+    else:
+        contacts = [
+            _add_moving(system, guide, end, **laws) for end in (ends[:1] if guide.is_slot else ends)
+        ]
     if oil is None:
         return tuple(contacts)
+    if not guide.is_rail:
+        base = system.mechanism.body(guide.on)
+        on, at = system.bodies[guide.on], base.local(at)
+        direction = Body("", 0.0, angle=base.angle).local(direction)
     film = add_guideway_film(
         system.mbs,
         *ends,
-        middle=body.centre_of_mass,
-        direction=guide.direction,
+        middle=at,
+        direction=direction,
+        on=on,
         clearance=guideway.clearance,
         length=guideway.length,
         face_width=oil.face_width,
@@ -72,9 +71,7 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
     return (*contacts, film)
 
 
-def _add_moving(
-    system: System, guide: Guide, guideway: Guideway, end: Any, **laws: Any
-) -> ClearanceJoint:
+def _add_moving(system: System, guide: Guide, end: Any, **laws: Any) -> ClearanceJoint:
     """Add the contact of a point with the walls of a moving guide, or of a slot."""
     mechanism = system.mechanism
     base = Body(GROUND, 0.0) if guide.on_frame else mechanism.body(guide.on)
@@ -87,8 +84,6 @@ def _add_moving(
         end,
         (system.ground, line) if guide.on_frame else _end(system, on, line),
         across=math.atan2(guide.normal[1], guide.normal[0]) - base.angle + frame_angle,
-        clearance=guideway.clearance,
-        half_width=guideway.half_width,
         radius=None if guide.centre is None else math.dist(at, guide.centre),
         **laws,
     )

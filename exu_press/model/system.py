@@ -64,10 +64,10 @@ class System:
         self.scene, self.parts = scene, parts
         solids = {name: (placed.reduced.mass, placed.inertia) for name, placed in parts.items()}
         self.mechanism = mechanism_of(scene)
-        if scene.guide is not None:
+        if scene.guides:
             from exu_press.scene.elastic import with_elastic_guides
 
-            self.mechanism = with_elastic_guides(self.mechanism, scene.guide, solids)
+            self.mechanism = with_elastic_guides(self.mechanism, scene.guides, solids)
         guided = _guided_bodies(scene, self.mechanism)
         self.constraints = with_all_coordinates(
             independent_constraints(self.mechanism, scene.joints.ideal),
@@ -157,12 +157,14 @@ def _guided_bodies(scene: Scene, mechanism: Mechanism) -> frozenset[str]:
 
     These are flexible ones, those that rub, and those of moving guides that give way.
     """
-    rubs = scene.guide is not None and scene.guide.rubs
+    rubbing = {name for name, guide in scene.guides.items() if guide.rubs}
     return frozenset(
         body
         for guide in mechanism.guides
         for body in guide.bodies - {GROUND}
-        if rubs or body in scene.bodies or not (guide.is_rail or guide.holds_across)
+        if guide.name in rubbing
+        or body in scene.bodies
+        or not (guide.is_rail or guide.holds_across)
     )
 
 

@@ -66,8 +66,9 @@ def press_figure(result: Result) -> Figure:
     guides are elastic the slider's tilt (urad) and sideways motion (um); the speed of a
     motor's crank (rpm) and the loads (kN).
     """
-    guide = result.scene.guide
-    elastic = guide is not None and guide.soft
+    mechanism = mechanism_of(result.scene)
+    guide = mechanism.frame_guide(mechanism.slider)
+    elastic = guide is not None and not guide.holds_across
     loads = list(applied_loads(result.scene))
     motor = result.scene.drive is not None
     rows = math.ceil((4 + bool(loads) + motor + 2 * elastic) / 2)

@@ -86,14 +86,25 @@ def _parts(scene: Scene, joints: Collection[str], *, grouped: bool) -> dict[str,
         motor = scene.drive
         torque = motor.torque.shown_torque
         parts["drive"] = f"motor of {torque:g} N m, flywheel {motor.inertia:g} kg m²"
-    if scene.guide is not None:
-        parts["guides"] = _of_guides(scene.guide)
+    if scene.guides:
+        parts["guides"] = _of_guides(scene)
     if scene.press is not None and isinstance(scene.press.counterweight, NoCounterweight):
         parts["counterweight"] = "no counterweight"
     return parts
 
 
-def _of_guides(guide: ElasticGuide) -> str:
+def _of_guides(scene: Scene) -> str:
+    """Return the guides of each kind in one phrase; without names where all are of one."""
+    alike: dict[str, list[str]] = {}
+    for name, guide in scene.guides.items():
+        alike.setdefault(_guide_in_words(guide), []).append(name.replace("_", " "))
+    if len(alike) == 1 and len(scene.guides) == len(mechanism_of(scene).guides):
+        return f"guides {next(iter(alike))}"
+    phrases = (f"{', '.join(names)} {words}" for words, names in alike.items())
+    return f"guides: {'; '.join(phrases)}"
+
+
+def _guide_in_words(guide: ElasticGuide) -> str:
     words = []
     if guide.clearance is not None:
         words.append(f"clearance {guide.clearance * 1e3:g} mm")
@@ -103,7 +114,7 @@ def _of_guides(guide: ElasticGuide) -> str:
         words.append(f"{guide.friction.kind} friction")
     kinds = ["elastic"] if guide.soft and guide.clearance is None else []
     kinds += [f"with {' and '.join(words)}"] if words else []
-    return f"guides {', '.join(kinds)}"
+    return ", ".join(kinds)
 
 
 def _of_bodies(scene: Scene) -> str:

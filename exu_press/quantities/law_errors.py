@@ -43,9 +43,9 @@ def dissipation_error(scene: Scene, _: str, value: float) -> float:
     return largest * abs(value)
 
 
-def guide_film_error(scene: Scene, _: str, value: float) -> float:
-    """Return the error of the thickness of the films between bodies and their guideways."""
-    oiled = scene.guide is not None and scene.guide.oil is not None
+def guide_film_error(scene: Scene, guide: str, value: float) -> float:
+    """Return the error of the thickness of the film between a body and its guideways."""
+    oiled = guide in scene.guides and scene.guides[guide].oil is not None
     return PAD_ERROR * abs(value) if oiled else 0.0
 
 

@@ -34,7 +34,7 @@ def _counterweight(scene: Scene, _: str) -> bool:
 
 def _frictionless(scene: Scene, _: str = "") -> bool:
     """Return whether there are guides, all of them without friction."""
-    rubbing = scene.guide is not None and scene.guide.rubs
+    rubbing = any(guide.rubs for guide in scene.guides.values())
     return bool(mechanism_of(scene).guides) and not rubbing
 
 
@@ -78,9 +78,9 @@ def _if_guides_rubbed(run: Reading, _: str) -> float | None:
     return None if None in powers else RUBBING * sum(p for p in powers if p is not None)
 
 
-def _can_dissipate(scene: Scene, _: str) -> bool:
-    """Return whether guides can dissipate: ideal ones without friction cannot."""
-    return scene.guide is not None
+def _can_dissipate(scene: Scene, guide: str) -> bool:
+    """Return whether a guide can dissipate: an ideal one without friction cannot."""
+    return guide in scene.guides
 
 
 def _guide_loss(run: Reading, body: str) -> Array:
@@ -88,8 +88,8 @@ def _guide_loss(run: Reading, body: str) -> Array:
     return np.zeros_like(run.time) if lost is None else lost
 
 
-def _has_oiled_guides(scene: Scene, _: str) -> bool:
-    return scene.guide is not None and scene.guide.oil is not None
+def _is_oiled(scene: Scene, guide: str) -> bool:
+    return guide in scene.guides and scene.guides[guide].oil is not None
 
 
 def _thinnest(run: Reading, body: str) -> float | None:
@@ -227,7 +227,7 @@ GUIDES = (
              extreme=Extreme.LARGEST, curve="friction"),
     Quantity("min_film", "m",
              "least film thickness of the guide, 0 where surfaces lie in each other",
-             MOTION, _thinnest, Owner.GUIDE, _has_oiled_guides,
+             MOTION, _thinnest, Owner.GUIDE, _is_oiled,
              title="film thickness, min", display_unit="um", extreme=Extreme.LEAST,
              law_error=guide_film_error, curve="gap"),
     Quantity("peak_moment", "N m", "largest moment of the guide on its body",

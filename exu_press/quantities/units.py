@@ -74,6 +74,7 @@ def _metadata(name: str) -> Mapping[str, Any] | None:
         return {"unit": unit_in_mechanism(path), "meaning": ""}
     table, _, inner = path.rpartition(".")
     law = table.rpartition(".")[2] if table.startswith("joints.") else table
+    law = "guide" if table.startswith("guide.") else law
     if table == "film.oil" or table.endswith(".film.oil"):
         fields = declared_keys(Oil)
     elif law in TABLES:  # also joints.NAME.law.key

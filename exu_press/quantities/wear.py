@@ -288,8 +288,7 @@ def _pressure_velocity(run: Reading, joint: str) -> Array:
 
 def _guide_pressure_velocity(run: Reading, body: str) -> Array:
     result = run.result
-    assert result.scene.guide is not None
-    guideways = result.scene.guide.guideways
+    guideways = result.scene.guides[body].guideways
     assert guideways is not None
     area = guideways.length * wear_of(result.scene, "guides", body).length
     return np.asarray(sum(end.power for end in _ends(result, body)) / area)

@@ -15,7 +15,7 @@ from exu_press.scene.changes import gives_key
 from exu_press.scene.joint import SIZES, Joint
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
 from exu_press.scene.usage import LAWS, TABLES
-from exu_press.schema.table import Table, key_values
+from exu_press.schema.table import Table, key_values, plain
 
 __all__ = [
     "ASSUMPTIONS",
@@ -130,6 +130,13 @@ def keys_of(scene: Scene) -> dict[str, Key]:
     own = mechanism_of(scene).defaults
     defaults = {f"{law}.{key}": value for law in LAWS for key, value in own.get(law, {}).items()}
     defaults["start"] = own.get("start", STARTS[0])
+    if scene.guide is not None:
+        shared = plain(scene.guide)
+        defaults |= {
+            f"guide.{name}.{key}": shared[key]
+            for name, keys in scene.guide.by_name.items()
+            for key in keys.keys() & shared.keys()
+        }
     scene_keys = {}
     for name, (value, field) in _flat(scene):
         default = defaults.get(name, field.default)
@@ -164,7 +171,8 @@ def used_assumptions(scene: Scene) -> dict[Assumption, tuple[Key, ...]]:
             for name, key in keys.items()
             if key.is_assumed and any(fnmatchcase(name, pattern) for pattern in assumption.keys)
         )
-        ideal = scene.guide is None or not scene.guide.soft
+        drawn = mechanism_of(scene).guides
+        ideal = not drawn or any(g.holds_across for g in drawn)
         by_absence = assumption.keys == ("guide",) and ideal
         by_kind = assumption.keys == ("press",) and scene.press is not None
         if unchanged or by_absence or by_kind:
@@ -185,8 +193,11 @@ def _slowest_impacts(scene: Scene) -> list[Key]:
         for joint in scene.joints.with_clearance.values()
         if joint.contact is not None
     ]
-    if scene.guide is not None and scene.guide.clearance is not None:
-        touching.append((scene.guide.contact(scene.contact or {}), scene.guide.clearance))
+    touching += [
+        (guide.contact(scene.contact or {}), guide.clearance)
+        for guide in scene.guides.values()
+        if guide.clearance is not None
+    ]
     usual = [(table.damping, scene.angular_speed * clearance) for table, clearance in touching]
     speeds = sorted(filter(None, (law.assumed_slowest_impact(speed) for law, speed in usual)))
     if not speeds:
@@ -207,7 +218,7 @@ def _is_used_by_some(scene: Scene, key: Key) -> bool:
     law, _, name = key.name.partition(".")
     if law not in LAWS:
         return True
-    if scene.guide is not None and name in scene.guide.law_keys(law, scene.laws[law] or {}):
+    if law != "film" and name in scene.law_keys_of_guides(law, scene.laws[law] or {}):
         return True
     asked = dict.fromkeys(scene.asked)
     for joint_name, joint in scene.joints.with_clearance.items():
@@ -305,6 +316,7 @@ def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]
             yield from _law_keys(scene, field.name)
         elif table is not None:
             yield from _inside(field.name, table)
+    yield from _guide_keys(scene)
 
 
 Declared = tuple[str, tuple[Any, dataclasses.Field[Any]]]
@@ -313,8 +325,7 @@ Declared = tuple[str, tuple[Any, dataclasses.Field[Any]]]
 def _law_keys(scene: Scene, law: str) -> Iterator[Declared]:
     """Yield the same of [contact], [friction] or [film]."""
     keys = scene.laws[law] or {}
-    of_guides = {} if scene.guide is None else scene.guide.law_keys(law, keys)
-    fields = {**scene.joints.law_keys(law), **of_guides}
+    fields = {**scene.joints.law_keys(law), **scene.law_keys_of_guides(law, keys)}
     for name, value in keys.items():
         if isinstance(value, Table):
             yield from _inside(f"{law}.{name}", value)
@@ -328,8 +339,18 @@ def _inside(table_name: str, table: Table) -> Iterator[Declared]:
         name = f"{table_name}.{key}"
         if isinstance(value, Table):
             yield from _inside(name, value)
-        elif value is not None:
+        elif value is not None and "by_name" not in field.metadata:
             yield name, (value, field)
+
+
+def _guide_keys(scene: Scene) -> Iterator[Declared]:
+    """Yield the same of the own tables of guides."""
+    for guide, keys in () if scene.guide is None else scene.guide.by_name.items():
+        from exu_press.scene.guides import fields_of  # loaded by these tables
+
+        fields = fields_of(scene.guides.get(guide))
+        for name, value in keys.items():
+            yield f"guide.{guide}.{name}", (value, fields[name])
 
 
 def _text(value: Any) -> str:

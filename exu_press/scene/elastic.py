@@ -5,36 +5,44 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from exu_press.mechanism import Guide, Guideway, Mechanism, Spring
-from exu_press.scene.guide import ElasticGuide, ElasticSupport, GuidewaySupport
+from exu_press.scene.guide import ElasticGuide, GuidewaySupport
 
 __all__ = ["with_elastic_guides"]
 
 
 def with_elastic_guides(
     drawn: Mechanism,
-    elastic: ElasticGuide | None,
+    guides: Mapping[str, ElasticGuide],
     solids: Mapping[str, tuple[float, float]] | None = None,
 ) -> Mechanism:
     """Return a mechanism with the guides that a scene asks for.
 
     Args:
         drawn: the mechanism.
-        elastic: [guide] of the scene; without it, or without stiffness, guides stay ideal.
+        guides: name -> guide; one that is not among them, or has no stiffness, stays ideal.
         solids: body -> mass, kg, and inertia, kg m^2, where these are not the drawn ones.
     """
-    if elastic is None or elastic.support is None:
+    if not any(guide.soft for guide in guides.values()):
         return drawn
     drawn_ones = {guide.body: drawn.body(guide.body) for guide in drawn.guides}
     inertias = {name: (body.mass, body.inertia) for name, body in drawn_ones.items()}
     inertias |= solids or {}
-    guides = (_elastic(guide, inertias[guide.body], elastic.support) for guide in drawn.guides)
-    return replace(drawn, guides=tuple(guides))
+    return replace(
+        drawn,
+        guides=tuple(
+            _elastic(guide, inertias[guide.body], guides[guide.name])
+            if guide.name in guides
+            else guide
+            for guide in drawn.guides
+        ),
+    )
 
 
-def _elastic(
-    guide: Guide, inertia: tuple[float, float], support: ElasticSupport | GuidewaySupport
-) -> Guide:
+def _elastic(guide: Guide, inertia: tuple[float, float], elastic: ElasticGuide) -> Guide:
     """Return a guide of springs, or of guideways with clearance, in place of an ideal one."""
+    support = elastic.support
+    if support is None:
+        return guide
     lateral = support.lateral_stiffness
     if isinstance(support, GuidewaySupport):
         half_width = 0.5 * support.width

@@ -19,7 +19,14 @@ from exu_press.scene.friction import (
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind, kind_name
 from exu_press.schema.registry import Registry, alternatives, choice
-from exu_press.schema.table import Table, demand_keys, key_values, plain, resolve
+from exu_press.schema.table import (
+    Table,
+    demand_keys,
+    key_values,
+    plain,
+    resolve,
+    tables_by_name,
+)
 
 __all__ = ["ElasticGuide", "ElasticSupport", "GuideOil", "GuidewaySupport"]
 
@@ -215,6 +222,9 @@ class ElasticGuide(Table):
 
     With a lateral stiffness springs hold a body, with a clearance its two ends touch guideways.
     With neither the guide is ideal, and rubs with its side force times the coefficient.
+
+    Attributes:
+        by_name: guide -> the keys of its own table, [guide.NAME], see `scene.guides`.
     """
 
     table: ClassVar[str] = "guide"
@@ -227,15 +237,14 @@ class ElasticGuide(Table):
     friction: GuideFriction = choice(
         "none", "law of friction, whose further keys are those of [friction]", GuideFrictionKinds()
     )
+    by_name: Mapping[str, Mapping[str, Any]] = tables_by_name()
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not (self.soft or self.rubs):
-            raise InputError(
-                "[guide] has neither lateral_stiffness nor clearance nor friction: allowed is at "
-                "least one of them, as in guide.friction = 'coulomb'; without [guide] the guides "
-                "are ideal"
-            )
+    @property
+    def kind(self) -> str:
+        """Its name: ideal, elastic, dry or lubricated."""
+        if self.guideways is not None:
+            return "dry" if self.oil is None else "lubricated"
+        return "elastic" if self.soft else "ideal"
 
     @property
     def soft(self) -> bool:

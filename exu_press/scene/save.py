@@ -87,9 +87,14 @@ def section_lines(name: str, table: Table, comments: bool, *, absent: bool = Fal
         absent: name the keys that are not used or given, too, as comments.
     """
     lines = ["", f"[{name}]", *table_lines(table, comments, absent=absent)]
-    for key, inside, _ in key_values(table):
+    for key, inside, field in key_values(table):
         if isinstance(inside, Table):
             lines += section_lines(f"{name}.{key}", inside, comments, absent=absent)
+        elif "by_name" in field.metadata:
+            from exu_press.scene.guides import fields_of  # loaded by these tables
+
+            meanings = {name: _meaning(declared) for name, declared in fields_of().items()}
+            lines += ["", f"[{name}.{key}]", *_given_lines(inside, meanings, comments, False)]
     return lines
 
 

@@ -81,6 +81,7 @@ class Scene(Table):
     Attributes:
         asked: dotted names of the keys that the user gave, be it with their defaults.
         files: sha256 of the files that were read for it, by name.
+        guides: name -> guide, of those that are not ideal; [guide.NAME] has its keys over [guide].
 
     Raises:
         InputError: a key is unknown, has a wrong type or a value outside its range, a table or a
@@ -90,6 +91,7 @@ class Scene(Table):
     table: ClassVar[str] = ""
     asked: ClassVar[frozenset[str]]
     files: ClassVar[Mapping[str, str]]
+    guides: ClassVar[Mapping[str, "ElasticGuide"]]
     mechanism: str | Mechanism = key(
         "press",
         "the path of a mechanism file, .toml",
@@ -174,6 +176,7 @@ class Scene(Table):
                 "output.readings.average, in s"
             )
         self._check_start_stop()
+        self._settle_guides()
         self._settle_joints()
         self._settle_wear()
         self._settle_bodies()
@@ -198,6 +201,18 @@ class Scene(Table):
                 f"{self.start_angle_deg:g}, as it goes on over revolutions"
             )
 
+    def _settle_guides(self) -> None:
+        """Complete the guides that are not ideal."""
+        object.__setattr__(self, "guides", {})
+        if self.guide is None:
+            return
+        from exu_press.scene.guides import guides_of
+
+        drawn = mechanism_of(self)
+        table, guides = guides_of(self.guide, [guide.name for guide in drawn.guides], drawn.name)
+        object.__setattr__(self, "guide", table)
+        object.__setattr__(self, "guides", guides)
+
     def _settle_joints(self) -> None:
         """Complete every joint of the mechanism; a law that no joint has is refused."""
         mechanism = mechanism_of(self)
@@ -216,26 +231,30 @@ class Scene(Table):
             object.__setattr__(self, "start", usual.get("start", STARTS[0]))
         for law in LAWS:
             self._settle_law(law, laws, unused.get(law, ""))
-        for guide in mechanism_of(self).guides if self.guide is not None else ():
-            self._check_guide(guide)
-        if self.guide is not None and self.guide.guideways is not None:
-            contact = self.guide.contact(laws.keys_of("contact"))
-            assert contact is not None
-            demand_keys("guide.clearance", contact, (), "contact", "[contact]")
+        for name, guide in self.guides.items():
+            self._check_guide(mechanism.guide(name), guide)
+            if (contact := guide.contact(laws.keys_of("contact"))) is not None:
+                path = self.guide_key(name, "clearance")
+                demand_keys(path, contact, (), "contact", "[contact]")
 
-    def _check_guide(self, guide: Guide) -> None:
-        """Raise InputError unless a guide can be as [guide] says: of the frame all can."""
-        assert self.guide is not None
-        if guide.is_rail or (self.guide.clearance is not None and self.guide.oil is None):
+    def guide_key(self, guide: str, key: str) -> str:
+        """Return the dotted name of a key of a guide, which is [guide]'s or its own."""
+        own = self.guide is not None and key in self.guide.by_name.get(guide, ())
+        return f"guide.{guide}.{key}" if own else f"guide.{key}"
+
+    def _check_guide(self, drawn: Guide, guide: "ElasticGuide") -> None:
+        """Raise InputError unless a guide can be as it is to be: a slot can have clearance."""
+        if not drawn.is_slot or guide.kind == "dry":
             return
-        if guide.is_slot and self.guide.oil is not None:
+        ideal = f"or an ideal one, by guide.{drawn.name} = {{kind = 'ideal', friction = 'none'}}"
+        if guide.oil is not None:
             raise InputError(
-                f"guide.viscosity: {guide.key} holds a pin, which has no face for a film; allowed "
-                "is a block there: a pin joint with a film, and a guide"
+                f"{self.guide_key(drawn.name, 'viscosity')}: {drawn.key} holds a pin, which has no "
+                "face for a film; allowed is a block there: a pin joint with a film, and a guide; "
+                f"{ideal}"
             )
         raise InputError(
-            f"[guide]: {guide.key} is no guide of the frame; allowed there is clearance without "
-            "oil, or an ideal one, in a scene without [guide]"
+            f"[guide]: {drawn.key} holds a pin; allowed there is clearance without oil, {ideal}"
         )
 
     def _law_tables(self, joints: Any) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -245,8 +264,8 @@ class Scene(Table):
                 keys = table.get(law) if isinstance(table, Mapping) else None
                 if isinstance(keys, Mapping):
                     yield law, keys
-        if self.guide is not None:
-            yield "friction", {"law": self.guide.friction.kind}
+        for guide in self.guides.values():
+            yield "friction", {"law": guide.friction.kind}
 
     def _settle_law(self, law: str, laws: LawKeys, unused: str) -> None:
         """Complete the keys of a law; those that no joint and no guide uses are refused.
@@ -256,9 +275,7 @@ class Scene(Table):
             laws: the keys that are given.
             unused: why no joint has this law, or nothing.
         """
-        of_guides: Mapping[str, Any] = {}
-        if self.guide is not None and law != "film":
-            of_guides = self.guide.law_keys(law, laws.keys_of(law))
+        of_guides = {} if law == "film" else self.law_keys_of_guides(law, laws.keys_of(law))
         used = {**self.joints.law_keys(law), **of_guides}
         if not of_guides:
             self._refuse({law: unused} if unused else {}, law, laws.scene_keys[law])
@@ -273,6 +290,13 @@ class Scene(Table):
         keys = {name: laws.keys_of(law).get(name, field.default) for name, field in used.items()}
         keys = {name: value for name, value in keys.items() if value is not None}
         object.__setattr__(self, law, keys if used else None)
+
+    def law_keys_of_guides(self, law: str, keys: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the keys of [contact] or [friction] that guides use, with declarations."""
+        used: dict[str, Any] = {}
+        for guide in self.guides.values():
+            used |= guide.law_keys(law, keys)
+        return used
 
     def _settle_wear(self) -> None:
         """Complete the wear of each place; a scene in which nothing wears has no such table."""
@@ -456,7 +480,11 @@ class Scene(Table):
                 if name in data:
                     data[name] = _differing_keys(data[name], own.get(name, {}))
             groups, asked = scene.joints.groups, frozenset(given_names(changes))
-            there = {body.name for body in mechanism_of(scene).bodies}
+            drawn = mechanism_of(scene)
+            if self.guide is not None:
+                gone = self.guide.by_name.keys() - {guide.name for guide in drawn.guides}
+                data["guide"] = {n: k for n, k in data["guide"].items() if n not in gone}
+            there = {body.name for body in drawn.bodies}
             data["bodies"] = {n: k for n, k in data.get("bodies", {}).items() if n in there}
         data = changed_keys(data, groups, changes)
         while True:
@@ -502,8 +530,9 @@ class Scene(Table):
         for name, load in self.load.items():
             if not load.resolved:
                 yield f"load.{name}.kind", load.kind
-        if self.guide is not None and not self.guide.friction.resolved:
-            yield "guide.friction", self.guide.friction.kind
+        for name, guide in self.guides.items():
+            if not guide.friction.resolved:
+                yield self.guide_key(name, "friction"), guide.friction.kind
 
     @property
     def shipped_name(self) -> str:
@@ -639,11 +668,11 @@ def mechanism_of(scene: Scene) -> Mechanism:
         drawn = shipped_mechanism(scene.mechanism)
     if scene.drive is not None:
         drawn = _with_flywheel(drawn, scene.drive.on_crank)
-    if scene.guide is None:
+    if not scene.guides:
         return drawn
     from exu_press.scene.elastic import with_elastic_guides
 
-    return with_elastic_guides(drawn, scene.guide)
+    return with_elastic_guides(drawn, scene.guides)
 
 
 def _differing_keys(keys: Mapping[str, Any], usual: Mapping[str, Any]) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,6 +11,9 @@ from exu_press.scene.applied import applied_loads
 from exu_press.scene.joint import LubricatedJoint, TouchingJoint
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.schema.table import key_values
+
+if TYPE_CHECKING:
+    from exu_press.scene.guide import GuidewaySupport
 
 __all__ = ["doubtful_sizes", "scene_warnings"]
 
@@ -78,10 +82,14 @@ def _drawing(scene: Scene) -> Iterator[str]:
 
 def _guides(scene: Scene) -> Iterator[str]:
     """Yield a clearance of guides that lets their bodies tilt by degrees."""
-    guide = None if scene.guide is None else scene.guide.guideways
-    if guide is not None and guide.clearance > WIDEST * guide.length:
+    wide: dict[str, GuidewaySupport] = {}
+    for name, elastic in scene.guides.items():
+        ways = elastic.guideways
+        if ways is not None and ways.clearance > WIDEST * ways.length:
+            wide[scene.guide_key(name, "clearance")] = ways
+    for key, guide in wide.items():
         yield (
-            f"guide.clearance = {guide.clearance:g} m lets a body in a guide of {guide.length:g} m "
+            f"{key} = {guide.clearance:g} m lets a body in a guide of {guide.length:g} m "
             f"tilt by {math.degrees(2.0 * guide.clearance / guide.length):.2g} deg. Presses have "
             f"some 1e-5 m.{_slip(guide.clearance, 1e-6, 1e-3, 'm')}"
         )
@@ -119,8 +127,9 @@ def _viscosity(scene: Scene) -> Iterator[str]:
         )
         for table, joint in _films(scene)
     }
-    if scene.guide is not None and scene.guide.oil is not None:
-        films["guide.viscosity"] = scene.guide.oil.viscosity
+    for name, guide in scene.guides.items():
+        if guide.oil is not None:
+            films[scene.guide_key(name, "viscosity")] = guide.oil.viscosity
     for key, viscosity in films.items():
         if THINNEST <= viscosity <= THICKEST:
             continue

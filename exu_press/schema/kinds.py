@@ -39,7 +39,8 @@ LAWS = {
 """Keys that name a law -> where the package's own laws are."""
 
 PLACES = re.compile(
-    rf"(?:.*\.)?(?:(?:joints|load)\.[^.]+(?:\.kind)?|{'|'.join(map(re.escape, LAWS))})"
+    r"(?:.*\.)?(?:(?:joints|load)\.[^.]+(?:\.kind)?|guide\.[^.]+\.friction|"
+    rf"{'|'.join(map(re.escape, LAWS))})"
 )
 """Dotted names of keys whose values are kinds, also where a study varies them."""
 
@@ -173,7 +174,9 @@ def _with_unresolved_laws(data: Any, scene: Mapping[str, Any], path: str = "") -
             name: _with_unresolved_laws(value, scene, f"{path}.{name}" if path else str(name))
             for name, value in data.items()
         }
-    law = LAWS.get(".".join(path.split(".")[-2:])) if isinstance(data, str) else None
+    parts = path.split(".")
+    key = [parts[0], *parts[2:]] if parts[0] == "guide" and len(parts) > 2 else parts[-2:]
+    law = LAWS.get(".".join(key)) if isinstance(data, str) else None
     if law is None:
         return data
     if data in load_object(law) or _loaded_kind(data, CustomKind):

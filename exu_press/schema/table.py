@@ -28,6 +28,7 @@ __all__ = [
     "refuse_unknown_keys",
     "resolve",
     "table_from",
+    "tables_by_name",
     "unused_reason",
     "used_names",
 ]
@@ -92,6 +93,8 @@ class Table:
                 if value is not None:
                     keys |= {field.name: value.kind} if field.name in names else {}
                     keys |= value.given_values
+            elif "by_name" in field.metadata:
+                keys |= value
             elif field.name in names and value is not None:
                 keys[field.name] = value
         return keys
@@ -123,6 +126,11 @@ class Table:
             if (value := getattr(self, key)) is not None:
                 name = dotted_name(self.table, key)
                 raise UnusedKeyError(name, f"{name} = {value!r}", reason)
+
+
+def tables_by_name() -> Any:
+    """Declare further tables within a table, which stand beside its keys: name -> their keys."""
+    return dataclasses.field(default_factory=dict, hash=False, metadata={"by_name": True})
 
 
 def nested_table(home: str) -> Any:
@@ -162,10 +170,10 @@ def table_from(kind: type[T], name: str, data: Any) -> T:
     """
     if isinstance(data, kind):
         return data
-    keys = _as_keys(name, data)
+    keys, tables = _split_tables_by_name(kind, name, _as_keys(name, data))
     used = used_names(kind, name, keys)
     refuse_unknown_keys([kind], name, keys, used)
-    table = resolve(kind, name, keys)
+    table = resolve(kind, name, {**keys, **tables})
     for key, value in keys.items():
         if key not in used and value is not None:
             path = dotted_name(name, key)
@@ -174,11 +182,30 @@ def table_from(kind: type[T], name: str, data: Any) -> T:
     return table
 
 
+def _split_tables_by_name(
+    kind: type[Table], name: str, keys: Mapping[str, Any]
+) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    """Return the keys of a table, and by their field the tables by name that stand beside them."""
+    field = next((f for f in _fields(kind) if "by_name" in f.metadata), None)
+    if field is None:
+        return keys, {}
+    tables = {key: value for key, value in keys.items() if isinstance(value, Mapping | Table)}
+    for key in tables.keys() & declared_keys(kind).keys():
+        raise InputError(
+            f"{name}.{key}: is a key of [{name}], so that a {name} of this name has no table; "
+            "allowed is another name in the drawing"
+        )
+    rest = {key: value for key, value in keys.items() if key not in tables}
+    return rest, {field.name: {key: given_keys(value) for key, value in tables.items()}}
+
+
 def used_names(kind: type[Table], name: str, keys: Mapping[str, Any]) -> set[str]:
     """Return the names of the keys that the table of some keys may have."""
     names: set[str] = set()
     for field in _fields(kind):
         selector = field.metadata.get("part")
+        if "by_name" in field.metadata:
+            continue
         if selector is None or "meaning" in field.metadata:
             names.add(field.name)
         if selector is not None:
@@ -313,7 +340,9 @@ def key_values(table: Table) -> Iterator[tuple[str, Any, Field]]:
     """Yield every key that a table uses with its value and declaration; of a part its own, too."""
     for field in _fields(type(table)):
         value, selector = getattr(table, field.name), field.metadata.get("part")
-        if selector is None or "meaning" in field.metadata:
+        if "by_name" in field.metadata:
+            yield from ((name, keys, field) for name, keys in value.items())
+        elif selector is None or "meaning" in field.metadata:
             yield field.name, value if selector is None else value.kind, field
         if selector is not None and value is not None:
             yield from key_values(value)
@@ -323,6 +352,8 @@ def declared_keys(kind: type[Table]) -> Mapping[str, Field]:
     """Return every key that a table may have, of all kinds of its parts, with its declaration."""
     keys: dict[str, Field] = {}
     for field in _fields(kind):
+        if "by_name" in field.metadata:
+            continue
         selector = field.metadata.get("part")
         if selector is None or "meaning" in field.metadata:
             keys.setdefault(field.name, field)
@@ -373,6 +404,7 @@ def changed_table(
     changed = dict(keys)
     inner_tables = {f.name: f for f in _fields(kind) if "nested" in f.metadata}
     by_place = {f.name for f in _fields(kind) if f.metadata.get("by_place")}
+    has_names = any("by_name" in f.metadata for f in _fields(kind))
     for path, value in changes.items():
         name, dot, rest = path.partition(".")
         change: Any = {rest: value} if dot else value
@@ -384,6 +416,8 @@ def changed_table(
             there = given_keys(changed.get(name))
             change = {**given_keys(there.get(at)), key_there: value} if key_there else value
             changed[name] = {**there, at: change}
+        elif dot and has_names:
+            changed[name] = changed_table(kind, given_keys(changed.get(name)), change)
         else:
             changed[path] = value
     names = {path.partition(".")[0] for path, value in changes.items() if value is not None}

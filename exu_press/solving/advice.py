@@ -95,11 +95,13 @@ class SceneAdvice(Advice):
     def stiff(self, joint: ClearanceJoint) -> str:
         """Return the keys of a guide or of a joint that make it need small steps."""
         scene = self._scene
-        if any(joint in ends for ends in self._model.guideways.values()):
-            assert scene.guide is not None
-            if joint.lubricated:
-                return " (guide.viscosity, guide.clearance)"
-            return f" (guide.friction = {scene.guide.friction.kind!r}, guide.clearance)"
+        for name, ends in self._model.guideways.items():
+            if joint in ends:
+                clearance = scene.guide_key(name, "clearance")
+                if joint.lubricated:
+                    return f" ({scene.guide_key(name, 'viscosity')}, {clearance})"
+                law = scene.guides[name].friction.kind
+                return f" ({scene.guide_key(name, 'friction')} = {law!r}, {clearance})"
         if scene.friction and "law" in scene.friction and not joint.lubricated:
             return f" (friction.law = {scene.friction['law']!r}, contact)"
         return " (viscosity of the film, clearance)" if joint.lubricated else " (contact)"

@@ -114,8 +114,8 @@ def scales(scene: Scene) -> ErrorScales:
     not depend on the scene's largest one.
     """
     mechanism = mechanism_of(scene)
-    in_guides = 0.0 if scene.guide is None else scene.guide.clearance or 0.0
-    widest = max([in_guides, *(joint.clearance for joint in scene.joints.values())])
+    in_guides = (guide.clearance or 0.0 for guide in scene.guides.values())
+    widest = max([0.0, *in_guides, *(joint.clearance for joint in scene.joints.values())])
     usual = scene.angular_speed * scene.pin_speed
     return ErrorScales(
         speed=max(scene.pin_speed, math.sqrt(4.0 * scene.gravity * widest)),

@@ -20,6 +20,7 @@ from exu_press.joints.guide_friction import (
     HeldSide,
     SpringSide,
 )
+from exu_press.joints.guide_line import FixedLine
 from exu_press.laws.friction import LuGre, coulomb, no_friction, stribeck
 
 MASS, GRAVITY = 20.0, 9.81
@@ -50,7 +51,7 @@ def block(slope, law, speed=0.0):
     ]
     marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=body))
     mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVector=[0.0, -MASS * GRAVITY, 0.0]))
-    GuideFriction(mbs, [node], np.append(along, 0.0), HeldSide(mbs, held[0]), law)
+    GuideFriction(mbs, [node], FixedLine(np.append(along, 0.0)), HeldSide(mbs, held[0]), law)
     motion = recorded(mbs, node, "Coordinates_t")
     mbs.Assemble()
     return container, mbs, motion, along
@@ -110,8 +111,8 @@ def test_the_jacobian_is_the_derivative_of_the_force(law):
     rng = np.random.default_rng(3)
     mbs = exu.SystemContainer().AddSystem()
     _, node = planar_body(mbs, MASS, 1.0)
-    side = SpringSide(1e5, 30.0, np.array([0.6, 0.8, 0.0]), 1e-3)
-    friction = GuideFriction(mbs, [node], np.array([-0.8, 0.6, 0.0]), side, LAWS[law])
+    line = FixedLine(np.array([-0.8, 0.6, 0.0]), np.array([0.6, 0.8, 0.0]), 1e-3)
+    friction = GuideFriction(mbs, [node], line, SpringSide(1e5, 30.0, line), LAWS[law])
     mbs.Assemble()
     q, q_t = 1e-2 * rng.normal(size=3), 5e-3 * rng.normal(size=3)
     factors = 0.7, 0.3

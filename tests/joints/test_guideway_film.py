@@ -35,7 +35,7 @@ def film_between(angle=0.0):
     film = GuidewayFilm(
         rear,
         front,
-        (0.1, -0.2),
+        BodyEnd("Ground", 0, np.zeros(0), np.array([0.1, -0.2, 0.0])),
         (float(along[0]), float(along[1])),
         law=pad_with_asperities(plane_pad(LENGTH, WIDTH), ONSET),
         viscosity=VISCOSITY,

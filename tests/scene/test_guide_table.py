@@ -6,8 +6,10 @@ import pytest
 
 from exu_press import InputError, Scene
 from exu_press.laws.contact import delivered_restitution, hertz
+from exu_press.quantities.units import unit_of
 from exu_press.scene import mechanism_of
 from exu_press.scene.assumptions import assumed_values
+from exu_press.schema.kinds import kind_modules
 
 IDEAL = {"mechanism": "slider_crank", "joints": {}}
 LOOSE = {"clearance": 2e-5, "length": 0.3}
@@ -64,3 +66,87 @@ def test_a_scene_with_rubbing_guides_gets_to_another_process():
     """The keys of its law are of a class that is made when the law is."""
     scene = Scene(joints={}, guide={"friction": "stribeck", "mu_kinetic": 0.08, "mu_static": 0.1})
     assert pickle.loads(pickle.dumps(scene)) == scene
+
+
+MIXED = {
+    "lateral_stiffness": 5e8,
+    "slide": {"kind": "ideal"},
+    "plunger_left": {"clearance": 3e-5, "friction": "coulomb"},
+    "counterweight": {"length": 0.8},
+}
+"""[guide], and tables of three of the press' guides."""
+
+
+def test_a_guides_own_table_has_its_keys_over_those_of_all(tmp_path):
+    scene = Scene(guide=MIXED, contact={"damping": "hu_guo", "restitution": 0.5})
+    assert {name: guide.kind for name, guide in scene.guides.items()} == {
+        "plunger_left": "dry",
+        "plunger_right": "elastic",
+        "slider": "elastic",
+        "counterweight": "elastic",
+    }
+    assert scene.guides["counterweight"].support.lateral_stiffness == 5e8
+    assert scene.guides["counterweight"].support.length == 0.8
+    assert scene.guides["plunger_left"].rubs
+    assert not scene.guides["plunger_right"].rubs
+    said = assumed_values(scene)
+    assert any(line.startswith("guide.plunger_left.mu_kinetic = 0.1 (hard steel") for line in said)
+    assert Scene.from_dict(scene.to_dict()) == scene
+    scene.save(tmp_path / "scene.toml", comments=True)
+    assert Scene.load(tmp_path / "scene.toml") == scene
+    assert pickle.loads(pickle.dumps(scene)).guides == scene.guides
+    assert unit_of("guide.plunger_left.clearance") == "m"
+    assert kind_modules({"guide": {"slide": {"friction": "laws:Own"}}}) == {"laws"}
+
+
+def test_own_tables_are_changed_as_other_keys(tmp_path):
+    scene = Scene(guide=MIXED)
+    changed = scene.replace({"guide.lateral_stiffness": 7e8, "guide.plunger_left.clearance": 5e-5})
+    assert changed.guides["counterweight"].support.lateral_stiffness == 7e8
+    assert changed.guides["plunger_left"].clearance == 5e-5
+    elastic = scene.replace({"guide.plunger_left.lateral_stiffness": 1e8})
+    assert elastic.guides["plunger_left"].kind == "elastic"
+    assert elastic.guides["plunger_left"].rubs
+    without = scene.replace({"guide.plunger_left": None})
+    assert without == Scene(guide={k: v for k, v in MIXED.items() if k != "plunger_left"})
+    frictionless = scene.replace({"guide.plunger_left.friction": None})
+    assert not frictionless.guides["plunger_left"].rubs
+    alone = Scene(guide={"plunger_left": {"clearance": 3e-5}})
+    assert alone.guides.keys() == {"plunger_left"}
+    assert alone.replace({"mechanism": "slider_crank"}).guide is None
+    scene.save(tmp_path / "scene.toml")
+    loaded = Scene.load(tmp_path / "scene.toml", ["guide.counterweight.length=0.9"])
+    assert loaded.guides["counterweight"].support.length == 0.9
+
+
+@pytest.mark.parametrize(
+    ("guide", "message"),
+    [
+        ({"ram": {"clearance": 1e-5}}, "guide.ram: press has no such guide; allowed are slide,"),
+        ({"length": {"clearance": 1e-5}}, "guide.length: is a key of [guide], so that"),
+        ({"slide": {"clearance": -1.0}}, "guide.slide.clearance = -1.0: allowed is a number > 0"),
+        ({"slide": {"clearence": 1.0}}, "guide.slide.clearence = 1.0: unknown key (did you mean"),
+        ({"slide": {"kind": "soft"}}, "guide.slide.kind = 'soft': unknown; allowed are ideal,"),
+        ({"slide": {"kind": "dry"}}, "guide.slide.kind = 'dry': allowed is a guide with clearance"),
+        (
+            {"slide": {"width": 0.1}},
+            "guide.slide.width = 0.1: not used by this scene (guide.slide.",
+        ),
+        (
+            {"slide": {"clearance": 1e-5, "viscosity": 0.1}},
+            "guide.slide.viscosity needs guide.slide.face_width",
+        ),
+        ({}, "[guide]: not used by this scene (it has neither lateral_stiffness nor clearance"),
+    ],
+)
+def test_what_is_wrong_with_a_guides_own_table_is_named(guide, message):
+    with pytest.raises(InputError) as refusal:
+        Scene(guide=guide)
+    assert str(refusal.value).startswith(message)
+
+
+def test_a_slot_has_clearance_or_is_ideal():
+    with pytest.raises(InputError, match=r"slots.yoke_slot holds a pin; .* guide.yoke_slot = "):
+        Scene(mechanism="scotch_yoke", guide={"lateral_stiffness": 1e9})
+    own = {"lateral_stiffness": 1e9, "yoke_slot": {"kind": "ideal"}}
+    assert Scene(mechanism="scotch_yoke", guide=own).guides.keys() == {"yoke"}

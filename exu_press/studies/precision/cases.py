@@ -153,5 +153,6 @@ def case_of(name: str, scene: Scene) -> Case:
 
 
 def _has_closed_form(scene: Scene) -> bool:
-    gives = scene.joints.with_clearance or (scene.guide and scene.guide.soft) or scene.bodies
+    soft = any(guide.soft for guide in scene.guides.values())
+    gives = scene.joints.with_clearance or soft or scene.bodies
     return not gives and scene.drive is None

@@ -1,0 +1,114 @@
+"""The guides of a scene by their names: [guide], over which [guide.NAME] has the keys of one."""
+
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import Field, replace
+from typing import Any
+
+from exu_press.errors import InputError, UnusedKeyError
+from exu_press.scene.guide import ElasticGuide, ElasticSupport, GuideOil, GuidewaySupport
+from exu_press.schema.checks import demand_known, key
+from exu_press.schema.table import (
+    changed_table,
+    declared_keys,
+    key_values,
+    plain,
+    table_from,
+    used_names,
+)
+
+__all__ = ["fields_of", "guides_of"]
+
+ELASTIC, WITH_CLEARANCE = ({*declared_keys(kind)} for kind in (ElasticSupport, GuidewaySupport))
+
+KINDS: Mapping[str, Collection[str]] = {
+    "ideal": ELASTIC | WITH_CLEARANCE,
+    "elastic": WITH_CLEARANCE - ELASTIC,
+    "dry": {*declared_keys(GuideOil)},
+    "lubricated": (),
+}
+"""Kind of a guide -> keys of [guide] that do not hold for one that asks for this kind."""
+
+KIND = key("", "of this guide, over what [guide] says", choices=tuple(KINDS))
+
+NEEDED = {
+    "ideal": "neither lateral_stiffness nor clearance",
+    "elastic": "lateral_stiffness and no clearance",
+    "dry": "clearance and no viscosity",
+    "lubricated": "clearance and viscosity",
+}
+
+
+def guides_of(
+    table: ElasticGuide, names: Iterable[str], mechanism: str
+) -> tuple[ElasticGuide, dict[str, ElasticGuide]]:
+    """Return [guide] with complete tables by name, and the guides that are not ideal.
+
+    Args:
+        table: [guide] of a scene.
+        names: of all guides and slots.
+        mechanism: its name.
+
+    Raises:
+        InputError: there is no guide of a name, or a key of its table is not allowed.
+    """
+    names = list(names)
+    if not names:
+        raise UnusedKeyError("guide", "[guide]", f"{mechanism} has no guide")
+    if not (table.soft or table.rubs or table.by_name):
+        raise UnusedKeyError(
+            "guide",
+            "[guide]",
+            "it has neither lateral_stiffness nor clearance nor friction, of which it needs at "
+            "least one, as in guide.friction = 'coulomb'; without [guide] the guides are ideal",
+        )
+    shared = {key: value for key, value in plain(table).items() if key not in table.by_name}
+    usual = replace(table, by_name={}) if table.soft or table.rubs else None
+    guides: dict[str, ElasticGuide | None] = dict.fromkeys(names, usual)
+    by_name = {}
+    for name, own in table.by_name.items():
+        demand_known(f"guide.{name}: {mechanism} has no such guide", name, names)
+        with _with_guide_named(name):
+            by_name[name], guides[name] = _own_guide(shared, own)
+    return replace(table, by_name=by_name), {n: guide for n, guide in guides.items() if guide}
+
+
+def _own_guide(
+    shared: Mapping[str, Any], own: Mapping[str, Any]
+) -> tuple[dict[str, Any], ElasticGuide | None]:
+    """Return the complete keys of one guide's own table, and the guide; None where it is ideal."""
+    kind, own = own.get("kind"), {key: value for key, value in own.items() if key != "kind"}
+    if kind is not None:
+        demand_known(f"guide.kind = {kind!r}: unknown", kind, KINDS)
+    inherited = {
+        key: value for key, value in shared.items() if key not in KINDS.get(kind or "", ())
+    }
+    keys = changed_table(ElasticGuide, inherited, own)
+    used = used_names(ElasticGuide, "guide", keys)
+    keys = {key: value for key, value in keys.items() if key in used or key in own}
+    guide = table_from(ElasticGuide, "guide", keys)
+    if kind is not None and guide.kind != kind:
+        raise InputError(f"guide.kind = {kind!r}: allowed is a guide with {NEEDED[kind]}")
+    complete = {} if kind is None else {"kind": kind}
+    complete |= {k: v for k, v in plain(guide).items() if k in own or k not in inherited}
+    return complete, guide if guide.soft or guide.rubs else None
+
+
+def fields_of(guide: ElasticGuide | None = None) -> dict[str, Field[Any]]:
+    """Return the declarations of the keys of one guide's own table, first those of the guide."""
+    used = {} if guide is None else {name: field for name, _, field in key_values(guide)}
+    return {"kind": KIND, **declared_keys(ElasticGuide), **used}
+
+
+@contextmanager
+def _with_guide_named(name: str) -> Iterator[None]:
+    """Name the table of one guide in the messages of errors."""
+    try:
+        yield
+    except InputError as error:
+        text = re.sub(r"\bguide\.", f"guide.{name}.", str(error))
+        error.args = (text.replace("[guide]", f"[guide.{name}]"),)
+        if isinstance(error, UnusedKeyError):
+            error.name = error.name.replace("guide.", f"guide.{name}.", 1)
+        raise

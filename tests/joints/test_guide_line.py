@@ -1,0 +1,91 @@
+"""Guides on moving bodies: rows and Jacobians against differences, and momentum."""
+
+import exudyn as exu
+import numpy as np
+import pytest
+from differences import assert_jacobian, assert_partials, forces
+from solving import planar_body
+from state_in import state_in
+
+from exu_press.joints.ends import BodyEnd
+from exu_press.joints.guide_friction import GuideFriction, SpringSide
+from exu_press.joints.guide_line import TurningLine
+from exu_press.joints.guide_springs import GuideSprings
+from exu_press.joints.guideway_film import GuidewayFilm
+from exu_press.laws.film.asperities import pad_with_asperities
+from exu_press.laws.film.plane_pad import plane_pad
+from exu_press.laws.friction import coulomb
+
+BODY, BASE = np.array([0.5, 0.2, 0.3]), np.array([0.2, -0.1, -0.4])
+LINE = TurningLine(BODY, BASE, (0.31, 0.14), 0.7)
+Q = np.array([1e-3, -2e-3, 0.02, 3e-3, 1e-3, -0.01])
+RATES = np.array([0.3, -0.2, 0.5, 0.1, 0.4, -0.3])
+FACTORS = 0.7, 0.3
+
+
+def assert_balanced(force, q):
+    """Check that the forces on both bodies cancel, with their moments about the origin."""
+    x, y = BODY[:2] + q[:2], BASE[:2] + q[3:5]
+    assert force[:2] == pytest.approx(-force[3:5])
+    moments = force[2] + force[5] + x[0] * force[1] - x[1] * force[0]
+    moments += y[0] * force[4] - y[1] * force[3]
+    assert moments == pytest.approx(0.0, abs=1e-9 * np.abs(force).max())
+
+
+def test_the_rows_are_derivatives():
+    for i, h in enumerate(1e-6 * np.eye(6)):
+        ahead, behind = LINE.lateral_displacement(Q + h), LINE.lateral_displacement(Q - h)
+        assert LINE.normal_row(Q)[i] == pytest.approx((ahead - behind) / 2e-6, abs=1e-8)
+        for row, turning in (
+            (LINE.normal_row, LINE.turning(LINE.direction_row(Q))),
+            (LINE.direction_row, LINE.turning(-LINE.normal_row(Q))),
+        ):
+            assert turning[:, i] == pytest.approx((row(Q + h) - row(Q - h)) / 2e-6, abs=1e-8)
+
+
+@pytest.mark.parametrize("item", ["friction", "springs"])
+def test_friction_and_springs_keep_momentum_and_have_their_jacobian(item):
+    mbs = exu.SystemContainer().AddSystem()
+    nodes = [planar_body(mbs, 2.0, 0.1)[1] for _ in range(2)]
+    if item == "friction":
+        made = GuideFriction(mbs, nodes, LINE, SpringSide(1e5, 30.0, LINE), coulomb(0.2, 1.0))
+    else:
+        made = GuideSprings(mbs, nodes, LINE, (1e5, 30.0), (2e4, 5.0), 0.6)
+    force, jacobian = made._forces, made._jacobian
+    state = Q.copy(), RATES.copy()
+    assert_balanced(np.array(force(mbs, 0.0, 0, *state)), Q)
+    matrix = jacobian(mbs, 0.0, 0, *state, *FACTORS).Convert2DenseMatrix()
+    assert_partials(
+        matrix, lambda: np.array(force(mbs, 0.0, 0, *state)), state, FACTORS, 1e-4, by_rows=False
+    )
+    if item == "friction":
+        assert force(mbs, 0.0, 0, *state) @ RATES < 0.0
+
+
+def test_a_film_on_a_moving_body_keeps_momentum_and_has_its_power_and_jacobian():
+    clearance, onset, length = 3e-5, 2e-6, 0.2
+    rear, front = (
+        BodyEnd("RigidBody2D", 0, BODY, np.array([half * length, 0.0, 0.0])) for half in (-0.5, 0.5)
+    )
+    x, y = (BODY - BASE)[:2]
+    c, s = np.cos(BASE[2]), np.sin(BASE[2])
+    turned = BODY[2] - BASE[2]
+    film = GuidewayFilm(
+        rear,
+        front,
+        BodyEnd("RigidBody2D", 3, BASE, np.array([c * x + s * y, c * y - s * x, 0.0])),
+        (float(np.cos(turned)), float(np.sin(turned))),
+        law=pad_with_asperities(plane_pad(length, 0.1), onset),
+        viscosity=0.1,
+        clearance=clearance,
+        contact_onset=clearance - onset,
+        length=length,
+        half_width=0.04,
+    )
+    q, q_t = [1e-5, -5e-6, 1e-5, 2e-6, 3e-6, -2e-5], [0.3, -0.2, 0.5, 0.1, 0.4, 0.51]
+    force = forces(film, q, q_t)
+    assert_balanced(force, np.array(q))
+    state = state_in(film, [*q], [*q_t])
+    assert state.power == pytest.approx(force @ q_t, rel=1e-6)
+    assert state.dissipated_power > 0.0
+    assert_jacobian(film, q, q_t, (0.0, 1.0), 1e-3)

@@ -54,8 +54,6 @@ def guides_of(
         InputError: there is no guide of a name, or a key of its table is not allowed.
     """
     names = list(names)
-    if not names:
-        raise UnusedKeyError("guide", "[guide]", f"{mechanism} has no guide")
     if not (table.soft or table.rubs or table.by_name):
         raise UnusedKeyError(
             "guide",

@@ -264,7 +264,7 @@ class Scene(Table):
                 keys = table.get(law) if isinstance(table, Mapping) else None
                 if isinstance(keys, Mapping):
                     yield law, keys
-        for guide in self.guides.values():
+        for guide in self._guide_tables:
             yield "friction", {"law": guide.friction.kind}
 
     def _settle_law(self, law: str, laws: LawKeys, unused: str) -> None:
@@ -294,9 +294,14 @@ class Scene(Table):
     def law_keys_of_guides(self, law: str, keys: Mapping[str, Any]) -> dict[str, Any]:
         """Return the keys of [contact] or [friction] that guides use, with declarations."""
         used: dict[str, Any] = {}
-        for guide in self.guides.values():
+        for guide in self._guide_tables:
             used |= guide.law_keys(law, keys)
         return used
+
+    @property
+    def _guide_tables(self) -> "list[ElasticGuide]":
+        """The guides that are not ideal; [guide] where there are none."""
+        return [*self.guides.values()] or ([] if self.guide is None else [self.guide])
 
     def _settle_wear(self) -> None:
         """Complete the wear of each place; a scene in which nothing wears has no such table."""

@@ -129,8 +129,8 @@ wear = {length = 0.1, guides.slider.length = 0.1} -> guide.clearance is not give
 # guides
 = mechanism = 'slider_crank'; joints = {}
 wear = {coefficient = 1e-4, hardness = 2e9, length = 0.1} -> no revolute joint is dry
-guide = {} -> [guide] has neither lateral_stiffness nor clearance
-guide = {friction = 'none', length = 0.3} -> [guide] has neither lateral_stiffness nor clearance
+guide = {} -> [guide]: not used by this scene (it has neither lateral_stiffness nor clearance
+guide = {friction = 'none', length = 0.3} -> guide.length = 0.3: not used by this scene
 guide = {friction = 'coulomb', length = 0.3} -> guide.length = 0.3: not used .. lateral_stiffness is
 guide.slide_inertia = 1.0 -> guide.slide_inertia = 1.0: is press.slide_inertia now
 guide.friction = 'lugre'; friction.mu_kinetic = 0.2 -> friction.mu_kinetic = 0.2: not used .. guides

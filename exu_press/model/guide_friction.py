@@ -22,11 +22,11 @@ def add_guide_friction(system: System, guide: Guide, numbers: Mapping[str, int])
     """
     mbs = system.mbs
     line: GuideLine
-    nodes = [system.nodes[name] for name in (guide.body, guide.on) if name in system.nodes]
     normal = np.array(guide.normal)
     if not guide.is_rail:
         from exu_press.model.moving_guides import turning_line
 
+        nodes = [system.rigid[name].node for name in system.in_guide(guide)]
         line = turning_line(system, guide)
     elif guide.body in system.flexible:
         from exu_press.model.flexible_body import guided_motion
@@ -37,6 +37,7 @@ def add_guide_friction(system: System, guide: Guide, numbers: Mapping[str, int])
         nodes = body.nodes
         line = FixedLine(np.array(guide.direction) @ rows[:2], normal @ rows[:2], missed)
     else:
+        nodes = [system.rigid[guide.body].node]
         line = FixedLine(np.array([*guide.direction, 0.0]), np.array([*normal, 0.0]))
     side: SideForce
     if guide.lateral is None:

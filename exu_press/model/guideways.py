@@ -53,7 +53,7 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
         return tuple(contacts)
     if not guide.is_rail:
         base = system.mechanism.body(guide.on)
-        on, at = system.bodies[guide.on], base.local(at)
+        on, at = system.bodies[system.in_guide(guide)[1]], base.local(at)
         direction = Body("", 0.0, angle=base.angle).local(direction)
     film = add_guideway_film(
         system.mbs,

@@ -14,9 +14,10 @@ def turning_line(system: System, guide: Guide) -> TurningLine:
     """Return the line of a guide on a moving body, by the coordinates of both."""
     mechanism = system.mechanism
     body, base = mechanism.body(guide.body), mechanism.body(guide.on)
+    guided, on = (system.rigid[name] for name in system.in_guide(guide))
     return TurningLine(
-        system.rigid[guide.body].reference,
-        system.rigid[guide.on].reference,
+        guided.reference,
+        on.reference,
         base.local(body.centre_of_mass),
         math.atan2(guide.normal[1], guide.normal[0]) - base.angle,
     )
@@ -27,7 +28,7 @@ def add_springs_on_body(system: System, guide: Guide, lateral: Spring, tilting: 
     mechanism = system.mechanism
     GuideSprings(
         system.mbs,
-        [system.nodes[guide.body], system.nodes[guide.on]],
+        [system.rigid[name].node for name in system.in_guide(guide)],
         turning_line(system, guide),
         (lateral.stiffness, lateral.damping),
         (tilting.stiffness, tilting.damping),

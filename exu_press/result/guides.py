@@ -7,6 +7,7 @@ import numpy as np
 from exu_press.mechanism import Guide, Mechanism
 from exu_press.mechanism.guide_motion import motion_in_guide
 from exu_press.model import Model
+from exu_press.model.system import carrier_name
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import (
     Channel,
@@ -16,6 +17,7 @@ from exu_press.result.channel import (
     guide_channel,
 )
 from exu_press.result.energy import work
+from exu_press.result.motion import body_motion
 from exu_press.result.recording import Record, Recording
 
 __all__ = ["CHANNELS", "guide_channels", "record"]
@@ -122,8 +124,10 @@ def _friction(run: Recording, channels: Mapping[str, Channel]) -> Record:
 
 def _motion_in_guide(run: Recording, guide: Guide) -> tuple[Array, Array]:
     """Return pose and velocity, (n, 3) each, of what lies in a guide, in its drawing."""
-    motions = run.motions
-    if guide.body in run.model.parts:
+    discs = {body: carrier_name(guide, body) for body in guide.bodies}
+    discs = {body: disc for body, disc in discs.items() if disc in run.model.rigid}
+    motions = {**run.motions, **{b: body_motion(run.model, disc) for b, disc in discs.items()}}
+    if guide.is_rail and guide.body in run.model.parts:
         from exu_press.result.flexible import guided_motion
 
         motions = {**motions, guide.body: guided_motion(run.model, guide.body)}

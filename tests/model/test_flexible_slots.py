@@ -120,8 +120,8 @@ LONG = pytest.mark.long
             for case in CASES
         ),
         pytest.param("pin", {"modes": 0}, GUIDEWAY, marks=LONG),
-        ("block", {"modes": 0}, {"friction": "coulomb"}),
-        ("carrier", {"modes": 0}, SPRINGS),
+        ("block", {"modes": 0}, SPRINGS),
+        ("carrier", {"modes": 0}, {"friction": "coulomb"}),
     ],
 )
 def test_stiff_it_is_the_rigid_body(drawn, case, body, guide):

@@ -29,6 +29,7 @@ __all__ = [
     "Sliding",
     "contacts_of",
     "guideway_depths",
+    "pin_depths",
     "sliding_of",
     "wear_depths",
     "wear_of_a_revolution",
@@ -170,10 +171,10 @@ def _sample_profile(shape: Profile) -> tuple[Array, Array]:
 
 
 def guideway_depths(result: Result, name: str) -> Array:
-    """Return the depths worn off the guideway of a guide, (2, 2, 72), m.
+    """Return the depths worn off the guideway of a guide, (2, 2, 72), or of a slot, (1, 2, 72), m.
 
-    By its back and front end, on the left and on the right, in 72 parts of each end's path. The
-    ends' own edges lose as much, and have no depth.
+    By its back and front end or the pin, on the left and on the right, in 72 parts of each one's
+    path. The ends' own edges lose as much, and have no depth; for a pin see `pin_depths`.
     """
     wear = wear_of(result.scene, "guides", name)
     mechanism, poses = mechanism_of(result.scene), result["body_position"]
@@ -185,14 +186,50 @@ def guideway_depths(result: Result, name: str) -> Array:
     low, high = float(position.min()), float(position.max())
     width = max(high - low, 1e-30) / SECTORS
     cell = np.clip(((middle - low) / width).astype(int), 0, SECTORS - 1)
-    channel = guide_channel(mechanism, name)
-    force, speed = result[f"{channel}_normal_force"], result[f"{channel}_sliding"]
     rate = archard(wear.coefficient, wear.hardness, 1.0, 1.0) / (width * wear.length)
-    depths = np.zeros((2, 2, SECTORS))
-    for end in (0, 1):
-        for side, sign in enumerate((-1.0, 1.0)):
-            work = _rub(result, sign * force[:, end], speed[:, end]).work
-            depths[end, side] = rate * np.bincount(cell, weights=work, minlength=SECTORS)
+    return np.array(
+        [
+            [
+                rate * np.bincount(cell, _rub(result, sign * force, speed).work, SECTORS)
+                for sign in (-1.0, 1.0)
+            ]
+            for force, speed in _walls(result, name)
+        ]
+    )
+
+
+def _walls(result: Result, name: str) -> list[tuple[Array, Array]]:
+    """Return normal force, on the right +, and sliding velocity of a guide's ends, or of a pin."""
+    mechanism = mechanism_of(result.scene)
+    channel = guide_channel(mechanism, name)
+    if mechanism.guide(name).is_slot:
+        return [(result[f"{channel}_wall_force"], result[f"{channel}_pin_sliding"])]
+    return list(
+        zip(result[f"{channel}_normal_force"].T, result[f"{channel}_sliding"].T, strict=True)
+    )
+
+
+def pin_depths(result: Result, name: str) -> Array:
+    """Return the depths worn off the pin of a slot over the angle from its body's x axis, (72,), m.
+
+    In sectors of 5 degrees: the pin touches a straight wall along one line.
+    """
+    wear, mechanism = wear_of(result.scene, "guides", name), mechanism_of(result.scene)
+    guide = mechanism.guide(name)
+    assert guide.at is not None and guide.guideway is not None
+    pose = pose_in_guide(mechanism, guide, result.bodies, result["body_position"])
+    ((force, speed),) = _walls(result, name)
+    to_right = np.arctan2(guide.normal[1], guide.normal[0]) - pose[:, 2]
+    if guide.centre is not None:
+        along = (pose[:, :2] - np.array(guide.at)) @ np.array(guide.direction)
+        to_right += along / np.hypot(*np.subtract(guide.at, guide.centre))
+    middle = 0.5 * (to_right[1:] + to_right[:-1])
+    area = 2.0 * np.pi * guide.guideway.half_width / SECTORS * wear.length
+    rate = archard(wear.coefficient, wear.hardness, 1.0, 1.0) / area
+    depths = np.zeros(SECTORS)
+    for sign, turned in ((1.0, middle), (-1.0, middle + np.pi)):
+        sector = np.floor(turned / (2.0 * np.pi) * SECTORS).astype(int) % SECTORS
+        depths += rate * np.bincount(sector, _rub(result, sign * force, speed).work, SECTORS)
     return depths
 
 
@@ -230,6 +267,10 @@ def _guide_wears(scene: Scene, body: str) -> bool:
     return body in wearing_guides(scene)
 
 
+def _pin_wears(scene: Scene, name: str) -> bool:
+    return _guide_wears(scene, name) and mechanism_of(scene).guide(name).is_slot
+
+
 def _per_revolution(worn: Callable[[Result, str], float], run: Reading, owner: str) -> float | None:
     """Return the mean wear of whole revolutions; None where there is none."""
     if run.whole is None:
@@ -246,9 +287,7 @@ def _volume(result: Result, joint: str) -> float:
 
 def _ends(result: Result, body: str) -> list[Sliding]:
     """Return the rubbing at the ends of a guided body."""
-    channel = guide_channel(mechanism_of(result.scene), body)
-    force, speed = result[f"{channel}_normal_force"], result[f"{channel}_sliding"]
-    return [_rub(result, np.abs(force[:, end]), speed[:, end]) for end in (0, 1)]
+    return [_rub(result, np.abs(force), speed) for force, speed in _walls(result, body)]
 
 
 def _guide_volume(result: Result, body: str) -> float:
@@ -261,6 +300,10 @@ def _depth(end: int, result: Result, joint: str) -> float:
     return float(wear_depths(result, joint)[end].max())
 
 
+def _pin_depth(result: Result, name: str) -> float:
+    return float(pin_depths(result, name).max())
+
+
 def _guideway_depth(result: Result, body: str) -> float:
     return float(guideway_depths(result, body).max())
 
@@ -270,7 +313,12 @@ def _deepest(run: Reading) -> dict[str, float]:
     result, scene = run.result, run.result.scene
     joints = {f"joints.{j}": max(_depth(0, result, j), _depth(1, result, j))
               for j in wearing_joints(scene)}  # fmt: skip
-    return joints | {f"guides.{b}": _guideway_depth(result, b) for b in wearing_guides(scene)}
+    return joints | {
+        f"guides.{b}": max(
+            _guideway_depth(result, b), _pin_depth(result, b) if _pin_wears(scene, b) else 0.0
+        )
+        for b in wearing_guides(scene)
+    }
 
 
 def _rank(kind: str, run: Reading, owner: str) -> int | None:
@@ -288,9 +336,10 @@ def _pressure_velocity(run: Reading, joint: str) -> Array:
 
 def _guide_pressure_velocity(run: Reading, body: str) -> Array:
     result = run.result
-    guideways = result.scene.guides[body].guideways
-    assert guideways is not None
-    area = guideways.length * wear_of(result.scene, "guides", body).length
+    guide = mechanism_of(result.scene).guide(body)
+    assert guide.guideway is not None
+    across = 2.0 * guide.guideway.half_width if guide.is_slot else guide.guideway.length
+    area = across * wear_of(result.scene, "guides", body).length
     return np.asarray(sum(end.power for end in _ends(result, body)) / area)
 
 
@@ -309,7 +358,7 @@ def _shared_rows(owner: Owner) -> tuple[Quantity, ...]:
     joint = owner is Owner.JOINT
     available, kind = (_wears, "joints") if joint else (_guide_wears, "guides")
     pressure_velocity = _pressure_velocity if joint else _guide_pressure_velocity
-    area = "the projected area" if joint else "the guided face"
+    area = "the projected area" if joint else "the guided face or a pin's projected area"
     return (
         Quantity("wear.volume", "m^3",
                  "volume that a revolution wears off each of the two surfaces",
@@ -336,8 +385,11 @@ WEAR = (
              "largest depth that a revolution wears off the journal, mean over 5 degrees",
              FLOW, partial(_per_revolution, partial(_depth, 0)), Owner.JOINT, _wears),
     Quantity("wear.guideway_depth", "m",
-             "largest depth that a revolution wears off the guideway, mean over 1/72 of the stroke",
+             "largest depth that a revolution wears off guideway or slot, mean over 1/72 of it",
              FLOW, partial(_per_revolution, _guideway_depth), Owner.GUIDE, _guide_wears),
+    Quantity("wear.pin_depth", "m",
+             "largest depth that a revolution wears off the slot's pin, mean over 5 degrees",
+             FLOW, partial(_per_revolution, _pin_depth), Owner.GUIDE, _pin_wears),
     *_shared_rows(Owner.JOINT),
     *_shared_rows(Owner.GUIDE),
 )  # fmt: skip

@@ -36,6 +36,8 @@ CHANNELS = Declarations(
                 "guided",
             ),
             ("sliding", "m/s", "sliding velocity of both ends", "guided"),
+            ("wall_force", "N", "normal force of a wall on the pin, of the right one +", ""),
+            ("pin_sliding", "m/s", "sliding velocity of the pin on the wall", ""),
             ("loss", "J", "energy dissipated since the start", ""),
             ("gap", "m", "least thickness of its film, or minus the penetration", ""),
         )

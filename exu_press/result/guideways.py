@@ -61,14 +61,13 @@ def record(run: Recording) -> Record:
             model.mechanism, guide.name, force=across, moment=moment, friction=along, loss=loss
         )
         if guide.name in wearing:
-            both = [states[f"{guide.name} {n}"] for n in (0, 1)]
-            on_right = [np.sign((end.eccentricity[:, :2] * normal).sum(axis=1)) for end in both]
-            normal_force = [s * end.rubbing[:, 0] for s, end in zip(on_right, both, strict=True)]
-            sliding = [end.rubbing[:, 1] for end in both]
+            ends = [states[f"{guide.name} {n}"] for n in ((0,) if guide.is_slot else (0, 1))]
+            on_right = [np.sign((end.eccentricity[:, :2] * normal).sum(axis=1)) for end in ends]
+            normal_force = [s * end.rubbing[:, 0] for s, end in zip(on_right, ends, strict=True)]
+            sliding = [end.rubbing[:, 1] for end in ends]
+            names = ("wall_force", "pin_sliding") if guide.is_slot else ("normal_force", "sliding")
+            values = (np.squeeze(np.column_stack(v)) for v in (normal_force, sliding))
             channels |= guide_channels(
-                model.mechanism,
-                guide.name,
-                normal_force=np.column_stack(normal_force),
-                sliding=np.column_stack(sliding),
+                model.mechanism, guide.name, **dict(zip(names, values, strict=True))
             )
     return Record(channels, all_stored, all_losses)

@@ -311,7 +311,11 @@ class Scene(Table):
         joints = {joint.name: self._why_unworn(joint) for joint in mechanism.joints}
         why = "guide.clearance is not given"
         guides = {
-            g.name: "" if g.guideway is not None and not g.is_slot else why
+            g.name: why
+            if g.guideway is None
+            else f"guide.width = 0: {g.key} holds a pin of that diameter"
+            if g.is_slot and g.guideway.half_width == 0.0
+            else ""
             for g in mechanism.guides
         }
         if all((*joints.values(), *guides.values())):

@@ -16,10 +16,14 @@ def wearing_joints(scene: Scene) -> tuple[str, ...]:
 
 
 def wearing_guides(scene: Scene) -> tuple[str, ...]:
-    """Return the guides whose wear is asked for: those with clearance."""
+    """Return guides and slots whose wear is asked for: with clearance, and pins of a diameter."""
     if scene.wear is None:
         return ()
-    return tuple(g.name for g in mechanism_of(scene).guides if g.guideway and not g.is_slot)
+    return tuple(
+        guide.name
+        for guide in mechanism_of(scene).guides
+        if guide.guideway and (guide.guideway.half_width > 0.0 or not guide.is_slot)
+    )
 
 
 def wear_of(scene: Scene, kind: str, name: str) -> WearAt:

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from heavy_wheel import HEAVY_WHEEL
 
-from exu_press import Scene, simulate
-from exu_press.quantities.wear import guideway_depths, sliding_of, wear_depths
+from exu_press import InputError, Scene, simulate
+from exu_press.quantities.wear import guideway_depths, pin_depths, sliding_of, wear_depths
 from exu_press.scene import mechanism_of
 
 WEAR = {"coefficient": 1e-4, "hardness": 2e9, "length": 0.1}
@@ -143,3 +143,52 @@ def test_guides_with_clearance_wear_and_places_are_ranked():
     ]
     assert sorted(ranks) == [1, 2]
     assert guided.quantity("guides.slider.wear.pressure_velocity").value > 0.0
+
+
+SLOTTED = Scene(
+    mechanism="scotch_yoke",
+    joints={},
+    speed_rpm=60.0,
+    start_angle_deg=40.0,
+    revolutions=0.3,
+    guide={
+        "clearance": 2e-5,
+        "friction": "coulomb",
+        "mu_kinetic": 0.05,
+        "width": 0.03,
+        "length": 0.1,
+    },
+    wear=WEAR,
+)
+
+
+def test_a_slot_and_its_pin_lose_what_archard_says():
+    """V = k / (mu H) times the work of friction, off the walls and off the pin, whose side rubs."""
+    worn = simulate(SLOTTED)
+    assert worn.completed, worn.info["reason"]
+    walls, pin = guideway_depths(worn, "yoke_slot"), pin_depths(worn, "yoke_slot")
+    assert walls.shape == (1, 2, 72)
+    volume = pin.sum() * 2.0 * np.pi * 0.015 / 72 * WEAR["length"]
+    heat = worn["yoke_slot_slot_loss"][-1]
+    assert 0.9 * heat < volume * 2e9 / 1e-4 * 0.05 < 1.02 * heat
+    path = np.ptp(0.1 * np.cos(worn["crank_angle"]))
+    assert walls.sum() * path / 72 * WEAR["length"] == pytest.approx(volume, rel=1e-3)
+    # the yoke is pushed to the right throughout, by the pin's side that lies there
+    assert walls[0, 0].max() < 1e-3 * walls[0, 1].max()
+    rubbed = np.flatnonzero(pin > 1e-3 * pin.max())
+    assert (5.0 * rubbed[[0, -1]]).tolist() == [210.0, 315.0], "360 deg - 148 deg, - 40 deg"
+
+
+def test_a_pin_without_a_diameter_does_not_wear():
+    changes = {"guide.width": 0.0, "wear.guides": {"yoke_slot": {"coefficient": 1e-5}}}
+    with pytest.raises(InputError, match=r"guide\.width = 0"):
+        SLOTTED.replace(changes)
+
+
+@pytest.mark.long
+def test_a_slot_is_ranked_with_its_pin():
+    turned = simulate(SLOTTED.replace({"revolutions": 1.0}))
+    names = ("pin_depth", "guideway_depth", "volume", "rank", "pressure_velocity")
+    values = {n: turned.quantity(f"guides.yoke_slot.wear.{n}").value for n in names}
+    assert values["rank"] in (1, 2)
+    assert min(values.values()) > 0.0

@@ -273,12 +273,9 @@ class GroovedFilmState:
             unbroken = now
         raise RuntimeError(f"the cavitated set did not settle in {ITERATIONS} iterations")
 
-    def supply_force(self, wet: Mask) -> tuple[float, float, float]:
-        """Return the derivatives of f_r, f_t and side flow by the supply where a film is unbroken.
-
-        In a film that is unbroken everywhere they are force and flow of a supply of 1.
-        """
-        return self._loads(self._pressure(self._into, wet & ~self._groove) + self._share)
+    def unbroken_loads(self, eps_dot: float, half_w: float) -> tuple[float, float, float]:
+        """Return f_r, f_t and side flow of a film that bears negative pressures too, as `solve`."""
+        return self._loads(self._pressure(self._source(eps_dot, half_w), ~self._groove))
 
     def _loads(self, p: Array) -> tuple[float, float, float]:
         load = (p @ self._w_zeta) * self._w_theta

@@ -4,12 +4,15 @@ The film is of first degree in its two speeds and the supply pressure Pi = p c^2
 together. Its force is that of `grooved_table` at ambient pressure, and more by
 
 .. math::
-    \Delta f_{r,t} = \Pi\, H_{r,t}(\varepsilon, \text{angle}, \text{direction}, \psi), \qquad
+    \Delta f_{r,t} = \Pi\, H_{r,t}(\varepsilon, \text{angle})
+    + \frac{\sqrt{a^2 + b^2}}{\lambda}\,
+    g_{r,t}(\varepsilon, \text{angle}, \text{direction}, \psi), \qquad
     \tan^2 \psi = \frac{K \lambda\, \Pi}{\sqrt{a^2 + b^2}}, \qquad
     \lambda = s^3 \bigl(1 + (D/L)^2\bigr).
 
-psi = 0 is the ambient film, and psi = pi / 2 a journal at rest, in whose film the pressure is that
-of the grooves alone. The dissipated power, of which the pump does what the journal does not, is
+psi = 0 is the ambient film, in which g is 0. At psi = pi / 2 the pressure keeps the film unbroken,
+so that it is linear: H is the force at rest. The side flow is alike. The dissipated power, of
+which the pump does what the journal does not, is
 
 .. math::
     D = \bigl(E (a^2 + b^2) + 12\, G\, \Pi^2\bigr)\, e^\chi
@@ -69,8 +72,8 @@ RATIO = 0.4
 SLOWEST = 1e-6
 """Speeds over lambda Pi below which the force is that of this speed, for its derivatives."""
 
-CHANNELS = 5
-"""H_r, H_t, side flow over Pi, chi and ln G."""
+CHANNELS = 8
+"""g_r, g_t and that of the side flow, chi, ln G, H_r, H_t and that of the side flow."""
 
 
 def knots_of(bearing: GroovedBearing) -> Knots:
@@ -86,12 +89,11 @@ def tabulated_row(bearing: GroovedBearing, x: float) -> Array:
         angles,
         CELLS,
         lambda angle, cells: _responses(bearing, eps, angle, cells),
-        [1.0, -1.0, 1.0, 1.0, 1.0],
+        [1.0, -1.0, 1.0, 1.0, 1.0, 1.0, -1.0, 1.0],
     )
     for row, angle in zip(rows, angles.tolist(), strict=True):
         *loads, conductance = _at_rest(bearing, eps, angle)
-        row[..., :3] += loads - row[0, -1, :3]
-        row[..., 4] = math.log(conductance)
+        row[..., 4], row[..., 5:] = math.log(conductance), loads
     return rows
 
 
@@ -118,22 +120,22 @@ def _responses(bearing: GroovedBearing, eps: float, angle: float, cells: tuple[i
     hydrostatic = state.solve(0.0, 0.0, None, 1.0)
     conductance = hydrostatic.feed
     rows = np.empty((DIRECTIONS, INTERVALS + 1, CHANNELS))
-    rows[..., 3], rows[..., 4] = 0.0, math.log(conductance)
-    rows[:, -1, :3] = hydrostatic[:3]
+    rows[...] = 0.0
     wet = None
     for row, (u, v) in zip(rows, speeds_of(knots_of(bearing).direction, s), strict=True):
         ambient = state.solve(v, u, wet)
         wet = now = ambient.unbroken
-        row[0, :3] = state.supply_force(wet)
         lost = ambient.f_t * u - ambient.f_r * v
         speed = math.hypot(v, s * u) / _stiffness(bearing, eps)
         for k, ratio in enumerate(ratios, 1):
             supply = ratio * speed
             film = state.solve(v, u, now, supply)
             now = film.unbroken
-            row[k, :3] = np.subtract(film[:3], ambient[:3]) / supply
+            added = np.subtract(film[:3], ambient[:3]) - supply * np.array(hydrostatic[:3])
+            row[k, :3] = added / speed
             power = film.f_t * u - film.f_r * v + 12.0 * supply * film.feed
             row[k, 3] = math.log(power / (lost + 12.0 * conductance * supply**2))
+        row[-1, :3] = np.subtract(state.unbroken_loads(v, u), ambient[:3]) / speed
     return rows
 
 
@@ -184,22 +186,26 @@ class PressurizedFilm(GroovedFilm):
             eps_w, speed = 2.0 * u, slowest
         ambient = super()._smooth(eps, eps_dot, eps_w)
         values, by_x, by_y, by_psi = self._interpolate_supply(eps, eps_dot, u, self.angle)
-        (h_r, h_t, _, chi, ln_g), rho = values, math.hypot(eps_dot, u)
+        (g_r, g_t, _, chi, ln_g, h_r, h_t, _), rho = values, math.hypot(eps_dot, u)
         c, d, b = u / rho, eps_dot / rho, s * u
         q = s2 * c * c + d * d
         dy = 0.5 * (1.0 + s / q) / rho
-        tan2 = RATIO * _stiffness(self.bearing, eps) * supply / speed
+        scale = speed / _stiffness(self.bearing, eps)
+        tan2 = RATIO * supply / scale
         turn = math.sqrt(tan2) / (2.0 * (1.0 + tan2))  # d psi / d ln tan^2 psi
+        # the last is that of ln scale
         by_eps = (1.0 / (1.0 - eps), 0.5 * eps * c * d / (s * q),
-                  turn * (u * u * eps / speed**2 - 3.0 * eps / s2))  # fmt: skip
-        by_dot = 0.0, dy * c, -turn * eps_dot / speed**2
-        by_w = 0.0, -0.5 * dy * d, -0.5 * turn * s * b / speed**2
+                  3.0 * eps / s2 - u * u * eps / speed**2)  # fmt: skip
+        by_dot = 0.0, dy * c, eps_dot / speed**2
+        by_w = 0.0, -0.5 * dy * d, 0.5 * s * b / speed**2
         more = [
-            supply * (x * by_x[k] + y * by_y[k] + psi * by_psi[k])
+            supply * x * by_x[k + 5]
+            + scale * (x * by_x[k] + y * by_y[k] + grown * (values[k] - turn * by_psi[k]))
             for k in (0, 1)
-            for x, y, psi in (by_eps, by_dot, by_w)
+            for x, y, grown in (by_eps, by_dot, by_w)
         ]
-        f_r, f_t = ambient[0] + supply * h_r, ambient[1] + supply * h_t
+        f_r = ambient[0] + supply * h_r + scale * g_r
+        f_t = ambient[1] + supply * h_t + scale * g_t
         lost = ambient[1] * u - ambient[0] * eps_dot + 12.0 * math.exp(ln_g) * supply**2
         self.pump_power = lost * math.exp(chi) - (f_t * u - f_r * eps_dot)
         r_eps, r_dot, r_w, t_eps, t_dot, t_w = map(add, ambient[2:8], more)
@@ -209,8 +215,15 @@ class PressurizedFilm(GroovedFilm):
         """Return the side flow over L R c, (n,), 1/s; beyond the table's end as there."""
         states = zip(eps.tolist(), eps_dot.tolist(), (0.5 * eps_w).tolist(), angle.tolist(),
                      strict=True)  # fmt: skip
-        shares = [self._interpolate_supply(*state)[0][2] for state in states]
-        return super().side_flow(eps, eps_dot, eps_w, angle) + self.supply * np.array(shares)
+        ambient = super().side_flow(eps, eps_dot, eps_w, angle)
+        if self.supply <= 0.0:
+            return ambient
+        values = np.array([self._interpolate_supply(*state)[0] for state in states])
+        inside = np.minimum(eps, -math.expm1(-LAST))
+        s2 = (1.0 - inside) * (1.0 + inside)
+        scale = np.hypot(eps_dot, 0.5 * np.sqrt(s2) * eps_w)
+        scale /= s2**1.5 * (1.0 + self.bearing.length_to_diameter**-2)
+        return np.asarray(ambient + self.supply * values[:, 7] + scale * values[:, 2])
 
     def _interpolate_supply(
         self, eps: float, eps_dot: float, u: float, angle: float

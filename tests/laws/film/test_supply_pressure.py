@@ -93,7 +93,9 @@ def any_law():
     rng = np.random.default_rng(4)
     ambient = rng.normal(size=(grooved_table.LEVELS, 9, grooved_table.DIRECTIONS, 3))
     supply = pressurized.LEVELS, 7, pressurized.DIRECTIONS, INTERVALS + 1, CHANNELS
-    return law_of(POCKETS, (ambient, rng.normal(size=supply)))
+    table = rng.normal(size=supply)
+    table[..., 4:] = table[:, :, :1, :1, 4:]  # of a journal at rest
+    return law_of(POCKETS, (ambient, table))
 
 
 def fed_states(seed, count):

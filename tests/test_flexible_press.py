@@ -1,5 +1,7 @@
 """The press with flexible crank shaft and linkage."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -99,3 +101,64 @@ def test_blanking_bends_the_crank():
     )
     lift = bent / straight
     assert lift > 1.5
+
+
+@pytest.fixture(scope="module")
+def oiled_run():
+    joints = {"crank_pin": "lubricated", "balls": "dry"}
+    result = simulate(Scene(bodies=flexible_press(), joints=joints, revolutions=0.02))
+    assert result.completed
+    return result
+
+
+def rigid_motion(points, displacement):
+    """Return displacement and rotation (3,) that fit best to displacements of points, (n, 3)."""
+    rows = [
+        np.hstack([np.eye(3), np.cross(np.eye(3), point).T])  # rotation x point
+        for point in points
+    ]
+    fit = np.linalg.lstsq(np.vstack(rows), displacement.ravel(), rcond=None)[0]
+    return fit[:3], fit[3:]
+
+
+def test_a_bearing_sees_the_slope_of_its_shaft(oiled_run):
+    """By a fit to the surface of both main journals, whose middles stay where they are."""
+    surface, fits = oiled_run.surfaces["crank"], []
+    displacement = surface.displacement(oiled_run["crank_modes"][-1])
+    for middle in (-0.3295, 0.3295):
+        near = np.abs(surface.nodes[:, 2] - middle) < 0.05
+        points = surface.nodes[near] - [*surface.nodes[near][:, :2].mean(axis=0), middle]
+        fits.append(rigid_motion(points, displacement[near]))
+    (at_a, rotation_a), (at_b, rotation_b) = fits
+    frame = (at_b - at_a)[:2] / 0.659
+    angle = oiled_run["body_position"][-1, oiled_run.bodies.index("crank"), 2]
+    c, s = np.cos(angle), np.sin(angle)
+    slopes = [
+        np.array([[c, -s], [s, c]]) @ (np.array([rotation[1], -rotation[0]]) - frame)
+        for rotation in (rotation_a, rotation_b)
+    ]
+    recorded = oiled_run["shaft_slope"][-1]
+    apart = min(np.linalg.norm(recorded - slope) for slope in slopes)
+    assert apart < 0.1 * np.linalg.norm(recorded)
+    largest = np.hypot(*oiled_run["shaft_slope"].T).max()
+    assert oiled_run.quantity("joints.shaft.peak_slope").value == pytest.approx(largest)
+    assert largest > 1e-6
+
+
+def test_an_end_with_half_of_the_film_is_told(oiled_run):
+    def warnings_at(slope):
+        bent = dataclasses.replace(
+            oiled_run.channels["crank_pin_slope"], values=np.full((len(oiled_run.time), 2), slope)
+        )
+        channels = {**oiled_run.channels, "crank_pin_slope": bent}
+        texts = dataclasses.replace(oiled_run, channels=channels).summary()["warnings"]
+        return [text for text in texts if "shaft's slope" in text]
+
+    length = oiled_run.scene.joints["crank_pin"].film.length
+    steep = 1.2 * oiled_run.joints["crank_pin"].gap.max() / length
+    (text,) = warnings_at(steep)
+    assert text.startswith(
+        f"crank pin: the shaft's slope of {1e6 * np.hypot(steep, steep):.3g} urad"
+    )
+    assert not warnings_at(0.1 * steep)
+    assert not [t for t in oiled_run.summary()["warnings"] if "shaft's slope" in t]

@@ -19,6 +19,7 @@ from exu_press.quantities.quantity import PREFIXES, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.sheet import SHEETS
 from exu_press.quantities.slider import SLIDER, STROKES
+from exu_press.quantities.slopes import SLOPES
 from exu_press.quantities.springs import SPRINGS
 from exu_press.quantities.start_stop import START_STOP
 from exu_press.quantities.wear import WEAR
@@ -39,7 +40,7 @@ __all__ = [
 
 GROUPS: dict[str, tuple[Quantity, ...]] = {
     "motion": (*SLIDER, *STROKES),
-    "joints": (*JOINTS, *OIL, *WEAR),
+    "joints": (*JOINTS, *SLOPES, *OIL, *WEAR),
     "forces": (*SHAKING, *LOADS, *SHEETS, *GUIDES, *GEARS, *SPRINGS),
     "drive and energy": (*DRIVE, *START_STOP, *BALANCE),
     "bodies": BODIES,

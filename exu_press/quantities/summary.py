@@ -12,6 +12,7 @@ from exu_press.quantities.energy import energy_residual
 from exu_press.quantities.kind import COST
 from exu_press.quantities.oil import oil_warnings
 from exu_press.quantities.reading import Reading
+from exu_press.quantities.slopes import slope_warnings
 from exu_press.quantities.start_stop import still_turns
 from exu_press.quantities.value import values_of
 from exu_press.result import JointRecord, Result
@@ -116,6 +117,7 @@ def run_warnings(run: Reading) -> list[str]:
     return [
         *texts,
         *oil_warnings(run),
+        *slope_warnings(run),
         *_redundancy_warnings(scene),
         *_solid_warnings(result),
         *scene_warnings(scene),

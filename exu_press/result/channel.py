@@ -80,6 +80,7 @@ OWNERS = {
     "load": "loads",
     "body": "flexible bodies",
     "pivoted": "joints of flexible bodies that turn on the frame",
+    "bent": "joints of flexible bodies that are no balls",
 }
 """Kind of a channel's owner -> the runs that have it."""
 

@@ -4,13 +4,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exu_press.mechanism import Motion, Point
+from exu_press.mechanism import Joint, Motion, Point
 from exu_press.model import Model
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, lengths
 from exu_press.result.channel import Channel, Declaration, Declarations
 from exu_press.result.energy import work
 from exu_press.result.info import Solid
-from exu_press.result.motion import frame_motion, moving_point, point_motion, sensor
+from exu_press.result.motion import (
+    frame_motion,
+    moving_point,
+    point_motion,
+    sensor,
+    turned_vectors,
+)
 from exu_press.result.recording import Record, Recording
 
 if TYPE_CHECKING:
@@ -32,6 +38,13 @@ CHANNELS = Declarations(
     Declaration("{body}_bending", "rad", "{body}: joints turned apart", always=False),
     Declaration(
         "{pivoted}_deflection", "m", "{pivoted}: displacement from a rigid body", "plane", False
+    ),
+    Declaration(
+        "{bent}_slope",
+        "rad",
+        "{bent}: where the journal's axis leans in its bearing",
+        "plane",
+        False,
     ),
 )
 
@@ -71,6 +84,9 @@ def record(run: Recording) -> Record:
                     channels |= CHANNELS.record(joint, label=label, deflection=rotated)
         elif len(placed.faces) == 2:
             channels |= _relative_motion(placed, name, q)
+    for held in model.mechanism.joints:
+        if not held.spherical and {held.journal, held.bearing} & model.parts.keys():
+            channels |= CHANNELS.record(held.name, slope=_slope(model, held, len(time)))
     solids = {name: _solid(placed) for name, placed in model.parts.items()}
     return Record(channels, stored, dissipated, info={"solids": solids})
 
@@ -94,6 +110,31 @@ def _relative_motion(placed: "PlacedPart", name: str, q: Array) -> dict[str, Cha
     elongation = along @ (second.translation - first.translation)[:2]
     bending = (second.rotation - first.rotation)[2]
     return CHANNELS.record(name, elongation=q @ elongation, bending=q @ bending)
+
+
+def _slope(model: Model, joint: Joint, count: int) -> Array:
+    """Return where the axis of a journal leans in its bearing, (n, 2), rad, in the drawing's axes.
+
+    By the mean rotation of the faces; of several the one that leans most.
+    """
+    journal, bearing = (_axes(model, body, joint, count) for body in (joint.journal, joint.bearing))
+    pairs = max(len(journal), len(bearing))
+    slopes = [journal[k % len(journal)] - bearing[k % len(bearing)] for k in range(pairs)]
+    return max(slopes, key=lambda slope: float(lengths(slope).max()))
+
+
+def _axes(model: Model, body: str, joint: Joint, count: int) -> list[Array]:
+    """Return x and y of the axis of each face by which a body holds a joint, (n, 2)."""
+    if body not in model.parts:
+        return [np.zeros((count, 2))]
+    placed = model.parts[body]
+    q, _ = modal(model, body, placed.reduced, count)
+    axes = []
+    for face in placed.faces[joint.name]:
+        rotation = q @ placed.reduced.interface(face).rotation.T
+        axis = np.column_stack([rotation[:, 1], -rotation[:, 0], np.ones(count)])
+        axes.append(turned_vectors(model, body, axis)[:, :2])
+    return axes
 
 
 def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:

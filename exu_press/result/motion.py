@@ -14,6 +14,7 @@ __all__ = [
     "point_acceleration",
     "point_motion",
     "sensor",
+    "turned_vectors",
 ]
 
 
@@ -107,6 +108,12 @@ def moving_point(model: Model, name: str, position: Array, rate: Array) -> tuple
     position = (sensor(model, name, "position") + start)[:, :3]
     rate_in_space = velocity[:, :3] + np.cross(omega, arm) + _rotate(e_0, e, rate)
     return np.asarray(position + arm), np.asarray(rate_in_space)
+
+
+def turned_vectors(model: Model, name: str, vectors: Array) -> Array:
+    """Return vectors (n, 3) of a flexible body's frame in global axes, (n, 3)."""
+    e_0, e, _ = _in_space(model, name)
+    return _rotate(e_0, e, vectors)
 
 
 def _in_space(model: Model, name: str) -> tuple[Array, Array, Array]:

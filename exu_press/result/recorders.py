@@ -93,6 +93,7 @@ def expected_channels(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, 
         "load": _loads(scene),
         "body": [body.name for body in mechanism.bodies],
         "pivoted": joints,
+        "bent": joints,
     }
     clutch = None if scene.drive is None else scene.drive.clutch
     missing = {

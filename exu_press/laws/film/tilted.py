@@ -81,10 +81,12 @@ class TiltedFilm:
                 nearly all motions.
 
         Raises:
-            InputError: the journal touches both ends.
+            InputError: the journal touches both ends, or grooves have a pressure.
         """
         if not 0.0 <= tilt < 1.0:
             raise InputError(f"tilt * length / 2 = {tilt:g} clearances: allowed is a number < 1")
+        if bearing.is_pressurized:
+            raise InputError("grooves with a pressure and a tilt: allowed is one of the two")
         self.bearing, self.tilt, self.direction = bearing, tilt, direction
         self.angle = self.spin = 0.0
         axial = any(not groove.is_circumferential for groove in bearing.grooves)

@@ -97,6 +97,22 @@ def test_rotation_alone_makes_a_couple_and_no_force():
     assert math.hypot(*law[:2]) < 1e-6 * law[10]
 
 
+def test_the_rotation_of_the_inclination_counts():
+    """In steady rotation, by the part of the force that eps W alone would miss."""
+    film, missed = TiltedFilm(PLAIN, 0.4, 0.0), []
+    for share in (0.2, 0.5, 0.8):
+        for film.angle in (0.0, 0.7, 0.5 * math.pi, -0.7):
+            eps = share * film.largest_ratio(film.angle)
+            film.spin = 1.0
+            whole = film(eps, 0.0, eps)
+            film.spin = 0.0
+            without = film(eps, 0.0, eps)
+            change = math.hypot(whole[0] - without[0], whole[1] - without[1])
+            missed.append(change / math.hypot(*whole[:2]))
+    assert 0.03 < min(missed) < 0.05
+    assert 0.18 < max(missed) < 0.21
+
+
 def test_it_ends_where_an_end_touches():
     for tilt, direction, angle, _, *speeds in states(6, 20):
         film = TiltedFilm(PLAIN, tilt, direction)
@@ -109,6 +125,8 @@ def test_it_ends_where_an_end_touches():
         assert math.isfinite(response(film, angle, 0.999, *speeds)[0])
     with pytest.raises(InputError, match="tilt \\* length / 2 = 1 clearances: allowed"):
         TiltedFilm(PLAIN, 1.0, 0.0)
+    with pytest.raises(InputError, match="pressure and a tilt"):
+        TiltedFilm(GroovedBearing(0.5, (Groove(0.0, 0.1, 1.0, 1.0),)), 0.1, 0.0)
 
 
 @pytest.mark.parametrize("bearing", [PLAIN, AXIAL, RING], ids=["plain", "axial", "ring"])

@@ -13,15 +13,17 @@ the start are those without it, as the multipliers are not known yet: the first 
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 
-from exu_press.joints.guide_line import GuideLine
 from exu_press.laws.friction import Friction, LuGre
 from exu_press.numerics.arrays import Array
+
+if TYPE_CHECKING:
+    from exu_press.joints.guide_line import GuideLine
 
 __all__ = [
     "GuideFriction",
@@ -70,7 +72,7 @@ class HeldSide:
 class SpringSide:
     """Normal force of a spring and damper across an elastic guide."""
 
-    def __init__(self, stiffness: float, damping: float, line: GuideLine) -> None:
+    def __init__(self, stiffness: float, damping: float, line: "GuideLine") -> None:
         """Take stiffness, N/m, and damping, N s/m, of a spring across the line of a guide."""
         self._stiffness, self._damping, self._line = stiffness, damping, line
 
@@ -135,7 +137,7 @@ class GuideFriction:
         self,
         mbs: exu.MainSystem,
         nodes: Sequence[int],
-        line: GuideLine,
+        line: "GuideLine",
         side: SideForce,
         law: Friction | LuGre,
     ) -> None:

@@ -275,7 +275,9 @@ class Scene(Table):
             laws: the keys that are given.
             unused: why no joint has this law, or nothing.
         """
-        of_guides = {} if law == "film" else self.law_keys_of_guides(law, laws.keys_of(law))
+        of_guides = {}
+        if law != "film" and self._guide_tables:
+            of_guides = self.law_keys_of_guides(law, laws.keys_of(law))
         used = {**self.joints.law_keys(law), **of_guides}
         if not of_guides:
             self._refuse({law: unused} if unused else {}, law, laws.scene_keys[law])

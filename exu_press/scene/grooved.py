@@ -155,11 +155,6 @@ class GroovedLaw(FilmLaw):
         """Return the law of an inclined journal in a bearing."""
         from exu_press.laws.film.tilted import TiltedFilm
 
-        if bearing.is_pressurized:
-            raise InputError(
-                "grooves with pressure and film.tilt: allowed is one of the two, as an inclined "
-                "journal's film has no oil under pressure"
-            )
         if gap_ratio is not None:
             raise InputError(
                 "at_contact = 'mixed' with film.tilt: allowed is 'stop', as the journal touches "

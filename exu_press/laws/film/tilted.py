@@ -86,7 +86,10 @@ class TiltedFilm:
         if not 0.0 <= tilt < 1.0:
             raise InputError(f"tilt * length / 2 = {tilt:g} clearances: allowed is a number < 1")
         if bearing.is_pressurized:
-            raise InputError("grooves with a pressure and a tilt: allowed is one of the two")
+            raise InputError(
+                "grooves with pressure and film.tilt: allowed is one of the two, as an inclined "
+                "journal's film has no oil under pressure"
+            )
         self.bearing, self.tilt, self.direction = bearing, tilt, direction
         self.angle = self.spin = 0.0
         axial = any(not groove.is_circumferential for groove in bearing.grooves)

@@ -26,7 +26,7 @@ FEW_DIRECTIONS, FEW_LEVELS = 12, 12
 LEVEL_RANGE = 1e-4, 16.0
 """Of -ln(1 - e / largest)."""
 
-ITERATIONS, HALVINGS = 60, 40
+ITERATIONS, HALVINGS = 200, 40
 """Of Newton's method, and of a change that does not bring the force nearer to the load."""
 
 EXACT = 1e-10
@@ -139,7 +139,8 @@ class Journal:
         """Return the eccentricity, m, at which the film bears a load on the journal, N.
 
         Newton's method on the logarithm of the force and on its direction, as a film's force grows
-        without bound towards the wall; from the best of a grid.
+        without bound towards the wall, over the logarithm of x, to which it is proportional at
+        the centre; from the best of a grid.
 
         Raises:
             InputError: there is none.
@@ -157,27 +158,31 @@ class Journal:
         turns = np.arange(directions) * (math.tau / directions)
         grid = product(np.geomspace(*LEVEL_RANGE, levels), turns)
         x, angle = min(grid, key=lambda at: float(np.abs(missing(*at)).sum()))
+        y = math.log(x)
         for _ in range(ITERATIONS):
-            now = missing(x, angle)
+            now = missing(math.exp(y), angle)
             if not np.abs(now).max() > EXACT:
-                return self._eccentricity_at(x, angle)
-            by_x = (missing(x + SMALL, angle) - now) / SMALL
-            by_angle = (missing(x, angle + SMALL) - now) / SMALL
+                return self._eccentricity_at(math.exp(y), angle)
+            by_y = (missing(math.exp(y + SMALL), angle) - now) / SMALL
+            by_angle = (missing(math.exp(y), angle + SMALL) - now) / SMALL
             try:
-                change = np.linalg.solve(np.column_stack([by_x, by_angle]), -now)
+                change = np.linalg.solve(np.column_stack([by_y, by_angle]), -now)
             except np.linalg.LinAlgError:
                 break
             change *= min(1.0, LARGEST_CHANGE / float(np.abs(change).max()))
             for _ in range(HALVINGS):
-                if x + change[0] > 0.0:
-                    moved = missing(x + change[0], angle + change[1])
-                    if np.abs(moved).sum() < np.abs(now).sum():
-                        break
+                moved = missing(math.exp(y + change[0]), angle + change[1])
+                if np.abs(moved).sum() < np.abs(now).sum():
+                    break
                 change *= 0.5
-            x, angle = x + float(change[0]), angle + float(change[1])
+            else:
+                break
+            y, angle = y + float(change[0]), angle + float(change[1])
+        above_load = missing(LEVEL_RANGE[0], angle)[0] > 0.0
+        more, less = ("more", "less") if above_load else ("less", "more")
         raise InputError(
-            f"load = {tuple(load)!r}: the joint has no equilibrium; allowed is less load, or more "
-            "speed or viscosity"
+            f"load = {tuple(load)!r}: the joint has no equilibrium; allowed is {more} load, or "
+            f"{less} speed or viscosity"
         )
 
     def _loads(self, e: Vector) -> list[Load | None]:

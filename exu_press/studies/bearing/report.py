@@ -7,6 +7,7 @@ from typing import Any
 
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.scene import Scene
+from exu_press.scene.film import MixedFilm
 from exu_press.schema.csv_table import Value
 from exu_press.studies.base.report import Column, Points, Report, Table
 from exu_press.studies.bearing.coefficients import BearingCoefficients, journal_joint
@@ -65,6 +66,21 @@ class BearingReport(Report):
             f"film.law = {film.law.kind!r}, length {1e3 * film.length:g} mm, radius "
             f"{1e3 * kind.radius:g} mm, clearance {1e6 * kind.clearance:g} um{inclined}"
         )
+
+    def warnings(self) -> list[str]:
+        """Return also which films are thinner than rough surfaces leave."""
+        _, film = journal_joint(self.scene, self.study.joint)
+        rough = MixedFilm()
+        thin = [row for row in self.rows if row.min_film < rough.contact_gap]
+        if film.contact_gap is not None or not thin:
+            return super().warnings()
+        load, speed = self._state(thin[0])
+        text = (
+            f"{self.study.joint}: {load} N at {speed} rpm leave a film of "
+            f"{1e6 * thin[0].min_film:.3g} um, where surfaces of {1e6 * rough.roughness:g} um rms "
+            "touch: film.at_contact = 'mixed' lets them bear their share"
+        )
+        return [*super().warnings(), text]
 
     def tables(self) -> list[Table]:
         """Return the equilibria, and the matrices."""

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.special import ellipk
 from test_grooves import assert_derivatives, states
 
 from exu_press.joints.pressurized import PressurizedInterface
@@ -35,20 +36,33 @@ def test_flow_of_a_groove_around(eps):
     assert film.feed == pytest.approx(film.side_flow, rel=1e-9)
 
 
-@pytest.mark.parametrize(("share", "width", "within"), [(0.8, 0.35, 0.02), (0.4, 0.17, 0.1)])
-def test_feed_flow_of_an_axial_groove(share, width, within):
-    """Martin and Lee's fit of the flow over c^3 p / mu, of a concentric journal, L/D = 1."""
-    around = 0.5 * width
-    fit = (1.25 - 0.25 * share) / (3.0 * (1.0 / share - 1.0) ** (1 / 3)) + around / (
-        3.0 * (1.0 - share)
-    )
-    bearing = GroovedBearing(1.0, (Groove(0.0, width, share, 1.0),))
-    flows = [
+def feed_flow(ratio, width, share):
+    """Return the flow of an axial groove over c^3 p / (12 mu), of a concentric journal."""
+    bearing = GroovedBearing(ratio, (Groove(0.0, width, share, 1.0),))
+    fine, coarse = (
         GroovedFilmState(bearing, 0.0, 0.0, cells).solve(0.0, 0.0, None, 1.0).feed
-        for cells in ((144, 20), (72, 10))
-    ]
-    flow = 2.0 * flows[0] - flows[1]  # of first order, by the corners
-    assert flow * 2.0 / 12.0 == pytest.approx(fit, rel=within)
+        for cells in ((144, 16), (72, 8))
+    )
+    return 2.0 * ratio * (2.0 * fine - coarse)  # of first order, by the ends of a slit
+
+
+@pytest.mark.parametrize("share", [0.4, 0.8])
+def test_feed_flow_of_a_slit(share):
+    """The conductance 4 K(k) / K(k') of a slit across a strip, k = sin(pi l / (2 L)).
+
+    sinh maps the strip on a plane with two cuts, sn each of its halves on a rectangle.
+    """
+    m = math.sin(0.5 * math.pi * share) ** 2
+    assert feed_flow(1.0, 2e-3, share) == pytest.approx(4.0 * ellipk(m) / ellipk(1.0 - m), rel=5e-3)
+
+
+@pytest.mark.parametrize("share", [0.4, 0.8])
+def test_a_wider_groove_feeds_its_lands_more(share):
+    """Two lands of the length L (1 - share) / 2, which each pass c^3 p / (12 mu) over it."""
+    added, ratio = 0.35, 0.5
+    lands = 2.0 * added / (ratio * (1.0 - share))
+    more = feed_flow(ratio, 0.35 + added, share) - feed_flow(ratio, 0.35, share)
+    assert more == pytest.approx(lands, rel=5e-3)
 
 
 def test_what_the_pump_and_the_journal_put_in_is_lost():

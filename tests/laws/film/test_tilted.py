@@ -125,7 +125,7 @@ def test_it_ends_where_an_end_touches():
         assert math.isfinite(response(film, angle, 0.999, *speeds)[0])
     with pytest.raises(InputError, match="tilt \\* length / 2 = 1 clearances: allowed"):
         TiltedFilm(PLAIN, 1.0, 0.0)
-    with pytest.raises(InputError, match="pressure and a tilt"):
+    with pytest.raises(InputError, match="grooves with pressure and"):
         TiltedFilm(GroovedBearing(0.5, (Groove(0.0, 0.1, 1.0, 1.0),)), 0.1, 0.0)
 
 

@@ -128,6 +128,34 @@ def test_what_is_no_bearing_is_refused():
             bearing_coefficients(scene, joint, load=load, speed_rpm=speed)
 
 
+def test_a_light_journal_is_centred_and_its_film_is_linear():
+    """At the centre the force goes with the eccentricity: at any load, a quarter turn ahead."""
+    for load in (1e-20, 1e-6):
+        bearing = coefficients("short", (load, 0.0))
+        size = VISCOSITY * LENGTH**3 * RADIUS * TURNING / (4.0 * CLEARANCE**2)
+        assert bearing.eccentricity_ratio == pytest.approx(load / (math.pi * size), rel=1e-8)
+        assert bearing.attitude_angle == pytest.approx(0.5 * math.pi, rel=1e-8)
+
+
+@pytest.mark.parametrize(("load", "cure"), [(1e-200, "more load"), (1e200, "less load")])
+def test_a_load_without_equilibrium_is_refused_with_the_cure(load, cure):
+    with pytest.raises(InputError, match=f"no equilibrium; allowed is {cure}"):
+        coefficients("finite", (0.0, -load))
+
+
+@pytest.mark.parametrize(
+    ("load", "at_contact", "warns"),
+    [("1e9", "stop", True), ("1e6", "mixed", False), ("1e4", "stop", False)],
+)
+def test_a_film_thinner_than_rough_surfaces_has_a_warning(
+    load, at_contact, warns, tmp_path, capsys
+):
+    words = ["--set", "film.law=short", "--set", f"film.at_contact={at_contact}", "--no-pictures"]
+    where = ["--load", load, "--speed", "240", "--out", str(tmp_path)]
+    assert main(["bearing", "press", "crank_pin", *words, *where]) == 0
+    assert ("rms touch" in " ".join(capsys.readouterr().err.split())) == warns
+
+
 def test_a_load_has_its_sign_from_the_direction(tmp_path, capsys):
     words = ["--load", "-5", "--speed", "240", "--out", str(tmp_path / "out")]
     assert main(["bearing", "press", "crank_pin", *words]) == 2

@@ -60,7 +60,7 @@ def his_rod(mean_axes):
 
 def placed(beam):
     held = {"crank_pin": ("crank end",), "wrist_pin": ("slider end",)}
-    return PlacedPart(beam.part, (0.5 * ROD, 0.0), 0.0, held, "", "", {}, {}, 0.0)
+    return PlacedPart(beam.part, (0.5 * ROD, 0.0), 0.0, held, "", "", {}, {}, {}, 0.0)
 
 
 @pytest.fixture(scope="module")

@@ -287,7 +287,10 @@ def test_balls_carry_a_flexible_ram(tmp_path, kind):
     [
         ({"body": {"faces": {"guide": {"radius": 1.0}}}}, r"faces\.guide\.radius = 1\.0: unknown"),
         ({"body": {"faces": {"guide": {}}}}, r"faces\.guide = \{\}: allowed is a face's name, or"),
-        ({"body": {"faces": {"wrist_pin": {"x": [0, 1]}}}}, r"faces\.wrist_pin\.x = \[0, 1\]: unk"),
+        (
+            {"body": {"faces": {"wrist_pin": {"x": [0, 1]}}}},
+            r"faces\.wrist_pin\.x = \[0\.0, 1\.0\]: unk",
+        ),
         (
             {"body": {"faces": {"guide": {"x": [1.0, 2.0]}}}},
             r"no face for guide lies wholly within x = \[1, 2\]; the solid fills x = \[-0\.04, 0\.",

@@ -84,7 +84,7 @@ def test_rows_are_strict_json(tmp_path):
     ("function", "status", "reason"),
     [
         ("raises", "failed", "ValueError: no number"),
-        ("no_json", "failed", "TypeError: PosixPath in a row: allowed are"),
+        ("no_json", "failed", "TypeError: PosixPath in a file: allowed are"),
         ("dies", "worker died", "2 times; the last: killed by SIGKILL"),
         ("exits", "worker died", "2 times; the last: exit status 7"),
         ("own_status", "film broke down", "at 0.1 s"),

@@ -86,6 +86,8 @@ def _own_guide(
     used = used_names(ElasticGuide, "guide", keys)
     keys = {key: value for key, value in keys.items() if key in used or key in own}
     guide = table_from(ElasticGuide, "guide", keys)
+    for name in guide.by_name:
+        demand_known(f"guide.{name}: unknown key", name, fields_of())
     if kind is not None and guide.kind != kind:
         raise InputError(f"guide.kind = {kind!r}: allowed is a guide with {NEEDED[kind]}")
     complete = {} if kind is None else {"kind": kind}

@@ -311,17 +311,19 @@ class Scene(Table):
             return
         mechanism = mechanism_of(self)
         joints = {joint.name: self._why_unworn(joint) for joint in mechanism.joints}
-        why = "guide.clearance is not given"
         guides = {
-            g.name: why
+            g.name: f"{g.key} has no clearance"
             if g.guideway is None
-            else f"guide.width = 0: {g.key} holds a pin of that diameter"
+            else f"{self.guide_key(g.name, 'width')} = 0: {g.key} holds a pin of that diameter"
             if g.is_slot and g.guideway.half_width == 0.0
             else ""
             for g in mechanism.guides
         }
         if all((*joints.values(), *guides.values())):
-            why = "no revolute joint is dry or has a mixed film, and no guide has clearance"
+            why = (
+                "no revolute joint is dry or has a mixed film, and no guide has clearance, nor a "
+                "slot clearance and its pin's diameter, guide.width"
+            )
             self._refuse({"wear": why}, "wear", self.wear)
         wear = self.wear.check_places(joints, guides, mechanism.groups)
         object.__setattr__(self, "wear", wear)

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,9 +10,6 @@ from exu_press.scene.applied import applied_loads
 from exu_press.scene.joint import LubricatedJoint, TouchingJoint
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.schema.table import key_values
-
-if TYPE_CHECKING:
-    from exu_press.scene.guide import GuidewaySupport
 
 __all__ = ["doubtful_sizes", "scene_warnings"]
 
@@ -81,18 +77,20 @@ def _drawing(scene: Scene) -> Iterator[str]:
 
 
 def _guides(scene: Scene) -> Iterator[str]:
-    """Yield a clearance of guides that lets their bodies tilt by degrees."""
-    wide: dict[str, GuidewaySupport] = {}
+    """Yield a clearance of guides that lets their bodies tilt by degrees, or of a slot's pin."""
+    wide: dict[str, tuple[float, str]] = {}
     for name, elastic in scene.guides.items():
-        ways = elastic.guideways
-        if ways is not None and ways.clearance > WIDEST * ways.length:
-            wide[scene.guide_key(name, "clearance")] = ways
-    for key, guide in wide.items():
-        yield (
-            f"{key} = {guide.clearance:g} m lets a body in a guide of {guide.length:g} m "
-            f"tilt by {math.degrees(2.0 * guide.clearance / guide.length):.2g} deg. Presses have "
-            f"some 1e-5 m.{_slip(guide.clearance, 1e-6, 1e-3, 'm')}"
-        )
+        ways, is_slot = elastic.guideways, mechanism_of(scene).guide(name).is_slot
+        if ways is None or ways.clearance <= WIDEST * ((is_slot and ways.width) or ways.length):
+            continue
+        tilt = math.degrees(2.0 * ways.clearance / ways.length)
+        moves = f"a body in a guide of {ways.length:g} m tilt by {tilt:.2g} deg"
+        if is_slot:
+            moves = f"the pin move across its slot by {2.0 * ways.clearance:g} m"
+        wide.setdefault(scene.guide_key(name, "clearance"), (ways.clearance, moves))
+    for key, (clearance, moves) in wide.items():
+        slip = _slip(clearance, 1e-6, 1e-3, "m")
+        yield f"{key} = {clearance:g} m lets {moves}. Presses have some 1e-5 m.{slip}"
 
 
 def _clearances(scene: Scene) -> Iterator[str]:

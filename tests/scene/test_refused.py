@@ -124,7 +124,7 @@ speed_rpm = 200 -> length
 wear = {length = 0.1, joints.crank_pim.length = 0.1} -> no such place
 wear = {length = 0.1, joints.shaft.length = 0.1} -> do not touch
 wear = {length = 0.1, joints.crank_pin.lenght = 0.1} -> did you mean 'length'
-wear = {length = 0.1, guides.slider.length = 0.1} -> guide.clearance is not given
+wear = {length = 0.1, guides.slider.length = 0.1} -> (guides.slider has no clearance)
 
 # guides
 = mechanism = 'slider_crank'; joints = {}
@@ -145,10 +145,16 @@ guide.tilting_stiffness = 1e6 -> guide.tilting_stiffness = 1000000.0: not used
 guide = {friction = 'stribeck', mu_static = 0.05} -> guide.mu_static = 0.05: allowed is .. >= guide
 guide.mu_kinetic = 0.05 -> guide.mu_kinetic = 0.05: not used .. friction is
 guide.viscosity = 0.1 -> guide.viscosity needs guide.face_width .. no default
+guide.slider.oil.viscosity = 0.1 -> guide.slider.oil: unknown key; allowed are kind
 guide = {viscosity = 0.1, face_width = 0.1} -> guide.viscosity needs guide.contact_gap
 guide.face_width = 0.1 -> guide.face_width = 0.1: not used .. viscosity is not
 guide = {viscosity = 0.1, face_width = 0.1, contact_gap = 3e-5} -> gap = 3e-05: allowed is .. < guid
 guide = {viscosity = 0.1, face_width = 1e-3, contact_gap = 2e-6} -> face_width = 0.001: allowed are
+
+= mechanism = 'scotch_yoke'; wear = {coefficient = 1e-4, hardness = 2e9, length = 0.1}
+guide.yoke_slot.clearance = 2e-5 -> and no guide has clearance, nor a slot clearance and its pin's
+guide = {clearance = 2e-5, yoke_slot.width = 0}; wear.guides.yoke_slot.length = 0.2 -> guide.yoke_s\
+lot.width = 0: slots.yoke_slot holds a pin
 
 # motors
 = drive.inertia = 50.0

@@ -164,6 +164,9 @@ def test_a_stroke_of_millimetres():
 def test_a_guide_wider_than_a_ram_and_a_density_in_tonnes():
     loose = Scene(joints={}, guide={"clearance": 0.05, "length": 0.5})
     assert any("guide.clearance = 0.05 m lets a body" in w for w in scene_warnings(loose))
+    pin = {"yoke_slot": {"clearance": 5e-3, "width": 0.02}}
+    slot = Scene(mechanism="scotch_yoke", joints={}, guide=pin)
+    assert any("yoke_slot.clearance = 0.005 m lets the pin move" in w for w in scene_warnings(slot))
     part = {"flexible": "linkage", "density": 7.85e-9}
     heavy = Scene(joints={}, bodies={"linkage": part})
     assert any("density = 7.85e-09 kg/m^3 is below 100" in w for w in scene_warnings(heavy))

@@ -14,6 +14,9 @@ from exu_press.studies.bearing.journal import Journal
 
 __all__ = ["BearingCoefficients", "bearing_coefficients", "critical_mass", "journal_joint"]
 
+HALVINGS = 12
+"""Of the range of temperatures, where the film of the hottest oil does not bear the load."""
+
 
 @dataclass(frozen=True)
 class BearingCoefficients:
@@ -189,14 +192,25 @@ def _balance_heat(journal: Journal, load: tuple[float, float]) -> float:
         heat = journal.power(e) + (journal.pump_power(e) or 0.0)
         return heat - carried - oil.conductance * (temperature - oil.frame)
 
-    low = min(oil.supply_celsius, oil.frame)
-    if excess(HOTTEST) > 0.0:
-        raise InputError(
-            f"film.oil: the film would be hotter than {HOTTEST:g} deg C; allowed is less load or "
-            "speed, or more film.oil.conductance"
-        )
+    low, high, beyond = min(oil.supply_celsius, oil.frame), HOTTEST, HOTTEST
+    for _ in range(HALVINGS):
+        try:
+            if excess(high) <= 0.0:
+                break
+        except InputError:  # so hot, the film does not bear the load
+            beyond = high
+        else:
+            low = high
+            if high == HOTTEST:
+                raise InputError(
+                    f"film.oil: the film would be hotter than {HOTTEST:g} deg C; allowed is less "
+                    "load or speed, or more film.oil.conductance"
+                )
+        high = 0.5 * (low + beyond)
+    else:
+        excess(beyond)
     from scipy.optimize import brentq
 
-    temperature = float(brentq(excess, low, HOTTEST, xtol=1e-6))
+    temperature = float(brentq(excess, low, high, xtol=1e-6))
     excess(temperature)
     return temperature

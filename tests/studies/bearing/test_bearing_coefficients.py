@@ -116,6 +116,17 @@ def test_warm_oil_has_the_temperature_of_its_heat_balance():
     assert bearing.viscosity == pytest.approx(oil.viscosity(bearing.temperature), rel=1e-9)
 
 
+def test_an_inclined_journal_warms_its_oil_as_a_parallel_one_does():
+    """Its film bears no load without bound: that of the hottest oil would not bear this one."""
+    inclined = coefficients("grooved", (0.0, -1000.0), tilt=5e-4, oil=OIL)
+    parallel = coefficients("finite", (0.0, -1000.0), oil=OIL)
+    assert inclined.temperature == pytest.approx(parallel.temperature, abs=1.0)
+    oil = scene_with("finite", oil=OIL).joints["crank_pin"].film.oil
+    carried = oil.heat_capacity * inclined.side_flow * (inclined.temperature - oil.supply_celsius)
+    lost = oil.conductance * (inclined.temperature - oil.frame)
+    assert inclined.power == pytest.approx(carried + lost, rel=1e-5)
+
+
 def test_what_is_no_bearing_is_refused():
     scene = scene_with("finite")
     for joint, load, speed, words in (

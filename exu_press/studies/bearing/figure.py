@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from exu_press.errors import InputError
 from exu_press.laws.film.contract import film_scale
 from exu_press.laws.film.grooved_table import CELLS, GroovedFilm
 from exu_press.laws.film.grooves import GroovedFilmState
@@ -80,19 +81,24 @@ def _largest_pressure(report: BearingReport, row: BearingCoefficients) -> tuple[
 
 
 def _locus(panel: Axes, report: BearingReport) -> None:
-    """Draw the journal's centre over loads in the circle that the clearance leaves it."""
+    """Draw the journal's centre over the loads that it bears, in the circle of its clearance."""
     first = report.rows[0]
     clearance = journal_joint(report.scene, first.joint)[0].clearance
-    path = [
-        bearing_coefficients(
-            report.scene,
-            first.joint,
-            load=(share * first.load[0], share * first.load[1]),
-            speed_rpm=first.speed_rpm,
-        ).eccentricity
-        for share in LOCUS
-    ]
-    panel.plot(*np.transpose(path) / clearance, color=RUN, label=f"{first.speed_rpm:g} rpm")
+    path = []
+    for share in LOCUS.tolist():
+        load = share * first.load[0], share * first.load[1]
+        try:
+            bearing = bearing_coefficients(
+                report.scene, first.joint, load=load, speed_rpm=first.speed_rpm
+            )
+        except InputError:
+            if share > 1.0:
+                break
+        else:
+            path.append(bearing.eccentricity)
+    panel.plot(
+        *np.reshape(path, (-1, 2)).T / clearance, color=RUN, label=f"{first.speed_rpm:g} rpm"
+    )
     for row in report.rows:
         panel.plot(*(e / clearance for e in row.eccentricity), "o", color=COLOURS["vermilion"])
     turn = np.linspace(0.0, math.tau, 181)

@@ -180,3 +180,11 @@ def test_command(tmp_path, capsys):
     rows = json.loads((tmp_path / "bearing.json").read_text())["equilibria"]
     assert [row["load"][1] for row in rows] == [-1e4, -1e5]
     assert {"bearing.csv", "bearing.png"} <= {file.name for file in tmp_path.iterdir()}
+
+
+def test_the_locus_ends_where_the_bearing_bears_no_more(tmp_path):
+    """The picture goes to loads above those that were asked for."""
+    words = ["--set", "film.law=short", "--set", "film.at_contact=mixed", "--load", "1e6"]
+    command = ["bearing", "press", "crank_pin", *words, "--speed", "240", "--out", str(tmp_path)]
+    assert main(command) == 0
+    assert (tmp_path / "bearing.png").is_file()

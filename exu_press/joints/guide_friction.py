@@ -81,7 +81,7 @@ class SpringSide:
         rate = float(self._line.normal_row(q) @ q_t)
         return self._stiffness * self._line.lateral_displacement(q) + self._damping * rate
 
-    def partials(self, q: Array, q_t: Array) -> tuple[Array, Array] | None:
+    def partials(self, q: Array, q_t: Array) -> tuple[Array, Array]:
         """Return its derivatives by the coordinates and by their rates, (n,)."""
         across, turning = self._line.normal_row(q), self._line.turning(self._line.direction_row(q))
         return self._stiffness * across + self._damping * turning @ q_t, self._damping * across

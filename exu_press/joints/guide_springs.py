@@ -11,6 +11,7 @@ import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 
+from exu_press.joints.guide_friction import SpringSide
 from exu_press.joints.guide_line import TurningLine
 from exu_press.numerics.arrays import Array
 
@@ -42,7 +43,7 @@ class GuideSprings:
             tilting: the same against tilting, N m/rad and N m s/rad.
             relaxed: tilt without moment, rad.
         """
-        self._line, self._lateral, self._tilting = line, lateral, tilting
+        self._line, self._side, self._tilting = line, SpringSide(*lateral, line), tilting
         self._relaxed = relaxed
         self._tilts = np.outer(TILT, TILT)
         forces: Any = self._forces
@@ -60,11 +61,7 @@ class GuideSprings:
         stiffness, damping = self._tilting
         moment = stiffness * (self._line.tilt(q) - self._relaxed) + damping * float(TILT @ q_t)
         normal = self._line.normal_row(q)
-        return -self._force(q, normal @ q_t) * normal - moment * TILT
-
-    def _force(self, q: Array, rate: float) -> float:
-        stiffness, damping = self._lateral
-        return stiffness * self._line.lateral_displacement(q) + damping * rate
+        return -self._side.force(q, q_t) * normal - moment * TILT
 
     def _jacobian(
         self,
@@ -78,9 +75,9 @@ class GuideSprings:
     ) -> exu.MatrixContainer:
         q, q_t = np.asarray(q), np.asarray(q_t)
         normal, turning = self._line.normal_row(q), self._line.turning(self._line.direction_row(q))
-        stiffness, damping = self._lateral
-        row = by_q * (stiffness * normal + damping * turning @ q_t) + by_q_t * damping * normal
-        matrix = np.outer(normal, row) + by_q * self._force(q, normal @ q_t) * turning
+        by_places, by_rates = self._side.partials(q, q_t)
+        row = by_q * by_places + by_q_t * by_rates
+        matrix = np.outer(normal, row) + by_q * self._side.force(q, q_t) * turning
         stiffness, damping = self._tilting
         matrix += (by_q * stiffness + by_q_t * damping) * self._tilts
         container = exu.MatrixContainer()

@@ -160,7 +160,7 @@ class PressurizedFilm(GroovedFilm):
         self._supply_count = 1
 
     def set_supply_table(self, table: Array) -> None:
-        """Take the table of what the pressure adds, (eccentricities, angles, directions, psi, 5).
+        """Take the table of what the pressure adds, (eccentricities, angles, directions, psi, 8).
 
         It has no slope over psi at both ends.
         """

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 
+from exu_press.joints.user_force import add_massless_item
 from exu_press.laws.friction import Friction, LuGre
 from exu_press.numerics.arrays import Array
 
@@ -158,15 +158,7 @@ class GuideFriction:
         if isinstance(side, HeldSide):
             guide_frictions(mbs).append(self)
         self._step: tuple[float, float] | None = None
-        forces: Any = self._forces
-        jacobian: Any = self._jacobian
-        item = ObjectGenericODE2(
-            nodeNumbers=list(nodes),
-            forceUserFunction=forces,
-            jacobianUserFunction=jacobian,
-            visualization=VObjectGenericODE2(show=False),
-        )
-        mbs.AddObject(item)
+        add_massless_item(mbs, nodes, self._forces, self._jacobian)
 
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Array:
         self._begin_step(time)

@@ -9,10 +9,10 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 
 from exu_press.joints.guide_friction import SpringSide
 from exu_press.joints.guide_line import TurningLine
+from exu_press.joints.user_force import add_massless_item
 from exu_press.numerics.arrays import Array
 
 __all__ = ["GuideSprings"]
@@ -46,15 +46,7 @@ class GuideSprings:
         self._line, self._side, self._tilting = line, SpringSide(*lateral, line), tilting
         self._relaxed = relaxed
         self._tilts = np.outer(TILT, TILT)
-        forces: Any = self._forces
-        jacobian: Any = self._jacobian
-        item = ObjectGenericODE2(
-            nodeNumbers=list(nodes),
-            forceUserFunction=forces,
-            jacobianUserFunction=jacobian,
-            visualization=VObjectGenericODE2(show=False),
-        )
-        mbs.AddObject(item)
+        add_massless_item(mbs, nodes, self._forces, self._jacobian)
 
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Array:
         q, q_t = np.asarray(q), np.asarray(q_t)

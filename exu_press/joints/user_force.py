@@ -7,7 +7,7 @@ item costs a call of its own.
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from struct import Struct
 from typing import Any
@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 from exu_press.joints.joint import GROUND, SHALLOW, ClearanceJoint, JointState
 
-__all__ = ["UserForceElement", "holds_joints", "user_force_of"]
+__all__ = ["UserForceElement", "add_massless_item", "holds_joints", "user_force_of"]
 
 REGISTRY = "exu_press_joints"
 
@@ -95,15 +95,7 @@ class UserForceElement:
         self._triplets = np.zeros((len(moving), 3))
         self._triplets[:, :2] = [entries[i] for i in moving]
         if self.item is None:
-            forces: Any = self._forces
-            jacobian: Any = self._jacobian
-            item = ObjectGenericODE2(
-                nodeNumbers=nodes,
-                forceUserFunction=forces,
-                jacobianUserFunction=jacobian,
-                visualization=VObjectGenericODE2(show=False),
-            )
-            self.item = int(self._mbs.AddObject(item))
+            self.item = add_massless_item(self._mbs, nodes, self._forces, self._jacobian)
         else:
             self._mbs.SetObjectParameter(self.item, "nodeNumbers", nodes)
 
@@ -335,6 +327,24 @@ def _state_in(joint: ClearanceJoint, q: Any, q_t: Any) -> JointState:
     """Return a joint's state in a state of the item, whose forces are asked for."""
     joint.add_force([*q, *GROUND], [*q_t, *GROUND], [0.0] * (len(q) + len(GROUND)))
     return joint.state
+
+
+def add_massless_item(mbs: exu.MainSystem, nodes: Sequence[int], forces: Any, jacobian: Any) -> int:
+    """Lay an item without mass over nodes, which exerts forces on them; return its number.
+
+    Args:
+        mbs: not yet assembled.
+        nodes: whose coordinates it takes, in their order.
+        forces: Exudyn's user function of the generalised forces.
+        jacobian: that of the Jacobian of minus these.
+    """
+    item = ObjectGenericODE2(
+        nodeNumbers=list(nodes),
+        forceUserFunction=forces,
+        jacobianUserFunction=jacobian,
+        visualization=VObjectGenericODE2(show=False),
+    )
+    return int(mbs.AddObject(item))
 
 
 def user_force_of(mbs: exu.MainSystem) -> UserForceElement:

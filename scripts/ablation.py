@@ -27,7 +27,6 @@ BUDGET = 10_000  # steps; a variant that needs more counts as stopped
 
 OFF = {
     "factor_max": 1e9,
-    "beside_joints": 1.0,
     "penetration": 1e9,
     "modal_mass": 0.0,
     "refit": 0.0,

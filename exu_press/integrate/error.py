@@ -3,7 +3,7 @@
 Each criterion is a class of `exu_press.integrate.criteria`. With the step h, accelerations a, their
 rate j_n = (a_n - a_(n-1)) / h, the scale of speeds V, eccentricities e and the clearance c::
 
-    velocities                         h^2 |j_n - j_(n-1)| / 6    over share V      VelocityError
+    velocities                         h^2 |j_n - j_(n-1)|        over share V      VelocityError
     velocities as prescribed           h^2 |j_n| / 12             over tol V        Prescribed...
     eccentricities                     e less the integral of e_t over share c      Eccentricity...
     penetrations                       the same across surfaces   over a part of it Eccentricity...
@@ -58,12 +58,11 @@ def default_criteria(task: Task) -> list[Criterion]:
     system, tuning, tolerance = task.system, task.tuning, task.tolerance
     newton_filter, share = NewtonFilter(task), math.pow(tolerance, 1.5)
     if system.joints is None:
-        bodies = VelocityError(task, newton_filter, tuning.beside_joints * share)
-        return [bodies, PrescribedVelocityError(task)]
+        return [VelocityError(task, newton_filter, share), PrescribedVelocityError(task)]
     from exu_press.integrate.criteria.film_force import FilmForceError
 
     share = max(share, tuning.least_share * tolerance)
-    of_bodies, penetration = tuning.beside_joints * share, tuning.penetration
+    of_bodies, penetration = share, tuning.penetration
     if system.modes and tuning.modal_mass > 0.0:
         of_bodies, penetration = tuning.vibrating * tolerance, tuning.vibrating_penetration
     joints = system.joints.joints

@@ -58,20 +58,16 @@ class SolverTuning:
             so: a longer step leaves an overshoot of 3 % in the first loads.
         shortest_first: a first step, at least, over the shortest one: it can be repeated with
             smaller ones.
-        velocity_constant: of generalized-alpha's local error h^3 times the second derivative of the
-            acceleration: 0.083 to 0.077 for spectral radii at infinity of 1 to 0.8, doubled.
         rounding: of positions and speeds, over the largest one, in each step: times 1 / (1 -
             spectral radius)^2, over the step's square, it is what alternates in accelerations.
         least_share: error of a step with clearance joints, at least, over the tolerance: below 1e-4
             impacts become no more.
-        beside_joints: allowed error of a body's velocity in a step, over the share of a step, which
-            an eccentricity may have. Springs of guides need it without clearance joints, too.
         penetration: allowed error of a penetration, over itself, as a part of what an
             eccentricity in free flight may be off by over the clearance. The impact that ends a
             damped contact hands the error on a thousandfold.
         least_penetration: over the clearance, up to which a penetration counts as this.
-        vibrating: of the tolerance, what a body's velocity may be off by in a step where impacts
-            leave flexible bodies vibrating, which the estimate takes for an error.
+        vibrating: share of a step in velocities, over the tolerance, where impacts leave flexible
+            bodies vibrating, which the estimate takes for an error.
         vibrating_penetration: instead of `penetration` there.
         modal_mass: change of the modes' mass, over that which keeps their frequencies
             (`exu_press.integrate.modal_mass`).
@@ -107,13 +103,11 @@ class SolverTuning:
     first_step_of_film: float = 1e-4
     shortest_first: float = 10.0
 
-    velocity_constant: float = 2.0 / 12.0
     rounding: float = 4e-15
     least_share: float = 1e-2
-    beside_joints: float = 1.0 / 6.0
     penetration: float = 0.0625
     least_penetration: float = 1e-3
-    vibrating: float = 0.18
+    vibrating: float = 1.08
     vibrating_penetration: float = 0.6
     modal_mass: float = 1.0
     kept_steps: float = 30.0

@@ -7,17 +7,17 @@ __all__ = ["VelocityError"]
 
 
 class VelocityError:
-    """Local error of velocities over its limit: h^3 |second derivative of the acceleration| / 6.
+    """Change of velocities by a step's local error, over its limit.
 
-    The largest one of all bodies, in the kinetic norm. The derivative is the change of the
-    accelerations' rate from step to step. Where that is too much, what counts is the part that
-    Newton's matrix lets through (`NewtonFilter`).
+    It is h^3 |second derivative of the acceleration|, twelve times what generalized-alpha with the
+    spectral radius 1 misses; the largest one of all bodies, in the kinetic norm. The derivative is
+    the change of the accelerations' rate from step to step. Where that is too much, what counts is
+    the part that Newton's matrix lets through (`NewtonFilter`).
     """
 
     def __init__(self, task: Task, newton_filter: NewtonFilter, allowed: float) -> None:
         """Follow the bodies of a task; allowed is an error in one step over the scale of speeds."""
         self._scales, self._filter, self._allowed = task.scales, newton_filter, allowed
-        self._constant = task.tuning.velocity_constant
         self._accelerations = task.system.current.accelerations
         self._start: list[float] = []  # accelerations at the beginning of the step
         self._now: list[float] = []
@@ -67,7 +67,6 @@ class VelocityError:
 
         Rounded constraints make an error of positions, m.
         """
-        scales, constant = self._scales, self._constant
-        limit = constant * max(scales.roundoff, roundoff) / step
-        allowed = self._allowed * scales.speed
-        return constant * step * step * scales.norm(change) / max(allowed, limit)
+        scales = self._scales
+        limit = max(scales.roundoff, roundoff) / step
+        return step * step * scales.norm(change) / max(self._allowed * scales.speed, limit)

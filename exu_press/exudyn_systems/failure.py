@@ -14,6 +14,7 @@ __all__ = ["agreed_until", "why_not_converged"]
 
 SMALL = 1e-4  # relative difference from which on growth is judged
 APART = 0.1  # relative difference from which on motions are as far apart as they get
+LEVELS = "three levels whose order is plausible"
 GROWN = 1e3  # growth of differences in a run from which on the motion amplifies them
 
 
@@ -29,13 +30,19 @@ def agreed_until(refinement: Refinement) -> float:
 
 def why_not_converged(refinement: Refinement) -> str:
     """Return what was reached, which quantity differs most, why, and what would do."""
-    levels, failures = refinement.levels, refinement.failures
-    if len(levels) < 2 or refinement.solver_gives_up():
+    levels, failures = refinement.levels, refinement.newton_failures()
+    if refinement.solver_gives_up() or (len(levels) < 2 and failures == refinement.failures):
         latest = max(failures, key=lambda level: level.end)
         numbers = ", ".join(str(level.steps) for level in failures)
         return (
             f"Newton's method fails at every level{' but coarser ones' * bool(levels)} ({numbers} "
             f"steps), at the latest at {latest.end:.4g} s: {latest.failure}"
+        )
+    if len(levels) < 2:
+        latest = refinement.failures[-1]
+        return (
+            f"the level of {latest.steps} steps got to {latest.end:.4g} s; "
+            f"{_small_budget(refinement, LEVELS, 4 * latest.steps)}"
         )
     worst = int(refinement.differences(*levels[-2:]).max(axis=0).argmax())
     pairs = [(refinement.differences(*pair), *pair) for pair in itertools.pairwise(levels[-3:])]
@@ -51,7 +58,7 @@ def why_not_converged(refinement: Refinement) -> str:
 def _cause(refinement: Refinement) -> str:
     """Return why differences are above the tolerance, and what would do."""
     (coarser, finest), judgement = refinement.levels[-2:], refinement.judgement
-    used, too_long = sum(steps for steps, _ in refinement.cost), refinement.excess(finest)
+    too_long = refinement.excess(finest)
     if refinement.remembers:
         return (
             "a user function gives other results in each run, as it remembers earlier ones or "
@@ -76,7 +83,7 @@ def _cause(refinement: Refinement) -> str:
     steps = math.ceil(finest.steps * too_long)
     phase = 2.0 * math.pi / STEPS_IN_PERIOD * steps  # is off by its third power / (12 steps^2)
     by_phase = phase * math.sqrt(phase / (12.0 * refinement.tolerance))
-    need, budget = "three levels whose order is plausible", math.ceil(max(by_phase, 4.0 * steps))
+    need, budget = LEVELS, math.ceil(max(by_phase, 4.0 * steps))
     if too_long > 1.0:
         need = f"the shortest period or the fastest turn, in steps of which {steps} make the run"
     elif judgement is not None and judgement.decided:
@@ -85,4 +92,14 @@ def _cause(refinement: Refinement) -> str:
         need = (
             f"the tolerance: the error is {judgement.error:.2g}, and about {budget} steps have it"
         )
-    return f"the budget was too small for {need}; max_steps = {4 * budget + used} would do"
+    return _small_budget(refinement, need, budget)
+
+
+def _small_budget(refinement: Refinement, need: str, steps: int) -> str:
+    """Return that the budget was too small for a need, which a level of these steps meets."""
+    by_steps, by_time = refinement.budget_left()
+    enough = f"max_steps = {sum(steps for steps, _ in refinement.cost) + 4 * steps}"
+    if by_time < by_steps:
+        pace = (refinement.levels or refinement.failures)[-1].pace
+        enough = f"max_time = {refinement.runs.max_time + 4 * steps * pace:.3g}"
+    return f"the budget was too small for {need}; {enough} would do"

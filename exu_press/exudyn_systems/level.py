@@ -15,14 +15,15 @@ from exu_press.errors import InputError
 from exu_press.exudyn_systems.samples import MOST_SAMPLES, Samples, Variables
 from fe_models.processes import Child, ChildError, may_copy
 
-__all__ = ["Level", "Levels"]
+__all__ = ["OUT_OF_TIME", "Level", "Levels"]
 
+OUT_OF_TIME = "the time was used up"  # why a level ended; else Newton's method failed
 SPARES = 3  # copies of the process that are kept for further levels
 
 
 @dataclass
 class Level:
-    """A run: number and size (s) of steps, processor time and end (s), why the solver gave up."""
+    """A run: number and size (s) of steps, processor time and end (s), why it failed, if it did."""
 
     steps: int
     step: float
@@ -32,6 +33,12 @@ class Level:
     iterations: int
     samples: Samples
 
+    @property
+    def pace(self) -> float:
+        """Processor time of a step, s."""
+        taken = (self.end - float(self.samples.times[0])) / self.step
+        return max(self.seconds / max(taken, 1.0), 1e-9)
+
 
 @dataclass
 class Levels:
@@ -40,11 +47,16 @@ class Levels:
     mbs: exu.MainSystem  # that the last level is run on
     settings: exu.SimulationSettings
     samples: int  # the least number of them, of which each number of steps is a multiple
-    deadline: float  # of the clock `time.monotonic`, s
+    max_time: float  # of all levels together, s
     build: Callable[[], exu.MainSystem] | None  # for each level; None: copies of the process
     update: bool  # whether the next run starts where the last level ends
+    begun: float = field(default_factory=clock.monotonic)
     touched: bool = False  # whether the system has been run
     spares: list[Child] = field(default_factory=list)  # from before that, if the last level misses
+
+    def time_left(self) -> float:
+        """Return the time that is left for further levels, s."""
+        return self.begun + self.max_time - clock.monotonic()
 
     def run_earlier(self, numbers: list[int]) -> list[Level]:
         """Return levels that leave no trace on the user's system."""
@@ -84,7 +96,7 @@ class Levels:
             go_on = function is None or bool(function(mbs, time))
             if time >= start + len(rows) * period - 0.5 * step:
                 rows.append(variables.row(time))
-                failure = "the time was used up" if clock.monotonic() > self.deadline else ""
+                failure = OUT_OF_TIME if self.time_left() < 0.0 else ""
             return go_on and not failure
 
         begun = clock.process_time()

@@ -2,11 +2,10 @@
 
 import itertools
 import math
-import time as clock
 from dataclasses import dataclass, field
 
 from exu_press.exudyn_systems import difference
-from exu_press.exudyn_systems.level import Level, Levels
+from exu_press.exudyn_systems.level import OUT_OF_TIME, Level, Levels
 from exu_press.exudyn_systems.samples import MOST_SAMPLES, Variables
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.convergence import ORDER, PLAUSIBLE, SAFETY, Judgement, judge
@@ -33,7 +32,7 @@ class Refinement:
     rows: int  # of output that the settings ask for
     max_steps: int  # of all levels together
     levels: list[Level] = field(default_factory=list)  # the last ones, the coarsest first
-    failures: list[Level] = field(default_factory=list)  # at which the solver gave up
+    failures: list[Level] = field(default_factory=list)  # that did not get to the end
     judgement: Judgement | None = None  # of the last three levels, if they can decide
     orders: list[float] = field(default_factory=list)  # observed, of the worst quantity
     remembers: bool = False  # whether a run on the user's system differed from its copy
@@ -49,7 +48,7 @@ class Refinement:
                 repeats = bool(self.levels) and steps == self.levels[-1].steps
                 if last and (held is None or (repeats and self.meets_tolerance())):
                     held = self._run_last(steps, repeats=repeats)
-                    if repeats or self.meets_tolerance():
+                    if repeats or not self.levels or self.meets_tolerance():
                         return held
                 elif held is not None and (repeats or not (self.runs.build or self.runs.spares)):
                     return held
@@ -83,9 +82,19 @@ class Refinement:
         relative[:, scales > 0.0] /= scales[scales > 0.0]
         return relative
 
+    def newton_failures(self) -> list[Level]:
+        """Return the levels at which Newton's method failed."""
+        return [level for level in self.failures if level.failure != OUT_OF_TIME]
+
+    def budget_left(self) -> tuple[float, float]:
+        """Return the number of steps that max_steps allows for, and that the time left does."""
+        pace = (self.levels or self.failures)[-1].pace
+        steps = self.max_steps - sum(steps for steps, _ in self.cost)
+        return steps, self.runs.time_left() / pace
+
     def solver_gives_up(self) -> bool:
         """Return whether the solver gave up at the last level, and that had many steps."""
-        last = max([run.steps for run in self.failures], default=0)
+        last = max([run.steps for run in self.newton_failures()], default=0)
         finest = max([run.steps for run in self.levels], default=0)
         return last > finest and last >= GIVE_UP * self.users
 
@@ -132,10 +141,7 @@ class Refinement:
         steps = tried * math.ceil(min(factor, FACTORS[1]) - 1e-9)
         near = range(steps, int(ALIGNED * steps) + 1, self.runs.samples)
         steps = next((n for n in near if n % self.rows == 0 or self.rows % n == 0), steps)
-        remaining = float(self.max_steps - sum(steps for steps, _ in self.cost))
-        if self.levels:
-            pace = max(self.levels[-1].seconds / self.levels[-1].steps, 1e-9)
-            remaining = min(remaining, (self.runs.deadline - clock.monotonic()) / pace)
+        remaining = min(self.budget_left())
         if steps * (1 if last else 2) <= remaining:
             return steps, last
         if not self.levels:

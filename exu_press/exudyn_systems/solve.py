@@ -111,7 +111,7 @@ def solve_dynamic(
     users, duration = int(integration.numberOfSteps), integration.endTime - integration.startTime
     rows = max(1, round(duration / (settings.solution.sensors.writePeriod or math.inf)))
     coarsest, count = grid(users, rows)
-    runs = Levels(mbs, settings, count, begun + max_time, build, update_initial_values)
+    runs = Levels(mbs, settings, count, max_time, build, update_initial_values)
     if build is None:
         runs.refuse_copy()
     budget = max(BUDGET[0] * users, BUDGET[1]) if max_steps is None else max_steps

@@ -3,6 +3,7 @@
 import math
 import os
 import re
+from time import sleep
 
 import pytest
 from exudyn_systems.models import double_pendulum, oscillator, settings
@@ -92,8 +93,35 @@ def test_periods_that_no_level_resolves_are_told():
     assert 1e4 < needed < 3e4  # ten steps in a period of 2 pi / 1e4 s
 
 
-def test_a_run_ends_in_time():
-    """Between two levels, or within one where the machine is slow."""
-    outcome = refused_result(double_pendulum(0.1), settings(12.0, 50_000), max_time=1.0)
+def slow_oscillator():
+    """An oscillator whose spring takes a millisecond to say its force."""
+
+    def force(mbs, t, item, u, v, k, d, offset):
+        sleep(1e-3)
+        return k * u
+
+    return oscillator(force=force)[0]
+
+
+@pytest.mark.parametrize("system", [slow_oscillator(), slow_oscillator], ids=["copies", "built"])
+def test_a_run_that_is_out_of_time_in_its_first_levels_blames_the_budget(system):
+    outcome = refused_result(system, settings(20.0, 1000), max_time=0.02)
+    assert outcome.wall_time < 5.0
+    assert "Newton" not in outcome.reason
+    assert re.search(
+        r"the budget was too small for three levels .*; max_time = \S+ would do", outcome.reason
+    )
+
+
+def test_a_run_that_is_out_of_time_in_a_later_level_says_which_time_would_do():
+    outcome = refused_result(double_pendulum(0.1), settings(2.0, 50_000), max_time=1.0)
     assert outcome.wall_time < 20.0
-    assert re.search("the budget|the time was used up", outcome.reason)
+    assert float(re.search(r"max_time = (\S+) would do", outcome.reason)[1]) > 1.0
+
+
+def test_newton_fails_before_the_time_is_used_up():
+    def force(mbs, t, item, u, v, k, d, offset):
+        return k * u if t < 1.0 else float("nan")
+
+    outcome = refused_result(oscillator(force=force)[0], settings(2.0, 50), max_time=60.0)
+    assert "Newton's method fails at every level (" in outcome.reason

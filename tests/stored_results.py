@@ -8,7 +8,7 @@ from scipy.io import netcdf_file
 from exu_press.result.netcdf import write_checksums
 
 
-def rewritten(content, texts=None, variables=None, *, checksums=True):
+def rewritten(content, texts=None, variables=None):
     """Return a file with other texts and variables.
 
     Args:
@@ -16,7 +16,6 @@ def rewritten(content, texts=None, variables=None, *, checksums=True):
         texts: other texts by name, or None for none.
         variables: by name what is another thing: name (None: no variable), dimensions, values,
             units or long_name.
-        checksums: whether there are any; else the file is one of an older version.
     """
     made = io.BytesIO()
     with (
@@ -40,8 +39,7 @@ def rewritten(content, texts=None, variables=None, *, checksums=True):
             for attribute in ("units", "long_name"):
                 if kept[attribute] is not None:
                     setattr(copied, attribute, kept[attribute])
-        if checksums:
-            write_checksums(new)
+        write_checksums(new)
         new.flush()
         return made.getvalue()
 

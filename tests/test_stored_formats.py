@@ -1,11 +1,9 @@
 """Files that earlier versions have written are read, and a later version's refused by that name.
 
-`tests/stored/before_0.9` was written by commit 318beaad, `tests/stored/0.9` as 0.9 writes them: a
-run and a sweep of a slider-crank with a dry crank pin.
+`tests/stored/0.9` is as 0.9 writes them: a run and a sweep of a slider-crank with a dry crank pin.
 """
 
 import shutil
-import warnings
 from pathlib import Path
 
 import pytest
@@ -29,12 +27,7 @@ VERSIONS = sorted(path.name for path in STORED.iterdir())
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_a_stored_run_is_read(version):
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        result = Result.load(STORED / version / "run.nc")
-    assert ["without checksums" in str(w.message) for w in caught] == (
-        [True] if version == "before_0.9" else []
-    )
+    result = Result.load(STORED / version / "run.nc")
     assert result.completed
     assert result.time[-1] == pytest.approx(0.02 * 0.25)
     assert result.scene.joints["crank_pin"].clearance == 1e-4

@@ -18,7 +18,6 @@ class Kind(Enum):
     RUN = "run.nc"
     COMPARISON = "comparison.json"
     STUDY = REPORT_FILE
-    OLD_SWEEP = "table.csv"  # of versions before 0.9, which wrote no report
 
 
 def find_output(path: Path, preferred: Kind | None = None) -> tuple[Kind, Path]:
@@ -30,11 +29,9 @@ def find_output(path: Path, preferred: Kind | None = None) -> tuple[Kind, Path]:
     Raises:
         InputError: nothing is there, or results of several commands are.
     """
-    named = ", ".join(kind.value for kind in Kind if kind is not Kind.OLD_SWEEP)
+    named = ", ".join(kind.value for kind in Kind)
     if path.is_dir():
         kinds = [kind for kind in Kind if (path / kind.value).is_file()]
-        if Kind.STUDY in kinds:
-            kinds = [kind for kind in kinds if kind is not Kind.OLD_SWEEP]
         if not kinds and checkpoint_directory(path / Kind.RUN.value).is_dir():
             kinds = [Kind.RUN]
         if not kinds:
@@ -49,7 +46,7 @@ def find_output(path: Path, preferred: Kind | None = None) -> tuple[Kind, Path]:
     for kind in Kind:
         if path.name == kind.value:
             return kind, path
-    if path.suffix in (".json", ".csv"):
+    if path.suffix == ".json":
         raise InputError(f"{path}: allowed is a result file (.nc), or a directory with {named}")
     return Kind.RUN, path
 
@@ -89,6 +86,6 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
         return comparison_report(file, span)
     if span != ALL:
         raise InputError(f"--from, --to: {file.name} has no curves over time; allowed for runs")
-    from exu_press.report.study import study_page, sweep_page
+    from exu_press.report.study import study_page
 
-    return study_page(file) if kind is Kind.STUDY else sweep_page(file)
+    return study_page(file)

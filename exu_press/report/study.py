@@ -13,13 +13,10 @@ from exu_press.page.study import study_viewer
 from exu_press.report.html import page, paragraph, picture, stills, table, warnings
 from exu_press.report.run import provenance_section, scene_parts
 from exu_press.scene import Scene
-from exu_press.schema.csv_table import read_csv
 from exu_press.schema.stored import from_json
-from exu_press.schema.table import table_from
 from exu_press.studies.base.report import FORMAT, Column, Line, Panel, Points, Table
-from exu_press.studies.sweep import Sweep, SweepReport
 
-__all__ = ["reading", "study_page", "sweep_page"]
+__all__ = ["reading", "study_page"]
 
 WRONG = (ValueError, KeyError, IndexError, TypeError, AttributeError)
 
@@ -43,13 +40,6 @@ def study_page(file: Path) -> str:
     """Return the page of a study, from its report and the pictures beside it."""
     with reading(file, "a report of exu_press") as report:
         return _page(file, report)
-
-
-def sweep_page(file: Path) -> str:
-    """Return the page of a sweep that a version before 0.9 wrote, from table.csv and study.json."""
-    with reading(file.with_name("study.json"), "a sweep of exu_press") as study:
-        report = SweepReport(table_from(Sweep, "", study), read_csv(file))
-        return _page(file, report.page_data())
 
 
 def _page(file: Path, report: dict[str, Any]) -> str:

@@ -80,8 +80,7 @@ class Variable:
         Raises:
             InputError: the file has another type, or bytes that the variable's checksum is not of.
         """
-        expected = self.attributes.get(CHECKSUM)
-        if expected is not None and expected != b"%08x" % checksum(self.stored):
+        if self.attributes[CHECKSUM] != b"%08x" % checksum(self.stored):
             raise InputError("its values are damaged: they do not have the checksum of the file")
         if self.stored.dtype.newbyteorder("=") != dtype:
             raise InputError(f"type {self.stored.dtype.name}; allowed is {np.dtype(dtype).name}")

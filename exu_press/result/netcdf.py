@@ -1,7 +1,6 @@
 """A result as a NetCDF file, or as a dataset of xarray: units and names, and the scene."""
 
 import json
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -13,14 +12,7 @@ from exu_press.errors import InputError, error_prefix, required_package
 from exu_press.files.file_format import NewerFormatError, refuse_newer_format
 from exu_press.files.output_directory import replacing
 from exu_press.result.channel import AXES, Channel
-from exu_press.result.classic import (
-    CHECKSUM,
-    Classic,
-    Variable,
-    checksum,
-    header_checksum,
-    open_classic,
-)
+from exu_press.result.classic import Classic, Variable, checksum, header_checksum, open_classic
 from exu_press.result.contents import Contents
 from exu_press.result.info import Info
 from exu_press.result.surface import ARRAYS, Surface
@@ -35,8 +27,7 @@ __all__ = ["dataset", "is_whole", "read", "read_text", "write", "write_checksums
 Kind = TypeVar("Kind", bound=Contents)
 Number = TypeVar("Number", bound=np.generic)
 
-FORMAT, UNCHECKED = "exu_press result 2", "exu_press result 1"
-"""Formats: with checksums, as it is written; without, as it was."""
+FORMAT = "exu_press result 2"
 
 SAMPLE, AT_SAMPLES = "sample", "_at_samples"
 """Dimension of the samples, and the end of the names of channels over it."""
@@ -106,8 +97,6 @@ def _write_channel(file: "netcdf_file", name: str, along: str, channel: Channel)
 
 def read(path: Path, kind: type[Kind]) -> Kind:
     """Return the result in a file, as an object of this kind.
-
-    A file of an older version, which has no checksums, is read with a warning.
 
     Raises:
         InputError: it cannot be read, is no result, is damaged, or a later version's.
@@ -179,14 +168,8 @@ def _open_checked(path: Path) -> Classic:
     """
     file = open_classic(path)
     form = file.attributes.get("format", b"").decode(errors="replace")
-    if form == UNCHECKED and CHECKSUM not in file.attributes:
-        warnings.warn(
-            f"{path}: is of an older version without checksums: damage of it stays unnoticed",
-            stacklevel=4,
-        )
-        return file
     refuse_newer_format(form, FORMAT)
-    if form not in (FORMAT, UNCHECKED):
+    if form != FORMAT:
         raise InputError(f"has no format = {FORMAT!r}")
     file.check_header()
     return file

@@ -6,11 +6,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError, error_prefix
+from exu_press.errors import InputError
 from exu_press.files.output_directory import replacing
-from exu_press.schema.stored import LARGEST, short_text
 
-__all__ = ["Value", "flat", "read_csv", "write_csv"]
+__all__ = ["Value", "flat", "write_csv"]
 
 Value = str | float | bool | None
 
@@ -23,26 +22,6 @@ def write_csv(path: Path, columns: Mapping[str, Sequence[Value]]) -> None:
     writer.writerows([_text(value) for value in row] for row in zip(*columns.values(), strict=True))
     with replacing(path) as partial:
         partial.write_text(text.getvalue(), encoding="utf-8")
-
-
-def read_csv(path: Path) -> dict[str, tuple[Value, ...]]:
-    """Return the columns of a file that `write_csv` wrote.
-
-    Raises:
-        OSError: it cannot be read.
-        ValueError: it is no table, or has a number that is none or too large, in this column.
-    """
-    try:
-        with path.open(encoding="utf-8", newline="") as stream:
-            head, *lines = csv.reader(stream)
-    except csv.Error as error:
-        raise ValueError(f"{path.name}: {error}") from None
-    columns: dict[str, tuple[Value, ...]] = {}
-    cells = zip(*lines, strict=True) if lines else [()] * len(head)
-    for name, texts in zip(head, cells, strict=True):
-        with error_prefix(f"column {short_text(name)}: "):
-            columns[name] = tuple(map(_value, texts))
-    return columns
 
 
 def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -68,16 +47,3 @@ def _text(value: Value) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     return value if isinstance(value, str) else repr(value)
-
-
-def _value(text: str) -> Value:
-    """Return the content of a cell: a number, or a text; raise InputError if it is too large."""
-    if text in ("true", "false"):
-        return text == "true"
-    try:
-        number = float(text)
-    except ValueError:
-        return text or None
-    if not abs(number) < LARGEST:
-        raise InputError(f"{short_text(text)}: allowed are numbers below {LARGEST:g}")
-    return number

@@ -12,7 +12,6 @@ import pytest
 from exu_press import Scene
 from exu_press.cli import main
 from exu_press.parallel import cluster
-from exu_press.schema.csv_table import read_csv
 from exu_press.studies.stability import Row, StabilityReport
 from exu_press.studies.stability.run import StabilityCommand
 
@@ -141,7 +140,7 @@ def test_lines_files_and_pictures(name, said, written, pictures, given, tmp_path
 
 
 def sample_and_page(out):
-    assert set(map(len, read_csv(out / "samples.csv").values())) == {16}
+    assert (out / "samples.csv").read_text().count("\n") == 1 + 16
     assert main(["report", str(out), "--quiet"]) == 0
     page = (out / "report.html").read_text(encoding="utf-8")
     assert "Shares: peak_velocity" in page and "Presses of the sample" in page

@@ -6,10 +6,8 @@ import warnings
 import numpy as np
 import pytest
 from scipy.io import netcdf_file
-from stored_results import rewritten
 
 from exu_press import InputError, Result, Scene, simulate
-from exu_press.cli import main
 from exu_press.result.netcdf import is_whole
 
 
@@ -86,13 +84,3 @@ def test_a_changed_header_is_refused(content, path, change):
     with pytest.raises(InputError, match=r"header is damaged|has no format"):
         Result.load(path)
     assert not is_whole(path)
-
-
-def test_a_file_of_an_older_version_is_read_and_said_to_be_unchecked(content, path):
-    path.write_bytes(content)
-    original = Result.load(path)
-    path.write_bytes(rewritten(content, {"format": "exu_press result 1"}, checksums=False))
-    with pytest.warns(UserWarning, match=r"run\.nc: is of an older version without checksums"):
-        assert same(Result.load(path), original)
-    with pytest.warns(UserWarning, match="older version without checksums"):
-        assert main(["spectrum", str(path), "--quiet", "--no-pictures"]) == 0

@@ -10,6 +10,7 @@ from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.mobility import Mobility, mobility_of
 from exu_press.mechanism.stroke import Stroke, stroke_of
 from exu_press.mechanism.transmission import transmission_angles
+from exu_press.mechanism.turning import require_turning
 from exu_press.numerics.arrays import Array
 
 __all__ = ["Examination", "examine", "explain_motion_error"]
@@ -96,7 +97,7 @@ def examine(mechanism: Mechanism) -> Examination:
     """Examine a drawing; one whose crank does not turn is examined as far as possible."""
     mobility = mobility_of(mechanism)
     try:
-        mechanism.require_turning()
+        require_turning(mechanism)
         stroke = stroke_of(mechanism, ANGLES)
         transmission = transmission_angles(mechanism, ANGLES)
     except MotionError as error:

@@ -5,52 +5,19 @@ A circular slot is unrolled: there the pin moves along the tangent of the drawin
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Protocol
 
 import numpy as np
 
 from exu_press.errors import InputError
+from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.motion import Motion
-from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Point
-from exu_press.mechanism.springs import SpringBetween
+from exu_press.mechanism.parts import GROUND, Guide, Point
 from exu_press.numerics.arrays import Array
 
-__all__ = ["Drawing", "guide_direction", "guide_path", "motion_in_guide", "pose_in_guide"]
+__all__ = ["guide_direction", "guide_path", "motion_in_guide", "pose_in_guide"]
 
 
-class Drawing(Protocol):
-    """What a `Mechanism` is here."""
-
-    @property
-    def name(self) -> str:
-        """For messages."""
-
-    @property
-    def guides(self) -> tuple[Guide, ...]:
-        """Guides and slots."""
-
-    @property
-    def springs(self) -> tuple[SpringBetween, ...]:
-        """Springs between two points."""
-
-    @property
-    def size(self) -> float:
-        """Largest distance of two joints along x or y, m."""
-
-    def body(self, name: str) -> Body:
-        """Return a body by its name."""
-
-    def joints_of(self, body: str) -> list[Joint]:
-        """Return the joints of a body."""
-
-    def guided_end(self, guide: Guide) -> tuple[str, Point]:
-        """Return a guided body, and in its frame its pin in a slot, or its centre."""
-
-    def motion(self, angle: Array, speed: float) -> dict[str, Motion]:
-        """Return the motion of every body with ideal joints."""
-
-
-def pose_in_guide(mechanism: Drawing, guide: Guide, bodies: Sequence[str], poses: Array) -> Array:
+def pose_in_guide(mechanism: Mechanism, guide: Guide, bodies: Sequence[str], poses: Array) -> Array:
     """Return the pose (n, 3) of a guided body, at its pin or centre, in its guide's drawing.
 
     Args:
@@ -67,7 +34,7 @@ def pose_in_guide(mechanism: Drawing, guide: Guide, bodies: Sequence[str], poses
 
 
 def motion_in_guide(
-    mechanism: Drawing, guide: Guide, motions: Mapping[str, Motion]
+    mechanism: Mechanism, guide: Guide, motions: Mapping[str, Motion]
 ) -> tuple[Array, Array]:
     """Return pose and velocity, (n, 3) each, of a guided body, at its pin or centre, there.
 
@@ -95,7 +62,7 @@ def motion_in_guide(
 
 
 def _on_base(
-    mechanism: Drawing, guide: Guide, motions: Mapping[str, Motion]
+    mechanism: Mechanism, guide: Guide, motions: Mapping[str, Motion]
 ) -> tuple[Array, Array]:
     """Return pose and velocity of a guided body's pin or centre in a drawing that moves."""
     name, point = mechanism.guided_end(guide)
@@ -115,13 +82,12 @@ def _on_base(
 
 
 def guide_direction(
-    mechanism: Drawing, guide: Guide, direction: Point, motions: Mapping[str, Motion]
+    mechanism: Mechanism, guide: Guide, direction: Point, motions: Mapping[str, Motion]
 ) -> Array:
     """Return a direction of the drawing at a guide, (n, 2), which turns with it."""
     turned = np.zeros(len(motions[guide.body].position))
     if guide.on != GROUND:
-        base: Body = mechanism.body(guide.on)
-        turned = motions[guide.on].position[:, 2] - base.angle
+        turned = motions[guide.on].position[:, 2] - mechanism.body(guide.on).angle
     if guide.at is not None and guide.centre is not None:
         along = motion_in_guide(mechanism, guide, motions)[0][:, :2] - np.array(guide.at)
         radius = math.dist(guide.at, guide.centre)
@@ -129,7 +95,7 @@ def guide_direction(
     return _turn(np.tile(direction, (len(turned), 1)), turned)
 
 
-def guide_path(mechanism: Drawing, guide: Guide, angle: Array) -> Array:
+def guide_path(mechanism: Mechanism, guide: Guide, angle: Array) -> Array:
     """Return the path (n, 2) of a guided body's pin or centre in the drawing of its guide.
 
     A body whose crank does not turn stays where it is drawn.

@@ -10,7 +10,7 @@ import numpy as np
 
 from exu_press.mechanism.checks import check_defaults, check_drawing, require_kind
 from exu_press.mechanism.gears import Gear
-from exu_press.mechanism.kinematics import Kinematics, MotionError, kinematics_of
+from exu_press.mechanism.kinematics import kinematics_of
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import (
     GROUND,
@@ -23,16 +23,10 @@ from exu_press.mechanism.parts import (
     drawing_size,
 )
 from exu_press.mechanism.planar_constraints import PlanarConstraints, planar_constraints
-from exu_press.mechanism.slots import check_slot_ends
-from exu_press.mechanism.spring_motion import impossible_spring
 from exu_press.mechanism.springs import SpringBetween
 from exu_press.numerics.arrays import Array
 
 __all__ = ["Mechanism"]
-
-
-REVOLUTION = np.radians(np.arange(360.0))
-"""Crank angles from the drawing's, rad, at which pins are looked for at the ends of slots."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +53,7 @@ class Mechanism:
 
     Raises:
         InputError: names are used twice or unknown, a body has no mass, or the like.
-            `motion` checks whether the crank turns.
+            `exu_press.mechanism.turning` checks whether the crank turns.
     """
 
     name: str
@@ -191,19 +185,6 @@ class Mechanism:
         at = guide.at
         return guide.body, (0.0, 0.0) if at is None else self.body(guide.body).local(at)
 
-    def require_turning(self) -> None:
-        """Raise InputError unless the crank turns through a whole revolution; see `motion`.
-
-        Springs have a length, and gas a volume, at every crank angle.
-        """
-        self._kinematics()
-        if (impossible := impossible_spring(self)) is not None:
-            spring, angle, reason = impossible
-            bodies = tuple(body for body in spring.between if body != GROUND)
-            text = f"at crank angle {math.degrees(angle):.4g} deg springs.{spring.name} {reason}"
-            poses = {n: m.position[0] for n, m in self.motion(np.array([angle]), 1.0).items()}
-            raise MotionError(f"{self.name}: {text}", bodies, angle, poses)
-
     def motion(self, angle: Array, speed: float) -> dict[str, Motion]:
         """Return the motion (x, y, angle) of every body with ideal joints, by its name.
 
@@ -214,7 +195,10 @@ class Mechanism:
         Raises:
             InputError: the mechanism has not one degree of freedom, locks or branches.
         """
-        motions = self._kinematics().motion(angle, speed)
+        bodies = sorted(self.bodies, key=lambda body: body.name == self.crank)
+        joints = [joint for joint in self.joints if joint != self.shaft]
+        constraints = planar_constraints(bodies, joints, self.guides, self.size, self.gears)
+        motions = kinematics_of(self.name, constraints, self.shaft.at).motion(angle, speed)
         return {body.name: motions[body.name] for body in self.bodies}
 
     def ideal_slider(self, angle: Array, speed: float) -> tuple[Array, Array, Array]:
@@ -248,6 +232,12 @@ class Mechanism:
         angle = np.linspace(0.0, 2.0 * np.pi, 721)[:-1]
         lowest = angle[self.ideal_slider(angle, 1.0)[0].argmin()]
         return float(self.ideal_slider(np.array([self._reversal(lowest)]), 1.0)[0][0])
+
+    @cached_property
+    def stroke(self) -> float:
+        """Rise of the ideal output above its lowest position, m or rad."""
+        angle = np.linspace(0.0, 2.0 * np.pi, 721)
+        return float(self.ideal_slider(angle, 1.0)[0].max()) - self.bottom
 
     def _reversal(self, angle: float) -> float:
         """Return the nearest crank angle, rad, at which the ideal output reverses."""
@@ -286,19 +276,6 @@ class Mechanism:
     def constraints(self) -> PlanarConstraints:
         """Constraints of all joints and guides as ideal ones, and of gears."""
         return planar_constraints(self.bodies, self.joints, self.guides, self.size, self.gears)
-
-    def _kinematics(self) -> Kinematics:
-        bodies = sorted(self.bodies, key=lambda body: body.name == self.crank)
-        joints = [joint for joint in self.joints if joint != self.shaft]
-        constraints = planar_constraints(bodies, joints, self.guides, self.size, self.gears)
-        kinematics = kinematics_of(self.name, constraints, self.shaft.at)
-        if any(guide.length is not None for guide in self.guides):
-            self._check_slots(kinematics)
-        return kinematics
-
-    def _check_slots(self, kinematics: Kinematics) -> None:
-        """Raise MotionError where a pin reaches an end of its slot within a revolution."""
-        check_slot_ends(self, REVOLUTION, kinematics.motion(REVOLUTION, 1.0))
 
 
 def _direction(guide: Guide) -> Point:

@@ -201,6 +201,19 @@ class Guide:
         """Unit normal of the guide in the drawing, to the right of its direction."""
         return self.direction[1], -self.direction[0]
 
+    @property
+    def middle_along(self) -> float:
+        """Position of a slot's middle along it from the pin of the drawing, m."""
+        if self.at is None or self.middle is None:
+            return 0.0
+        begin = self.at if self.centre is None else self.centre
+        offset = self.middle[0] - begin[0], self.middle[1] - begin[1]
+        along = offset[0] * self.direction[0] + offset[1] * self.direction[1]
+        across = offset[0] * self.normal[0] + offset[1] * self.normal[1]
+        if self.centre is None:
+            return along
+        return math.dist(self.at, self.centre) * math.atan2(along, across)
+
 
 @dataclass(frozen=True)
 class Output:

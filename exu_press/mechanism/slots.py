@@ -1,49 +1,21 @@
-"""Slots: the ends that their pins may not reach, and their outlines."""
+"""Outlines of slots."""
 
 import math
-from collections.abc import Mapping
 
 import numpy as np
 
-from exu_press.mechanism.guide_motion import Drawing, guide_path, motion_in_guide
-from exu_press.mechanism.kinematics import MotionError
-from exu_press.mechanism.motion import Motion
+from exu_press.mechanism.guide_motion import guide_path
+from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import Guide
 from exu_press.numerics.arrays import Array
 
-__all__ = ["check_slot_ends", "slot_outline"]
+__all__ = ["slot_outline"]
 
 ARC = 25
 """Points of a slot's wall in pictures."""
 
 
-def check_slot_ends(mechanism: Drawing, angle: Array, motions: Mapping[str, Motion]) -> None:
-    """Raise MotionError for the first crank angle, rad, (n,), at which a pin is at its slot's end.
-
-    Args:
-        mechanism: with slots.
-        angle: (n,) crank angles from the drawing's, rad.
-        motions: of its bodies there.
-    """
-    for guide in mechanism.guides:
-        if guide.at is None or guide.length is None:
-            continue
-        position = motion_in_guide(mechanism, guide, motions)[0][:, :2] - np.array(guide.at)
-        beside = position @ np.array(guide.direction) - _middle(guide)
-        beyond = np.flatnonzero(np.abs(beside) > 0.5 * guide.length)
-        if len(beyond):
-            first = int(beyond[0])
-            raise MotionError(
-                f"{mechanism.name}: the pin of {guide.body} reaches an end of {guide.key} at crank "
-                f"angle {math.degrees(angle[first]) % 360.0:.4g} deg; it needs a length of "
-                f"{2.0 * np.abs(beside).max():.4g} m, and has {guide.length:g} m",
-                (guide.body,),
-                float(angle[first]),
-                {name: motion.position[first] for name, motion in motions.items()},
-            )
-
-
-def slot_outline(mechanism: Drawing, guide: Guide, angle: Array, half_width: float) -> Array:
+def slot_outline(mechanism: Mechanism, guide: Guide, angle: Array, half_width: float) -> Array:
     """Return the corners (m, 2) of a slot in the drawing of the body that has it.
 
     Args:
@@ -63,8 +35,7 @@ def slot_outline(mechanism: Drawing, guide: Guide, angle: Array, half_width: flo
         places = radius * np.unwrap(np.arctan2(arm @ along, arm @ across))
     low, high = float(places.min()), float(places.max())
     if guide.length is not None:
-        middle = _middle(guide)
-        low, high = min(low, middle - 0.5 * guide.length), max(high, middle + 0.5 * guide.length)
+        low, high = (guide.middle_along + side * guide.length for side in (-0.5, 0.5))
     walls = []
     for side in (1.0, -1.0):
         s = np.linspace(low, high, ARC)[:: int(side)]
@@ -77,16 +48,3 @@ def slot_outline(mechanism: Drawing, guide: Guide, angle: Array, half_width: flo
                 centre + size * (np.outer(np.cos(turned), across) + np.outer(np.sin(turned), along))
             )
     return np.vstack(walls)
-
-
-def _middle(guide: Guide) -> float:
-    """Return the place of a slot's middle along it from the pin of the drawing, m."""
-    assert guide.at is not None
-    if guide.middle is None:
-        return 0.0
-    if guide.centre is None:
-        return float((np.array(guide.middle) - np.array(guide.at)) @ np.array(guide.direction))
-    x, y = np.array(guide.middle) - np.array(guide.centre)
-    along, across = guide.direction, guide.normal
-    turned = math.atan2(x * along[0] + y * along[1], x * across[0] + y * across[1])
-    return math.dist(guide.at, guide.centre) * turned

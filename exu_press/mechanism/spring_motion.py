@@ -6,16 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exu_press.mechanism.guide_motion import Drawing
+from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.motion import Motion
 from exu_press.mechanism.parts import GROUND, PRECISION, Joint, Point
 from exu_press.mechanism.springs import SpringBetween
 from exu_press.numerics.arrays import Array
 
-__all__ = ["SpringMotion", "impossible_spring", "joint_at", "spring_ends", "spring_motion"]
-
-REFINEMENTS = 4
-"""Newton's iterations from half a degree to the crank angle of an extreme length."""
+__all__ = ["SpringMotion", "joint_at", "spring_ends", "spring_motion"]
 
 
 @dataclass(frozen=True)
@@ -48,7 +45,7 @@ class SpringMotion:
         return np.asarray((self.direction * self.velocity).sum(axis=1))
 
 
-def spring_ends(mechanism: Drawing, spring: SpringBetween) -> list[tuple[str, Point]]:
+def spring_ends(mechanism: Mechanism, spring: SpringBetween) -> list[tuple[str, Point]]:
     """Return (body, point in its frame) of both ends of a spring."""
     return [
         (name, at if name == GROUND else mechanism.body(name).local(at))
@@ -57,7 +54,7 @@ def spring_ends(mechanism: Drawing, spring: SpringBetween) -> list[tuple[str, Po
 
 
 def spring_motion(
-    mechanism: Drawing, spring: SpringBetween, motions: Mapping[str, Motion]
+    mechanism: Mechanism, spring: SpringBetween, motions: Mapping[str, Motion]
 ) -> SpringMotion:
     """Return the motion of a spring with that of the bodies."""
     count = len(next(iter(motions.values())).position)
@@ -74,31 +71,8 @@ def spring_motion(
     )
 
 
-def joint_at(mechanism: Drawing, body: str, at: Point) -> Joint | None:
+def joint_at(mechanism: Mechanism, body: str, at: Point) -> Joint | None:
     """Return a body's joint at a point of the drawing, None where there is none."""
     close = PRECISION * mechanism.size
     joints = mechanism.joints_of(body)
     return next((joint for joint in joints if math.dist(joint.at, at) <= close), None)
-
-
-def impossible_spring(mechanism: Drawing) -> tuple[SpringBetween, float, str] | None:
-    """Return a spring, a crank angle, rad, and why the spring cannot be there; None without one.
-
-    The extreme lengths over a revolution of the ideal mechanism decide.
-    """
-    for spring in mechanism.springs:
-        angles = np.linspace(0.0, 2.0 * np.pi, 721)
-        lengths = spring_motion(mechanism, spring, mechanism.motion(angles, 1.0)).length
-        for extreme in (lengths.argmin(), lengths.argmax()):
-            angle = float(angles[extreme])
-            for _ in range(REFINEMENTS):
-                motion = spring_motion(mechanism, spring, mechanism.motion(np.array([angle]), 1.0))
-                slope = float((motion.ends * motion.velocity).sum())
-                curvature = float((motion.velocity**2 + motion.ends * motion.acceleration).sum())
-                if abs(slope) < np.radians(0.5) * abs(curvature):
-                    angle -= slope / curvature
-            length = float(motion.length[0])
-            length = length if length > 1e-9 * mechanism.size else 0.0
-            if reason := spring.why_impossible(length):
-                return spring, angle % (2.0 * np.pi), reason
-    return None

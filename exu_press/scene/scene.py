@@ -22,6 +22,7 @@ from exu_press.mechanism import (
 from exu_press.mechanism import Joint as Drawn
 from exu_press.mechanism.kinematics import MotionError
 from exu_press.mechanism.spring_motion import joint_at
+from exu_press.mechanism.turning import require_turning
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.changes import asked_mechanism, changed_keys, drop, gives_key
 from exu_press.scene.custom import UnresolvedJoint
@@ -659,7 +660,7 @@ def _load_dict(load: "Load") -> dict[str, Any]:
 def _require_turning(mechanism: Mechanism) -> None:
     """Refuse a mechanism whose crank does not turn, with all that its examination finds."""
     try:
-        mechanism.require_turning()
+        require_turning(mechanism)
     except MotionError as refusal:
         from exu_press.mechanism.examine import explain_motion_error
 

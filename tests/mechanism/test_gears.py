@@ -10,6 +10,7 @@ from exu_press.mechanism import mechanism_from_dict, mechanism_to_dict, shipped_
 from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.independent_constraints import independent_constraints
 from exu_press.mechanism.mobility import mobility_of
+from exu_press.mechanism.turning import require_turning
 
 TURN = np.linspace(0.0, 4.0 * np.pi, 333)
 
@@ -116,4 +117,4 @@ def test_two_gears_that_disagree_are_told():
     assert not mobility.is_driven
     assert {"gears.pair", "gears.wrong"} <= {*mobility.overconstraining}
     with pytest.raises(InputError, match="hold second_crank more than once and do not agree"):
-        doubled.require_turning()
+        require_turning(doubled)

@@ -18,6 +18,7 @@ from exu_press.mechanism.planar_constraints import (
     PointOnLine,
     RotationRatio,
 )
+from exu_press.mechanism.turning import require_turning
 
 MOVING = PlanarConstraints(
     size=1.0,
@@ -87,14 +88,14 @@ REDUNDANT = [
 def test_redundant_parts_agree_to_the_drawings_precision(mechanism, joint):
     for shift in (2.5e-9, 1e-7):
         drawn = moved(mechanism, joint, shift)
-        drawn.require_turning()
+        require_turning(drawn)
         assert mobility_of(drawn).redundant == mobility_of(mechanism).redundant == 1
         ideal = frozenset(j.name for j in drawn.joints)
         assert (
             independent_constraints(drawn, ideal).redundant
             == independent_constraints(mechanism, ideal).redundant
         )
-    assert "do not agree" in refused(moved(mechanism, joint, 1e-4).require_turning)
+    assert "do not agree" in refused(require_turning, moved(mechanism, joint, 1e-4))
 
 
 def test_two_joints_a_nanometre_apart_are_in_one_place():

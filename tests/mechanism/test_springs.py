@@ -11,6 +11,7 @@ from exu_press.mechanism import mechanism_from_dict, mechanism_to_dict, shipped_
 from exu_press.mechanism.examine import examine
 from exu_press.mechanism.spring_motion import spring_motion
 from exu_press.mechanism.springs import GasSpring, LinearSpring
+from exu_press.mechanism.turning import require_turning
 
 ENDS = ("ram", "frame"), ((0.1, 0.2), (0.1, 0.9))
 PRESS = shipped_mechanism("cycloidal_press")
@@ -121,7 +122,7 @@ def test_impossible_somewhere_is_told_with_the_angle(keys, angle, text):
     with pytest.raises(
         InputError, match=rf"at crank angle .* deg springs\.balance {text}"
     ) as raised:
-        mechanism.require_turning()
+        require_turning(mechanism)
     assert examine(mechanism).stroke is None
     ram = mechanism.ideal_slider(np.array([raised.value.angle]), 1.0)[0][0]
     if angle is None:

@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
-from exudyn.itemInterface import SensorNode, SensorObject
+import numpy as np
+from exudyn.itemInterface import SensorNode
 
 from exu_press.errors import InputError
 from exu_press.integrate.modal_mass import follow_modes
@@ -12,13 +13,20 @@ from exu_press.joints.joint import ClearanceJoint
 from exu_press.joints.states import States
 from exu_press.mechanism import Motion
 from exu_press.model.bodies import add_bodies
-from exu_press.model.drive import add_drive, crank_angle_of, hold_flexible_bodies, turned_body
+from exu_press.model.drive import (
+    add_drive,
+    add_gear,
+    crank_angle_of,
+    hold_flexible_bodies,
+    turned_body,
+)
 from exu_press.model.guides import add_guide
 from exu_press.model.ideal_joints import add_ideal_joint
 from exu_press.model.model import Model, count_items
-from exu_press.model.stall import Stall, holding_torque
+from exu_press.model.stall import Stall
 from exu_press.model.system import System
 from exu_press.scene import IdealJoint, Scene
+from exu_press.scene.applied import holding_torque
 from exu_press.scene.joint import oil_of
 from exu_press.schema.table import plain
 
@@ -85,32 +93,24 @@ def _assemble(
     mechanism, constraints, joints = system.mechanism, system.constraints, system.scene.joints
     add_bodies(system, {**system.ideal, **start}, frames)
     clearance = _clearance_joints(system) if joints.with_clearance else {}
-    ideal = {
-        joint.name: add_ideal_joint(system, joint)
-        for joint in mechanism.joints
-        if joint.name in {*constraints.joints, *constraints.single_axis}
-    }
+    for joint in mechanism.joints:
+        if joint.name in {*constraints.joints, *constraints.single_axis}:
+            add_ideal_joint(system, joint)
     if system.flexible:
-        ideal |= hold_flexible_bodies(system, start)
-    guides = {
-        guide.name: add_guide(system, guide)
-        for guide in mechanism.guides
-        if guide.name in constraints.guides
-    }
-    gears: dict[str, int] = {}
-    if constraints.gears:
-        from exu_press.model.gears import add_gear
-
-        gears = {
-            g.name: add_gear(system, g) for g in mechanism.gears if g.name in constraints.gears
-        }
-    springs: dict[str, int] = {}
+        hold_flexible_bodies(system, start)
+    for guide in mechanism.guides:
+        if guide.name in constraints.guides:
+            add_guide(system, guide)
+    for gear in mechanism.gears:
+        if gear.name in constraints.gears:
+            add_gear(system, gear)
     if mechanism.springs:
         from exu_press.model.springs import add_spring
 
-        springs = {spring.name: add_spring(system, spring) for spring in mechanism.springs}
+        for spring in mechanism.springs:
+            add_spring(system, spring)
     guideways = _guideways(system)
-    friction = _guide_friction(system, guides)
+    friction = _guide_friction(system)
     start_stop: StartStop | None = None
     motor = system.scene.drive
     if motor is not None and motor.clutch is not None:
@@ -118,7 +118,7 @@ def _assemble(
 
         add_flywheel(system)
         start_stop = add_start_stop(system, turned_body(system), crank_angle_of(system))
-    drive = add_drive(system)
+    add_drive(system)
     loads: dict[str, ActingLoad] = {}
     if system.loads:
         from exu_press.model.loads import add_loads
@@ -126,12 +126,11 @@ def _assemble(
         loads = add_loads(system)
     if system.flexible:
         follow_modes(system.mbs)
-    _add_sensors(system, ideal | {"drive": drive}, guides, gears)
-    _add_spring_sensors(system, springs)
+    _record_bodies(system)
     system.mbs.Assemble()
     if start_stop is not None:
-        forces = dict.fromkeys(system.loads, 0.0)
-        start_stop.begin(holding_torque(mechanism, system.scene, forces, system.scene.start_angle))
+        begin = np.array([system.scene.start_angle])
+        start_stop.begin(float(holding_torque(mechanism, system.scene, {}, begin)[0]))
     return Model(
         scene=system.scene,
         mechanism=mechanism,
@@ -142,7 +141,7 @@ def _assemble(
         nodes=system.nodes,
         rigid=system.rigid,
         clearance_joints=clearance,
-        drive=drive,
+        drive=system.forces["drive", "force"],
         crank_angle=crank_angle_of(system),
         start_stop=start_stop,
         stall=_stall(system.scene),
@@ -180,9 +179,7 @@ def _guideways(system: System) -> dict[str, tuple[ClearanceJoint, ...]]:
     return {g.name: add_guideways(system, g, guideway) for g, guideway in guides if guideway}
 
 
-def _guide_friction(
-    system: System, guides: Mapping[str, Mapping[str, int]]
-) -> dict[str, "GuideFriction"]:
+def _guide_friction(system: System) -> dict[str, "GuideFriction"]:
     """Add the friction of guides without clearance; return it by their names."""
     rubbing = [
         guide
@@ -204,9 +201,9 @@ def _guide_friction(
     from exu_press.model.guide_friction import add_guide_friction
 
     return {
-        guide.name: add_guide_friction(system, guide, guides[guide.name])
+        guide.name: add_guide_friction(system, guide)
         for guide in rubbing
-        if guide.lateral or "force" in guides[guide.name]
+        if guide.lateral or (guide.key, "force") in system.forces
     }
 
 
@@ -245,13 +242,8 @@ def _stall(scene: Scene) -> Stall:
     return Stall(slower, 60.0 / scene.speed_rpm)
 
 
-def _add_sensors(
-    system: System,
-    joints: Mapping[str, int],
-    guides: Mapping[str, Mapping[str, int]],
-    gears: Mapping[str, int],
-) -> None:
-    """Record bodies' coordinates and the constraints' forces."""
+def _record_bodies(system: System) -> None:
+    """Record the coordinates of all bodies, their rates and accelerations."""
     levels = {
         "position": exu.OutputVariableType.Coordinates,
         "velocity": exu.OutputVariableType.Coordinates_t,
@@ -261,27 +253,3 @@ def _add_sensors(
         for level, output in levels.items():
             sensor = SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=output)
             system.sensors[name, level] = system.mbs.AddSensor(sensor)
-    forces = {(name, "force"): number for name, number in joints.items()}
-    for guide, numbers in guides.items():
-        name = system.mechanism.guide(guide).key
-        forces |= {(name, kind): number for kind, number in numbers.items()}
-    forces |= {(f"gear_{name}", "torque"): number for name, number in gears.items()}
-    for key, number in forces.items():
-        local = number in system.local_forces
-        kind = exu.OutputVariableType.ForceLocal if local else exu.OutputVariableType.Force
-        load = SensorObject(objectNumber=number, storeInternal=True, outputVariableType=kind)
-        system.sensors[key] = system.mbs.AddSensor(load)
-
-
-def _add_spring_sensors(system: System, springs: Mapping[str, int]) -> None:
-    """Record the vector between both ends of springs, and its rate."""
-    levels = {
-        "ends": exu.OutputVariableType.Displacement,
-        "velocity": exu.OutputVariableType.Velocity,
-    }
-    for name, number in springs.items():
-        for level, output in levels.items():
-            sensor = SensorObject(
-                objectNumber=number, storeInternal=True, outputVariableType=output
-            )
-            system.sensors[f"spring_{name}", level] = system.mbs.AddSensor(sensor)

@@ -4,14 +4,24 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import exudyn as exu
-from exudyn.itemInterface import ObjectConnectorCoordinateSpringDamper
+from exudyn.itemInterface import (
+    ObjectConnectorCoordinate,
+    ObjectConnectorCoordinateSpringDamper,
+)
 
-from exu_press.mechanism import Body, Motion
+from exu_press.mechanism import Body, Gear, Motion
 from exu_press.mechanism.parts import DRIVE, FLYWHEEL
 from exu_press.model.rigid_body import RigidBody
 from exu_press.model.system import System
 
-__all__ = ["CrankAngle", "add_drive", "crank_angle_of", "hold_flexible_bodies", "turned_body"]
+__all__ = [
+    "CrankAngle",
+    "add_drive",
+    "add_gear",
+    "crank_angle_of",
+    "hold_flexible_bodies",
+    "turned_body",
+]
 
 CrankAngle = Callable[[], tuple[float, float]]
 """Angle, rad, and angular velocity, rad/s, of the driven body in the current state."""
@@ -23,14 +33,16 @@ CARRIER_INERTIA = 1e-5
 """Mass and inertia of a disc that moves with a face, over those of its body: likewise."""
 
 
-def add_drive(system: System) -> int:
+def add_drive(system: System) -> None:
     """Drive the crank: by a constraint on its angular velocity, or by a motor's torque.
 
     Exudyn differentiates the torque of the motor's connector numerically for Newton's method.
     """
     scene, turned = system.scene, turned_body(system)
     if scene.drive is None:
-        return system.hold(turned, "angle", velocityLevel=True, offset=scene.angular_speed)
+        number = system.hold(turned, "angle", velocityLevel=True, offset=scene.angular_speed)
+        system.record("drive", "force", number)
+        return
     law = scene.drive.torque.law(scene.speed_rpm)
 
     def negative_torque(
@@ -46,7 +58,20 @@ def add_drive(system: System) -> int:
         ],
         springForceUserFunction=function,
     )
-    return int(system.mbs.AddObject(motor))
+    system.record("drive", "force", system.mbs.AddObject(motor))
+
+
+def add_gear(system: System, gear: Gear) -> None:
+    """Hold the angles of two rigid bodies in their ratio; a flexible crank's is that of its disc.
+
+    The force of the constraint is the torque on the geared body, N m.
+    """
+    to = turned_body(system) if gear.to == system.mechanism.crank else gear.to
+    constraint = ObjectConnectorCoordinate(
+        markerNumbers=[system.coordinate(gear.body, "angle"), system.coordinate(to, "angle")],
+        factor1=gear.ratio,
+    )
+    system.record(f"gear_{gear.name}", "torque", system.mbs.AddObject(constraint))
 
 
 def turned_body(system: System) -> str:
@@ -72,7 +97,7 @@ def crank_angle_of(system: System) -> CrankAngle:
     return angle
 
 
-def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[str, int]:
+def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> None:
     """Hold flexible bodies in the plane and on pivots of the frame.
 
     A disc drives a flexible crank, and one moves with each face in a slot or a moving guide.
@@ -80,9 +105,6 @@ def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[st
     Args:
         system: with all bodies in it.
         start: name -> motion at the start, where it is not the ideal mechanism's.
-
-    Returns:
-        name of a joint with the frame, with a number for each of several faces -> object number.
     """
     from exu_press.model.flexible_body import (
         guide_points,
@@ -92,7 +114,6 @@ def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[st
     )
 
     mbs = system.mbs
-    numbers: dict[str, int] = {}
     for name, body in system.flexible.items():
         placed = system.parts[name]
         if name == system.mechanism.crank:
@@ -106,8 +127,8 @@ def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> dict[st
         pivot = system.constraints.pivots.get(name)
         hold_upright(mbs, system.still, body, placed, pivot)
         if pivot is not None:
-            numbers |= hold_pivot(mbs, system.ground, body, placed, pivot)
-    return numbers
+            for joint, number in hold_pivot(mbs, system.ground, body, placed, pivot).items():
+                system.record(joint, "force", number)
 
 
 def _add_disc(system: System, start: Motion | None) -> None:

@@ -1,7 +1,5 @@
 """Friction of guides without clearance."""
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from exu_press.joints.guide_friction import GuideFriction, HeldSide, SideForce, SpringSide
@@ -12,14 +10,8 @@ from exu_press.model.system import System
 __all__ = ["add_guide_friction"]
 
 
-def add_guide_friction(system: System, guide: Guide, numbers: Mapping[str, int]) -> GuideFriction:
-    """Add the friction of a guide without clearance.
-
-    Args:
-        system: with the guide in it.
-        guide: ideal or elastic.
-        numbers: object numbers, as `add_guide` returns them.
-    """
+def add_guide_friction(system: System, guide: Guide) -> GuideFriction:
+    """Add the friction of a guide without clearance, which is in the system."""
     mbs = system.mbs
     line: GuideLine
     normal = np.array(guide.normal)
@@ -41,7 +33,7 @@ def add_guide_friction(system: System, guide: Guide, numbers: Mapping[str, int])
         line = FixedLine(np.array([*guide.direction, 0.0]), np.array([*normal, 0.0]))
     side: SideForce
     if guide.lateral is None:
-        side = HeldSide(mbs, numbers["force"])
+        side = HeldSide(mbs, system.forces[guide.key, "force"])
     else:
         side = SpringSide(guide.lateral.stiffness, guide.lateral.damping, line)
     law = system.scene.guides[guide.name].friction_table(system.scene.friction or {}).friction()

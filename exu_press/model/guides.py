@@ -2,6 +2,7 @@
 
 import math
 
+import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyRigid,
@@ -21,34 +22,29 @@ from exu_press.numerics.arrays import Array
 __all__ = ["add_guide"]
 
 
-def add_guide(system: System, guide: Guide) -> dict[str, int]:
-    """Hold the displacement along a guide's normal and the angle, by constraints or springs.
-
-    Returns:
-        "force" and "moment", as far as the guide exerts them, -> object number.
-    """
+def add_guide(system: System, guide: Guide) -> None:
+    """Hold the displacement along a guide's normal and the angle, by constraints or springs."""
     if guide.is_rail and guide.body in system.flexible:
-        return _add_flexible_guide(system, guide)
+        _add_flexible_guide(system, guide)
+        return
     body, on = system.in_guide(guide)
     holds_across, holds_angle = system.constraints.guides[guide.name]
     if guide.lateral is not None and guide.tilting is not None and not guide.is_rail:
         from exu_press.model.moving_guides import add_springs_on_body
 
         add_springs_on_body(system, guide, guide.lateral, guide.tilting)
-        return {}
-    added = {}
+        return
     if guide.lateral is not None:
-        added["force"] = _lateral_spring(system, guide, guide.lateral)
+        _add_lateral_spring(system, guide, guide.lateral)
     elif holds_across:
-        added["force"] = _hold_across(system, guide)
+        _hold_across(system, guide)
     if guide.tilting is not None:
-        added["moment"] = system.spring(body, "angle", guide.tilting)
+        system.record(guide.key, "moment", system.spring(body, "angle", guide.tilting))
     elif holds_angle:
-        added["moment"] = system.hold(body, "angle", on)
-    return added
+        system.record(guide.key, "moment", system.hold(body, "angle", on))
 
 
-def _add_flexible_guide(system: System, guide: Guide) -> dict[str, int]:
+def _add_flexible_guide(system: System, guide: Guide) -> None:
     """Hold the mean motion of a flexible body's faces in a guide.
 
     Springs are one item with constant matrices; their forces follow from the recorded motion.
@@ -63,7 +59,6 @@ def _add_flexible_guide(system: System, guide: Guide) -> dict[str, int]:
     springs = {"force": guide.lateral, "moment": guide.tilting}
     directions = {"force": (*guide.normal, 0.0), "moment": (0.0, 0.0, 1.0)}
     references = [np.array(mbs.GetNodeParameter(n, "referenceCoordinates")) for n in body.nodes]
-    added = {}
     stiffness, damping = (np.zeros((rows.shape[1],) * 2) for _ in range(2))
     force = np.zeros(rows.shape[1])
     for quantity, direction in directions.items():
@@ -75,7 +70,8 @@ def _add_flexible_guide(system: System, guide: Guide) -> dict[str, int]:
             force -= spring.stiffness * deflection * row
         elif is_held[quantity]:
             offset = float(row @ np.concatenate(references)) - deflection
-            added[quantity] = _hold_row(system, body.nodes, row, len(references[0]), offset)
+            number = _hold_row(system, body.nodes, row, len(references[0]), offset)
+            system.record(guide.key, quantity, number)
     if stiffness.any():
         item = ObjectGenericODE2(
             nodeNumbers=body.nodes,
@@ -85,7 +81,6 @@ def _add_flexible_guide(system: System, guide: Guide) -> dict[str, int]:
             visualization=VObjectGenericODE2(show=False),
         )
         mbs.AddObject(item)
-    return added
 
 
 def _hold_row(system: System, nodes: list[int], row: Array, frame: int, offset: float) -> int:
@@ -102,7 +97,7 @@ def _hold_row(system: System, nodes: list[int], row: Array, frame: int, offset: 
     return int(mbs.AddObject(constraint))
 
 
-def _hold_across(system: System, guide: Guide) -> int:
+def _hold_across(system: System, guide: Guide) -> None:
     """Hold a rigid body along its guide's normal; in the frame linear in the coordinates."""
     mechanism = system.mechanism
     if not guide.is_rail:
@@ -114,17 +109,20 @@ def _hold_across(system: System, guide: Guide) -> int:
             markers = [system.marker(on, base.local(guide.centre)), pin]
             distance = math.dist(at, guide.centre)
             circle = ObjectConnectorDistance(markerNumbers=markers, distance=distance)
-            return int(system.mbs.AddObject(circle))
-        angle = math.atan2(guide.normal[1], guide.normal[0]) - base.angle
-        return hold_direction(system, guide.key, (on, base.local(at)), angle, pin)
+            system.record(guide.key, "force", system.mbs.AddObject(circle))
+        else:
+            angle = math.atan2(guide.normal[1], guide.normal[0]) - base.angle
+            hold_direction(system, guide.key, (on, base.local(at)), angle, pin)
+        return
     rigid = system.rigid[guide.body]
     offset = np.dot(system.mechanism.body(guide.body).centre_of_mass, guide.normal)
     by_name = dict(zip(("x", "y", "angle"), (*guide.normal, 0.0), strict=True))
     row = np.array([by_name[coordinate] for coordinate in rigid.coordinates])
-    return _hold_row(system, [rigid.node], row, len(row), float(offset))
+    number = _hold_row(system, [rigid.node], row, len(row), float(offset))
+    system.record(guide.key, "force", number)
 
 
-def _lateral_spring(system: System, guide: Guide, spring: Spring) -> int:
+def _add_lateral_spring(system: System, guide: Guide, spring: Spring) -> None:
     """Add a spring along a guide's normal, relaxed in the ideal mechanism's start."""
     start = system.ideal[guide.body].position[0]
     marker = MarkerBodyRigid(bodyNumber=system.ground, localPosition=[start[0], start[1], 0.0])
@@ -134,6 +132,5 @@ def _lateral_spring(system: System, guide: Guide, spring: Spring) -> int:
         damping=spring.damping,
         axisMarker0=[*guide.normal, 0.0],
     )
-    number = int(system.mbs.AddObject(connector))
-    system.local_forces.add(number)
-    return number
+    number = system.mbs.AddObject(connector)
+    system.record(guide.key, "force", number, exu.OutputVariableType.ForceLocal)

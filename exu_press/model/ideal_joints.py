@@ -19,32 +19,35 @@ from exu_press.model.system import System
 __all__ = ["add_ideal_joint", "hold_direction"]
 
 
-def add_ideal_joint(system: System, joint: Joint) -> int:
+def add_ideal_joint(system: System, joint: Joint) -> None:
     """Add a revolute joint, or a constraint in the single direction that is not redundant."""
     axis = system.constraints.single_axis.get(joint.name)
     if axis is not None:
-        return _add_single_axis(system, joint, axis)
+        _add_single_axis(system, joint, axis)
+        return
     markers = [system.joint_marker(joint, *end) for end in system.mechanism.ends(joint)]
     revolute = ObjectJointRevolute2D(name=joint.name, markerNumbers=markers)
-    return int(system.mbs.AddObject(revolute))
+    system.record(joint.name, "force", system.mbs.AddObject(revolute))
 
 
-def _add_single_axis(system: System, joint: Joint, axis: SingleAxis) -> int:
+def _add_single_axis(system: System, joint: Joint, axis: SingleAxis) -> None:
     """Constrain a joint's two bodies in one direction, which turns with one of them."""
     journal, bearing = system.mechanism.ends(joint)
     (body, point), end = (journal, bearing) if axis.body == joint.journal else (bearing, journal)
     flexible = [name for name in (body, end[0]) if name in system.flexible]
     if flexible:
-        return _add_flexible_single_axis(system, joint, axis, flexible[0])
-    return hold_direction(
-        system, joint.name, (body, point), axis.angle, system.joint_marker(joint, *end)
-    )
+        _add_flexible_single_axis(system, joint, axis, flexible[0])
+        return
+    marker = system.joint_marker(joint, *end)
+    hold_direction(system, joint.name, (body, point), axis.angle, marker)
 
 
 def hold_direction(
     system: System, name: str, end: tuple[str, Point], angle: float, marker_of_point: int
-) -> int:
+) -> None:
     """Hold a point of a body on a line of another rigid one.
+
+    The recorded force, along the normal, is that on the body with the line.
 
     Args:
         system: with both bodies.
@@ -52,9 +55,6 @@ def hold_direction(
         end: body with the line, or the frame, and a point of the line in the body's frame.
         angle: of the line's normal in that frame, rad.
         marker_of_point: number of the marker of the point that is held.
-
-    Returns:
-        Object number; its force, along the normal, is that on the body with the line.
     """
     body, local = end
     if body != GROUND:
@@ -66,12 +66,13 @@ def hold_direction(
         markerNumbers=[system.mbs.AddMarker(marker), marker_of_point],
         constrainedAxes=[1, 0, 0, 0, 0, 0],
     )
-    number = int(system.mbs.AddObject(constraint))
-    system.local_forces.add(number)
-    return number
+    number = system.mbs.AddObject(constraint)
+    system.record(name, "force", number, exu.OutputVariableType.ForceLocal)
 
 
-def _add_flexible_single_axis(system: System, joint: Joint, axis: SingleAxis, flexible: str) -> int:
+def _add_flexible_single_axis(
+    system: System, joint: Joint, axis: SingleAxis, flexible: str
+) -> None:
     """Constrain a flexible body's joint in one direction, where a guide keeps that along x or y."""
     guided = {guide.body for guide in system.mechanism.guides if guide.is_rail}
     angle = axis.angle
@@ -87,4 +88,4 @@ def _add_flexible_single_axis(system: System, joint: Joint, axis: SingleAxis, fl
     constraint = ObjectJointSpherical(
         name=joint.name, markerNumbers=markers, constrainedAxes=[*map(int, axes), 0]
     )
-    return int(system.mbs.AddObject(constraint))
+    system.record(joint.name, "force", system.mbs.AddObject(constraint))

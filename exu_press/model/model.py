@@ -7,11 +7,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
+import numpy as np
 
 from exu_press.integrate import ARRIVED, Outcome, SolverTuning
 from exu_press.model.drive import CrankAngle
 from exu_press.model.rigid_body import RigidBody
-from exu_press.model.stall import Stall, holding_torque, stall_message
+from exu_press.model.stall import Stall, stall_message
+from exu_press.scene.applied import holding_torque
 from exu_press.solving import DEFAULTS, SolvableModel, solve
 
 if TYPE_CHECKING:
@@ -155,8 +157,8 @@ class Model(SolvableModel):
         driven = start_stop is None or start_stop.schedule.is_engaged(time, angle)
         if not self.stall(time, speed, driven=driven):
             return ""
-        forces = {name: load.force_at_rest(time) for name, load in self.loads.items()}
-        needed = holding_torque(self.mechanism, self.scene, forces, angle)
+        forces = {name: np.array([load.force_at_rest(time)]) for name, load in self.loads.items()}
+        needed = float(holding_torque(self.mechanism, self.scene, forces, np.array([angle]))[0])
         slips = start_stop is not None and start_stop.slips
         available = motor.torque.law(self.scene.speed_rpm)(speed)[0]
         if slips and motor.clutch is not None:

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import exudyn as exu
 from exudyn.itemInterface import ObjectConnectorSpringDamper
 
 from exu_press.mechanism.parts import Point
@@ -12,10 +13,11 @@ from exu_press.model.system import System
 __all__ = ["add_spring"]
 
 
-def add_spring(system: System, spring: SpringBetween) -> int:
-    """Add a spring; Exudyn's force, unlike ours, counts positive where it pulls.
+def add_spring(system: System, spring: SpringBetween) -> None:
+    """Add a spring, and record the vector between its ends and its rate.
 
-    Exudyn differentiates the force of a gas spring numerically for Newton's method.
+    Exudyn's force, unlike ours, counts positive where it pulls. That of a gas spring is
+    differentiated numerically for Newton's method.
     """
     law: dict[str, Any]
     if isinstance(spring, LinearSpring):
@@ -30,7 +32,9 @@ def add_spring(system: System, spring: SpringBetween) -> int:
         damping=spring.damping,
         **law,
     )
-    return int(system.mbs.AddObject(connector))
+    number = system.mbs.AddObject(connector)
+    system.record(connector.name, "ends", number, exu.OutputVariableType.Displacement)
+    system.record(connector.name, "velocity", number, exu.OutputVariableType.Velocity)
 
 
 def _pull(spring: SpringBetween) -> Any:

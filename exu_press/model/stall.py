@@ -1,16 +1,8 @@
 """Detection of a press that has stalled, and the message about it."""
 
 import math
-from collections.abc import Mapping
 
-import numpy as np
-
-from exu_press.mechanism import Mechanism
-from exu_press.mechanism.spring_motion import spring_motion
-from exu_press.scene import Scene
-from exu_press.scene.applied import applied_loads
-
-__all__ = ["Stall", "holding_torque", "stall_message"]
+__all__ = ["Stall", "stall_message"]
 
 SLOW = 0.01
 """Speed over that in operation, or without load, below which a running crank has stalled: under a
@@ -84,32 +76,3 @@ def stall_message(
         f"and weights, without friction, want {needed:.4g} N m there, and {source} has "
         f"{available:.4g} N m{rubs}; try {cure}"
     )
-
-
-def holding_torque(
-    mechanism: Mechanism, scene: Scene, forces: Mapping[str, float], angle: float
-) -> float:
-    """Return the torque at the crank that balances loads, springs and weights, by virtual work.
-
-    Args:
-        mechanism: ideal, and without friction.
-        scene: with the loads.
-        forces: name of a load -> its force just before the output came to rest, N.
-        angle: of the crank, rad.
-
-    Returns:
-        N m.
-    """
-    per_angle = mechanism.motion(np.array([angle]), 1.0)
-    torque = 0.0
-    for body in mechanism.bodies:
-        torque += body.mass * scene.gravity * float(per_angle[body.name].velocity[0, 1])
-    closes = float(mechanism.output_component(per_angle[mechanism.slider].velocity)[0]) < 0.0
-    for name, load in applied_loads(scene).items():
-        if load.fade is None or closes:
-            rate = per_angle[load.body].point_motion(load.point).velocity[0, :2]
-            torque -= forces[name] * float(rate @ np.array(load.direction))
-    for spring in mechanism.springs:
-        motion = spring_motion(mechanism, spring, per_angle)
-        torque -= float(spring.static_force(motion.length)[0] * motion.rate[0])
-    return torque

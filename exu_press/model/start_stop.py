@@ -6,7 +6,7 @@ from typing import Any, cast
 
 import exudyn as exu
 import numpy as np
-from exudyn.itemInterface import ObjectConnectorCoordinateSpringDamper, SensorObject
+from exudyn.itemInterface import ObjectConnectorCoordinateSpringDamper
 
 from exu_press.laws.clutch import Coupling
 from exu_press.laws.schedule import Schedule
@@ -256,11 +256,7 @@ def add_start_stop(system: System, turned: str, crank: CrankAngle) -> StartStop:
         stiffness = torque / math.radians(clutch.windup_deg)
         coupling = Coupling(stiffness, 2.0 * DAMPING_RATIO * math.sqrt(stiffness * moving))
         element = ClutchElement(system.mbs, coupling, torque, engagement, crank, markers)
-        kind = exu.OutputVariableType.Force
-        sensor = SensorObject(
-            objectNumber=element.item, storeInternal=True, outputVariableType=kind
-        )
-        system.sensors[name, "torque"] = system.mbs.AddSensor(sensor)
+        system.record(name, "torque", element.item)
         setattr(start_stop, name, element)
     return start_stop
 

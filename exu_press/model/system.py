@@ -13,6 +13,7 @@ from exudyn.itemInterface import (
     ObjectConnectorCoordinate,
     ObjectConnectorCoordinateSpringDamper,
     ObjectGround,
+    SensorObject,
 )
 
 from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Point, Spring
@@ -56,8 +57,8 @@ class System:
         flexible: name -> flexible body.
         carriers: (slot or guide of a moving body, flexible body) -> name of the rigid disc that
             moves with the body's face there.
+        forces: (name, quantity) -> number of the object that exerts a recorded force or moment.
         sensors: (name, quantity) -> sensor number.
-        local_forces: object numbers of connectors whose force is output in their own axes alone.
     """
 
     def __init__(self, scene: Scene, parts: Mapping[str, "PlacedPart"]) -> None:
@@ -96,8 +97,8 @@ class System:
             for body, placed in parts.items()
             for guide in placed.carriers
         }
+        self.forces: dict[tuple[str, str], int] = {}
         self.sensors: dict[tuple[str, str], int] = {}
-        self.local_forces: set[int] = set()
         still = MarkerNodeCoordinate(nodeNumber=self.ground_node, coordinate=0)
         self.still = self.mbs.AddMarker(still)
 
@@ -141,6 +142,18 @@ class System:
         """Hold a rigid body's coordinate by a constraint, relative to another body's."""
         markers = [self.coordinate(on, coordinate), self.coordinate(body, coordinate)]
         return int(self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers, **options)))
+
+    def record(
+        self,
+        name: str,
+        quantity: str,
+        number: int,
+        output: exu.OutputVariableType = exu.OutputVariableType.Force,
+    ) -> None:
+        """Record the output of an object over the run, as that of a name and a quantity."""
+        sensor = SensorObject(objectNumber=number, storeInternal=True, outputVariableType=output)
+        self.sensors[name, quantity] = int(self.mbs.AddSensor(sensor))
+        self.forces[name, quantity] = number
 
     def spring(self, body: str, coordinate: str, spring: Spring) -> int:
         """Hold a rigid body's coordinate by a spring and damper."""

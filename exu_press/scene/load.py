@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
-import numpy as np
-
 from exu_press.errors import InputError, error_prefix
 from exu_press.laws.load_curve import LoadCurve
 from exu_press.mechanism import Mechanism
@@ -175,10 +173,8 @@ class UnresolvedLoad(CustomLoad):
 
 def check_height(height: float, mechanism: Mechanism) -> None:
     """Raise InputError unless the output leaves a sheet or spring at a height, m."""
-    angle = np.linspace(0.0, 2.0 * math.pi, 721)
-    stroke = float(mechanism.ideal_slider(angle, 1.0)[0].max()) - mechanism.bottom
-    if height >= stroke:
+    if height >= mechanism.stroke:
         raise InputError(
-            f"height = {height!r}: the output rises {stroke:.4g} m above bottom dead centre and "
-            "never leaves it; allowed is less than that"
+            f"height = {height!r}: the output rises {mechanism.stroke:.4g} m above bottom dead "
+            "centre and never leaves it; allowed is less than that"
         )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from exu_press.mechanism.drawing_warnings import drawing_warnings
-from exu_press.scene.applied import applied_loads
+from exu_press.scene.applied import applied_loads, holding_torque
 from exu_press.scene.joint import LubricatedJoint, TouchingJoint
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.schema.table import key_values
@@ -65,9 +65,9 @@ def _drawing(scene: Scene) -> Iterator[str]:
     """Yield parts of a drawing of another size than machines, or than the rest of it."""
     mechanism = mechanism_of(scene)
     size = mechanism.size
-    position = mechanism.ideal_slider(np.linspace(0.0, 2.0 * math.pi, 181), 1.0)[0]
-    stroke = math.inf if mechanism.output.rotation else float(np.ptp(position))
-    yield from drawing_warnings(mechanism, stroke)
+    yield from drawing_warnings(
+        mechanism, math.inf if mechanism.output.rotation else mechanism.stroke
+    )
     for name, joint in scene.joints.by_group.items():
         if isinstance(joint, TouchingJoint) and joint.radius > size:
             yield (
@@ -174,9 +174,7 @@ def _heights(scene: Scene) -> Iterator[str]:
     for name, load in applied_loads(scene).items():
         if load.over != "height":
             continue
-        low, high = load.curve.places[0], load.curve.places[-1]
-        angle = np.linspace(0.0, 2.0 * math.pi, 721)
-        stroke = float(mechanism.ideal_slider(angle, 1.0)[0].max()) - mechanism.bottom
+        low, high, stroke = load.curve.places[0], load.curve.places[-1], mechanism.stroke
         if min(high, stroke) - max(low, 0.0) < REACHED * (high - low):
             yield (
                 f"load.{name}.height from {low:g} to {high:g} m: the output is between 0 and "
@@ -210,19 +208,13 @@ def _brake(scene: Scene) -> Iterator[str]:
     if brake is None:
         return
     mechanism, angle = mechanism_of(scene), np.linspace(0.0, 2.0 * math.pi, 361)
-    moving = mechanism.motion(angle, 1.0)
-    torque = np.zeros_like(angle)
-    for body in mechanism.bodies:
-        torque += body.mass * scene.gravity * moving[body.name].velocity[:, 1]
-    height = mechanism.output_position(moving[mechanism.slider].position) - mechanism.bottom
-    for load in applied_loads(scene).values():
-        if load.over == "height" and load.fade is None:
-            along = moving[load.body].point_motion(load.point).velocity[:, :2] @ np.array(
-                load.direction
-            )
-            torque -= (
-                np.array([load.curve(height_there) for height_there in height.tolist()]) * along
-            )
+    height = mechanism.ideal_slider(angle, 1.0)[0] - mechanism.bottom
+    forces = {
+        name: np.array([load.curve(height_there) for height_there in height.tolist()])
+        for name, load in applied_loads(scene).items()
+        if load.over == "height" and load.fade is None
+    }
+    torque = holding_torque(mechanism, scene, forces, angle)
     worst = int(np.argmax(np.abs(torque)))
     if abs(torque[worst]) > brake.brake_torque:
         yield (

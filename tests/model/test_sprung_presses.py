@@ -10,7 +10,7 @@ import exu_press
 from exu_press import InputError, Scene, simulate
 from exu_press.mechanism import GROUND, Body, Guide, Joint, Mechanism, Output, shipped_mechanism
 from exu_press.mechanism.springs import GasSpring, LinearSpring
-from exu_press.model.stall import holding_torque
+from exu_press.scene.applied import holding_torque
 
 GAS = {"area": 0.02, "pressure": 5e5, "volume": 0.05, "exponent": 1.3, "damping": 0.0}
 
@@ -97,7 +97,7 @@ def test_the_drive_holds_what_virtual_work_says():
     result = slow(mechanism, revolutions=0.2)
     middle = len(result.time) // 2
     angle = float(result["crank_angle"][middle])
-    torque = holding_torque(mechanism, result.scene, {}, angle)
+    (torque,) = holding_torque(mechanism, result.scene, {}, np.array([angle]))
     assert abs(torque) > 100.0
     assert result["drive_torque"][middle] == pytest.approx(torque, rel=1e-4)
 

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 from exu_press.errors import InputError, error_prefix
 from exu_press.laws.load_curve import LoadCurve
@@ -23,7 +23,6 @@ __all__ = [
     "LOAD_KINDS",
     "CustomLoad",
     "Load",
-    "UnresolvedLoad",
     "check_height",
 ]
 
@@ -107,6 +106,11 @@ class Load(CustomKind, Table, ABC):
         """Return the force over its variable at a speed of the crank, rad/s."""
 
 
+def _unknown_curve(load: Load, angular_speed: float) -> LoadCurve:
+    """Return forces that are no numbers, of a load whose code is not loaded."""
+    return LoadCurve([0.0, 1.0], [math.nan, math.nan])
+
+
 @dataclass(frozen=True)
 class CustomLoad(Load, ABC):
     """Base of a load kind of your own; `kind = "my_module:MyClass"` names it in a scene.
@@ -117,6 +121,7 @@ class CustomLoad(Load, ABC):
 
     over: ClassVar[str] = "height"
     closing: ClassVar[bool] = False
+    when_unresolved: ClassVar[Mapping[str, Any]] = {"over": "time", "curve": _unknown_curve}
 
     def check_code(self, where: str, angular_speed: float) -> None:
         """Make its curve once, so that it is refused before anything is run."""
@@ -136,39 +141,6 @@ class CustomLoad(Load, ABC):
     @abstractmethod
     def curve(self, angular_speed: float) -> LoadCurve:
         """Return the force, N, at a speed of the crank, rad/s."""
-
-
-@dataclass(frozen=True)
-class UnresolvedLoad(CustomLoad):
-    """A load of a result whose kind is code that is not loaded: it is shown, and not built.
-
-    Attributes:
-        name: of the kind.
-        keys: as the result has them.
-    """
-
-    resolved: ClassVar[bool] = False
-    over: ClassVar[str] = "time"
-    name: str = ""
-    keys: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)
-
-    @classmethod
-    def from_keys(cls, name: str, keys: Mapping[str, Any]) -> Self:
-        """Return the load of a kind and its keys."""
-        placed = {k: v for k, v in keys.items() if k in ATTACHMENT}
-        return cls(**placed, name=name, keys=keys)
-
-    @property
-    def kind(self) -> str:
-        """Name of the class, as the result has it."""
-        return self.name
-
-    def check_code(self, where: str, angular_speed: float) -> None:
-        """Try nothing: its code is not loaded."""
-
-    def curve(self, angular_speed: float) -> LoadCurve:
-        """Return forces that are no numbers: they are unknown."""
-        return LoadCurve([0.0, 1.0], [math.nan, math.nan])
 
 
 def check_height(height: float, mechanism: Mechanism) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 from exu_press.errors import InputError, UnusedKeyError, error_prefix
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import face_dict
-from exu_press.scene.load import ATTACHMENT, COLUMNS, LOAD_KINDS, Load, UnresolvedLoad
+from exu_press.scene.load import ATTACHMENT, COLUMNS, LOAD_KINDS, Load
 from exu_press.scene.solver import RPM
 from exu_press.schema.checks import demand_known, demand_name
 from exu_press.schema.table import declared_keys, plain
@@ -61,8 +61,6 @@ def loads_of(
 
 def load_dict(load: Load) -> dict[str, Any]:
     """Return a load as a mapping; a table with its numbers, not its file."""
-    if isinstance(load, UnresolvedLoad):
-        return {"kind": load.kind, **load.keys}
     keys = {"kind": load.kind, **plain(load)}
     if load.face is not None:
         faces = [face_dict(face) for face in load.face]
@@ -121,7 +119,7 @@ def _load(where: str, table: Any) -> Load:
     if "kind" not in keys:
         raise InputError(f"{where} has no kind: allowed is one of {kinds}")
     name = keys.pop("kind")
-    kind = LOAD_KINDS.find("kind", name)
+    kind = LOAD_KINDS.find("kind", name, keys)
     if kind is None:
         raise InputError(f"kind = {name!r}: allowed is one of {kinds}")
     if "file" in keys:

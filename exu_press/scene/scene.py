@@ -25,8 +25,7 @@ from exu_press.mechanism.spring_motion import joint_at
 from exu_press.mechanism.turning import require_turning
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
 from exu_press.scene.changes import asked_mechanism, changed_keys, drop, gives_key
-from exu_press.scene.custom import UnresolvedJoint
-from exu_press.scene.joint import JOINT_KINDS, SIZES, oil_of
+from exu_press.scene.joint import SIZES, oil_of
 from exu_press.scene.joint_changes import by_group, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.law_keys import LawKeys
@@ -414,10 +413,9 @@ class Scene(Table):
         Args:
             data: its tables.
             asked: as above.
-            resolve: False takes kinds whose code is not loaded as `UnresolvedJoint` and
-                `UnresolvedLoad`.
+            resolve: False takes kinds whose code is not loaded for ones that are shown, not built.
         """
-        scene = table_from(cls, "", data if resolve else _with_unresolved(data))
+        scene = table_from(cls, "", data if resolve else with_unresolved(data))
         object.__setattr__(scene, "asked", frozenset(asked))
         return scene
 
@@ -637,17 +635,6 @@ def _with_files(scene: Scene, files: Mapping[str, str]) -> Scene:
     """Return a scene for which further files were read."""
     object.__setattr__(scene, "files", {**files, **scene.files})
     return scene
-
-
-def _with_unresolved(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a result's tables, with what has a kind whose code is not loaded as unresolved."""
-    from exu_press.scene.load import LOAD_KINDS, UnresolvedLoad
-
-    kinds = {
-        "joints": (frozenset(JOINT_KINDS), UnresolvedJoint),
-        "load": (frozenset(LOAD_KINDS), UnresolvedLoad),
-    }
-    return with_unresolved(data, kinds)
 
 
 def _load_dict(load: "Load") -> dict[str, Any]:

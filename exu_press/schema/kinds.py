@@ -7,7 +7,7 @@ installed distribution registers; else its module is imported only where the use
 import re
 import sys
 import traceback
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from importlib import import_module
 from typing import Any, ClassVar, TypeVar
 
@@ -38,6 +38,9 @@ LAWS = {
 }
 """Keys that name a law -> where the package's own laws are."""
 
+KINDS = {"joints": "scene.joint:JOINT_KINDS", "load": "scene.load:LOAD_KINDS"}
+"""Tables of tables that have a kind -> where the package's own kinds are."""
+
 PLACES = re.compile(
     r"(?:.*\.)?(?:(?:joints|load)\.[^.]+(?:\.kind)?|guide\.[^.]+\.friction|"
     rf"{'|'.join(map(re.escape, LAWS))})"
@@ -46,10 +49,10 @@ PLACES = re.compile(
 
 
 class UnresolvedName(str):
-    """Name of a law in a result, whose code is not loaded.
+    """Name of a kind in a result, whose code is not loaded.
 
     Attributes:
-        keys: that the result has beside it, of which some are the law's.
+        keys: that the result has beside it, of which some are the kind's.
     """
 
     keys: frozenset[str] = frozenset()
@@ -63,6 +66,9 @@ class CustomKind:
 
     resolved: ClassVar[bool] = True
     """False for what stands in a result for a kind whose code is not loaded."""
+
+    when_unresolved: ClassVar[Mapping[str, Any]] = {}
+    """Attributes of what stands there, beside those of the base; its other methods are refused."""
 
     @property
     def kind(self) -> str:
@@ -142,51 +148,51 @@ def import_kinds(data: Mapping[str, Any]) -> None:
             )
 
 
-def with_unresolved(
-    data: Mapping[str, Any], tables: Mapping[str, tuple[Collection[str], Any]]
-) -> dict[str, Any]:
-    """Return a scene's tables, with what has a kind whose code is not loaded as unresolved.
+def with_unresolved(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a result's tables, with an UnresolvedName for each kind whose code is not loaded."""
+    tables: dict[str, Any] = _with_unresolved(data, data, {}, ())
+    return tables
+
+
+def _with_unresolved(
+    data: Any, scene: Mapping[str, Any], beside: Mapping[str, Any], path: tuple[str, ...]
+) -> Any:
+    """Return tables likewise.
 
     Args:
-        data: of a result.
-        tables: name of a table of tables -> kinds that need no code, and the class of the others.
+        data: of the scene.
+        scene: whole.
+        beside: table that has the data.
+        path: of the data in the scene.
     """
-    changed: dict[str, Any] = _with_unresolved_laws(data, data)
-    for table, (known, unresolved) in tables.items():
-        if not isinstance(data.get(table), Mapping):
-            continue
-        changed[table] = inner = dict(changed[table])
-        for name, value in tuple(inner.items()):
-            keys = {"kind": value} if isinstance(value, str) else value
-            if not isinstance(keys, Mapping) or not isinstance(kind := keys.get("kind"), str):
-                continue
-            if kind not in known and _loaded_kind(kind, CustomKind) is None:
-                inner[name] = unresolved.from_keys(
-                    kind, {k: v for k, v in keys.items() if k != "kind"}
-                )
-    return changed
-
-
-def _with_unresolved_laws(data: Any, scene: Mapping[str, Any], path: str = "") -> Any:
-    """Return tables in which the name of a law whose code is not loaded is an UnresolvedName."""
     if isinstance(data, Mapping):
         return {
-            name: _with_unresolved_laws(value, scene, f"{path}.{name}" if path else str(name))
+            name: _with_unresolved(value, scene, data, (*path, str(name)))
             for name, value in data.items()
         }
-    parts = path.split(".")
-    key = [parts[0], *parts[2:]] if parts[0] == "guide" and len(parts) > 2 else parts[-2:]
-    law = LAWS.get(".".join(key)) if isinstance(data, str) else None
-    if law is None:
+    home = _home_of(path) if isinstance(data, str) else None
+    if home is None or data in load_object(home) or _loaded_kind(data, CustomKind):
         return data
-    if data in load_object(law) or _loaded_kind(data, CustomKind):
-        return data
-    unresolved, table = UnresolvedName(data), law.partition(":")[0].rpartition(".")[2]
-    joints = scene.get("joints")
-    owners = [scene, *(joints.values() if isinstance(joints, Mapping) else ())]
-    tables = [owner.get(table) for owner in owners if isinstance(owner, Mapping)]
+    tables: list[Any] = [beside if path[-1] == "kind" else {}]
+    if home in LAWS.values():
+        table = home.partition(":")[0].rpartition(".")[2]
+        joints = scene.get("joints")
+        owners = [scene, *(joints.values() if isinstance(joints, Mapping) else ())]
+        tables = [owner.get(table) for owner in owners if isinstance(owner, Mapping)]
+    unresolved = UnresolvedName(data)
     unresolved.keys = frozenset(key for keys in tables if isinstance(keys, Mapping) for key in keys)
     return unresolved
+
+
+def _home_of(path: tuple[str, ...]) -> str | None:
+    """Return where the kinds are that a key of a scene names, or None."""
+    table, inner = path[0], path[2:]
+    if table in KINDS:
+        if len(path) == 2 or inner == ("kind",):
+            return KINDS[table]
+    elif table == "guide" and inner:
+        return LAWS.get(".".join((table, *inner)))
+    return LAWS.get(".".join(path[-2:]))
 
 
 def custom_modules(data: Mapping[str, Any]) -> tuple[str, ...]:

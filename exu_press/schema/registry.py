@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 from collections.abc import Callable, Collection, Iterator, Mapping
+from keyword import iskeyword
 from typing import Any
 
 from exu_press.errors import InputError
@@ -77,25 +78,28 @@ class Registry(Mapping[Any, type[Any]]):
 
 @functools.cache
 def _unresolved_kind(base: Any, name: UnresolvedName, keys: tuple[str, ...]) -> type[Any]:
-    """Return what stands in a result for a law whose code is not loaded: it is shown, not built.
+    """Return what stands in a result for a kind whose code is not loaded: it is shown, not built.
 
     Args:
-        base: of such laws.
-        name: of the law.
+        base: of such kinds.
+        name: of the kind.
         keys: of its table in the result.
     """
 
     def refuse(*_: Any, **__: Any) -> Any:
         raise InputError(f"{name!r}: {refusal(name)}")
 
-    metadata = key(None, "of the law", also=object).metadata
+    metadata = key(None, "of the kind", also=object).metadata
+    known = {field.name for field in dataclasses.fields(base)}
     fields: list[Any] = [
-        (name, Any, dataclasses.field(default=None, metadata=metadata)) for name in keys
+        (name, Any, dataclasses.field(default=None, hash=False, metadata=metadata))
+        for name in keys
+        if name not in known and name.isidentifier() and not iskeyword(name)
     ]
     namespace = {"registered_name": name, "resolved": False}
-    namespace |= dict.fromkeys(base.__abstractmethods__, refuse)
+    namespace |= dict.fromkeys(base.__abstractmethods__, refuse) | base.when_unresolved
     kind: type[Any] = dataclasses.make_dataclass(
-        "UnresolvedLaw", fields, bases=(base,), namespace=namespace, frozen=True
+        "UnresolvedKind", fields, bases=(base,), namespace=namespace, frozen=True
     )
     return kind
 

@@ -77,7 +77,7 @@ def stribeck(
     stribeck_velocity: float,
     stribeck_exponent: float,
     regularisation_velocity: float,
-    viscous: float = 0.0,
+    sigma_2: float = 0.0,
 ) -> Friction:
     r"""Stribeck's curve, made smooth at rest, with viscous friction.
 
@@ -92,7 +92,7 @@ def stribeck(
     stribeck_velocity : v_s [m/s], positive
     stribeck_exponent : gamma [-], 0 < gamma <= 10; 0.5 to 2 in [1]_
     regularisation_velocity : v_r [m/s], positive
-    viscous : sigma_2 [s/m], not negative
+    sigma_2 : viscous friction [s/m], not negative
 
     Returns
     -------
@@ -108,7 +108,7 @@ def stribeck(
 
     Examples
     --------
-    >>> friction = stribeck(0.15, 0.1, 0.01, 2.0, regularisation_velocity=1e-4, viscous=0.02)
+    >>> friction = stribeck(0.15, 0.1, 0.01, 2.0, regularisation_velocity=1e-4, sigma_2=0.02)
     >>> [round(friction(v)[0], 6) for v in (1e-3, 0.01, 1.0)]
     [0.149522, 0.118594, 0.12]
 
@@ -120,7 +120,7 @@ def stribeck(
     """
     _demand_curve(mu_static, mu_kinetic, stribeck_velocity, stribeck_exponent)
     positive(regularisation_velocity=regularisation_velocity)
-    not_negative(viscous=viscous)
+    not_negative(sigma_2=sigma_2)
 
     rise = mu_static - mu_kinetic
 
@@ -129,10 +129,10 @@ def stribeck(
         decay = _decay(abs(v) / stribeck_velocity, stribeck_exponent)
         peak = rise * exp(-decay)
         g, v_times_slope = mu_kinetic + peak, -stribeck_exponent * decay * peak  # as in LuGre
-        slope = g * (1.0 - direction * direction) / regularisation_velocity + viscous
+        slope = g * (1.0 - direction * direction) / regularisation_velocity + sigma_2
         if v != 0.0:
             slope += v_times_slope * direction / v
-        return g * direction + viscous * v, slope
+        return g * direction + sigma_2 * v, slope
 
     return friction
 
@@ -172,14 +172,13 @@ def lugre_steady(
     .. [1] Canudas de Wit, C., H. Olsson, K. J. Astrom, and P. Lischinsky. "A New Model for Control
        of Systems with Friction." IEEE Trans. Autom. Control 40 (1995): 419-425.
     """
-    not_negative(sigma_2=sigma_2)
     return stribeck(
         mu_static,
         mu_kinetic,
         stribeck_velocity,
         stribeck_exponent,
         regularisation_velocity,
-        viscous=sigma_2,
+        sigma_2,
     )
 
 

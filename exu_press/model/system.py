@@ -66,7 +66,7 @@ class System:
         solids = {name: (placed.reduced.mass, placed.inertia) for name, placed in parts.items()}
         self.mechanism = mechanism_of(scene)
         if scene.guides:
-            from exu_press.scene.elastic import with_elastic_guides
+            from exu_press.scene.guides import with_elastic_guides
 
             self.mechanism = with_elastic_guides(self.mechanism, scene.guides, solids)
         guided = _guided_bodies(scene, self.mechanism)

@@ -14,8 +14,8 @@ from exu_press.mechanism import Mechanism
 from exu_press.scene.changes import gives_key
 from exu_press.scene.joint import SIZES, Joint
 from exu_press.scene.scene import STARTS, Scene, mechanism_of
-from exu_press.scene.usage import LAWS, TABLES
-from exu_press.schema.table import Table, key_values, plain
+from exu_press.scene.usage import LAWS
+from exu_press.schema.table import Table, dotted_name, key_values, plain
 
 __all__ = [
     "ASSUMPTIONS",
@@ -125,11 +125,16 @@ class Key:
         return f"{self.name} = {_text(self.value)} {self.unit}".rstrip()
 
 
+Entry = tuple[str, Any, dataclasses.Field[Any]]
+"""Dotted name, value and declaration of a key."""
+
+
 def keys_of(scene: Scene) -> dict[str, Key]:
     """Return every key that a scene uses, by name, with the default it would have."""
     own = mechanism_of(scene).defaults
-    defaults = {f"{law}.{key}": value for law in LAWS for key, value in own.get(law, {}).items()}
-    defaults["start"] = own.get("start", STARTS[0])
+    of_mechanism = {f"{law}.{key}": v for law in LAWS for key, v in own.get(law, {}).items()}
+    of_mechanism |= {"start": own["start"]} if "start" in own else {}
+    defaults = {"start": STARTS[0], **of_mechanism}
     if scene.guide is not None:
         shared = plain(scene.guide)
         defaults |= {
@@ -137,19 +142,16 @@ def keys_of(scene: Scene) -> dict[str, Key]:
             for name, keys in scene.guide.by_name.items()
             for key in keys.keys() & shared.keys()
         }
-    scene_keys = {}
-    for name, (value, field) in _flat(scene):
-        default = defaults.get(name, field.default)
-        if isinstance(value, Mechanism):
-            value = f"{value.name}, the scene's own"
-        meta = field.metadata
-        source = "" if name in _own_laws(scene) else meta["source"]
-        scene_keys[name] = Key(name, value, default, meta["unit"], meta["meaning"], source)
+    scene_keys = {
+        entry[0]: _key(entry, defaults, with_source=entry[0] not in of_mechanism)
+        for entry in _scene_entries(scene)
+    }
     scene_keys |= _joint_keys(scene)
     for name, body in scene.bodies.items():
-        scene_keys |= _keys_in(f"bodies.{name}", body, {"flexible": ""})
+        defaults[f"bodies.{name}.flexible"] = ""
+        scene_keys |= {e[0]: _key(e, defaults) for e in _entries(f"bodies.{name}", body)}
     for name, load in scene.load.items():
-        scene_keys |= _keys_in(f"load.{name}", load, {})
+        scene_keys |= {e[0]: _key(e, defaults) for e in _entries(f"load.{name}", load)}
     return {
         name: dataclasses.replace(key, asked=name in scene.asked)
         for name, key in scene_keys.items()
@@ -224,7 +226,8 @@ def _is_used_by_some(scene: Scene, key: Key) -> bool:
     for joint_name, joint in scene.joints.with_clearance.items():
         if gives_key(f"joints.{joint_name}.{key.name}", scene.joints.groups, asked):
             continue
-        if _nested_value(getattr(joint, law), name) == key.value:
+        own = getattr(joint, law)
+        if own is not None and {n: v for n, v, _ in _entries("", own)}.get(name) == key.value:
             return True
     return False
 
@@ -246,111 +249,75 @@ def assumed_line(scene: Scene) -> str:
     return f"assumed: {', '.join(named)}" if named else ""
 
 
-def _own_laws(scene: Scene) -> set[str]:
-    """Return the keys of laws and start that the scene's mechanism has values of its own for."""
-    own = mechanism_of(scene).defaults
-    laws = {f"{law}.{key}" for law in LAWS for key in own.get(law, {})}
-    return laws | ({"start"} & own.keys())
-
-
-def _nested_value(table: Table | None, name: str) -> Any:
-    """Return the value of a dotted key of a table, None where it has none."""
-    values = {} if table is None else {key: value for key, value, _ in key_values(table)}
-    first, _, rest = name.partition(".")
-    value = values.get(first)
-    return _nested_value(value, rest) if rest else value
+def _key(entry: Entry, defaults: Mapping[str, Any], *, with_source: bool = False) -> Key:
+    """Return a key with its own default, or the declared one."""
+    name, value, field = entry
+    meta, default = field.metadata, defaults.get(name, field.default)
+    if isinstance(value, Mechanism):
+        value = f"{value.name}, the scene's own"
+    source = meta["source"] if with_source else ""
+    return Key(name, value, default, meta["unit"], meta["meaning"], source)
 
 
 def _joint_keys(scene: Scene) -> dict[str, Key]:
     """Return the keys of the joints with clearance, and of those that are ideal against habit."""
     mechanism = mechanism_of(scene)
     usual = mechanism.defaults.get("joints", {}) if scene.shipped_name else {}
-    sizes = {name: mechanism.defaults.get(name) for name in SIZES}
     by_joint = {j: kind for name, kind in usual.items() for j in scene.joints.members(name)}
     joints: dict[str, Joint] = {**scene.joints.by_group}
     joints |= {name: scene.joints[name] for name in by_joint if name in scene.joints.ideal}
-    joint_keys = []
+    keys = {}
     for name, joint in joints.items():
-        joint_name = f"joints.{name}"
+        path = f"joints.{name}"
         default = by_joint.get(scene.joints.members(name)[0], "ideal")
-        joint_keys.append(
-            Key(f"{joint_name}.kind", joint.kind, default, "", "ideal, dry or lubricated")
+        keys[f"{path}.kind"] = Key(
+            f"{path}.kind", joint.kind, default, "", "ideal, dry or lubricated"
         )
-        joint_keys += _keys_in(joint_name, joint, sizes).values()
-        for field in dataclasses.fields(joint):
-            own, law = getattr(joint, field.name), scene.laws.get(field.name)
-            if own is not None and law is not None:
-                keys = _keys_in(f"{joint_name}.{field.name}", own, law)
-                joint_keys += (key for key in keys.values() if key.is_changed)
-    return {key.name: key for key in joint_keys}
+        defaults = {f"{path}.{size}": mechanism.defaults.get(size) for size in SIZES}
+        defaults |= {f"{path}.{name}": v for law in LAWS for name, v, _ in _law_entries(scene, law)}
+        for entry in _entries(path, joint):
+            key, table = _key(entry, defaults), entry[0].split(".")[2]
+            if table != "worn" and (key.is_changed or table not in LAWS):
+                keys[key.name] = key
+    return keys
 
 
-def _keys_in(table_name: str, table: Table, defaults: Mapping[str, Any]) -> dict[str, Key]:
-    """Return the keys of one table that are given, with other defaults than the declared ones."""
-    table_keys: dict[str, Key] = {}
-    for key, value, field in key_values(table):
-        name, meta = f"{table_name}.{key}", field.metadata
-        if isinstance(value, Table) and "nested" in meta:
-            usual = defaults.get(key)
-            table_keys |= _keys_in(name, value, {} if usual is None else _values(usual))
-        elif "meaning" in meta and value is not None:
-            default = defaults.get(key, field.default)
-            table_keys[name] = Key(name, value, default, meta["unit"], meta["meaning"])
-    return table_keys
-
-
-def _values(table: Table) -> dict[str, Any]:
-    return {name: value for name, value, _ in key_values(table)}
-
-
-def _flat(scene: Scene) -> Iterator[tuple[str, tuple[Any, dataclasses.Field[Any]]]]:
-    """Yield the name of every key in use with its value and declaration."""
-    used = scene.to_dict()
+def _scene_entries(scene: Scene) -> Iterator[Entry]:
+    """Yield every key in use but those of joints, bodies and loads; those of laws are shared."""
     for field in dataclasses.fields(scene):
-        if field.name not in TABLES:
-            if field.name in used and field.name not in ("joints", "bodies", "load"):
-                yield field.name, (getattr(scene, field.name), field)
-            continue
-        table = getattr(scene, field.name)
+        value = getattr(scene, field.name)
         if field.name in LAWS:
-            yield from _law_keys(scene, field.name)
-        elif table is not None:
-            yield from _inside(field.name, table)
-    yield from _guide_keys(scene)
-
-
-Declared = tuple[str, tuple[Any, dataclasses.Field[Any]]]
-
-
-def _law_keys(scene: Scene, law: str) -> Iterator[Declared]:
-    """Yield the same of [contact], [friction] or [film]."""
-    keys = scene.laws[law] or {}
-    fields = {**scene.joints.law_keys(law), **scene.law_keys_of_guides(law, keys)}
-    for name, value in keys.items():
-        if isinstance(value, Table):
-            yield from _inside(f"{law}.{name}", value)
-        else:
-            yield f"{law}.{name}", (value, fields[name])
-
-
-def _inside(table_name: str, table: Table) -> Iterator[Declared]:
-    """Yield the same of one table, and of the tables within it."""
-    for key, value, field in key_values(table):
-        name = f"{table_name}.{key}"
-        if isinstance(value, Table):
-            yield from _inside(name, value)
-        elif value is not None and "by_name" not in field.metadata:
-            yield name, (value, field)
-
-
-def _guide_keys(scene: Scene) -> Iterator[Declared]:
-    """Yield the same of the own tables of guides."""
+            yield from _law_entries(scene, field.name)
+        elif isinstance(value, Table):
+            yield from _entries(field.name, value)
+        elif value is not None and "meaning" in field.metadata:
+            yield field.name, value, field
     for guide, keys in () if scene.guide is None else scene.guide.by_name.items():
         from exu_press.scene.guides import fields_of  # loaded by these tables
 
         fields = fields_of(scene.guides.get(guide))
-        for name, value in keys.items():
-            yield f"guide.{guide}.{name}", (value, fields[name])
+        yield from ((f"guide.{guide}.{name}", value, fields[name]) for name, value in keys.items())
+
+
+def _law_entries(scene: Scene, law: str) -> Iterator[Entry]:
+    """Yield the keys of [contact], [friction] or [film]."""
+    keys = scene.laws[law] or {}
+    fields = {**scene.joints.law_keys(law), **scene.law_keys_of_guides(law, keys)}
+    for name, value in keys.items():
+        if isinstance(value, Table):
+            yield from _entries(f"{law}.{name}", value)
+        else:
+            yield f"{law}.{name}", value, fields[name]
+
+
+def _entries(path: str, table: Table) -> Iterator[Entry]:
+    """Yield the keys that a table gives, and those of tables within it."""
+    for key, value, field in key_values(table):
+        name = dotted_name(path, key)
+        if isinstance(value, Table):
+            yield from _entries(name, value)
+        elif value is not None and "meaning" in field.metadata:
+            yield name, value, field
 
 
 def _text(value: Any) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from exu_press.errors import InputError, error_prefix
+from exu_press.lazy import load_object
 from exu_press.mechanism import (
     SHIPPED,
     Mechanism,
@@ -14,12 +15,14 @@ from exu_press.mechanism import (
     shipped_mechanism,
 )
 from exu_press.scene.bodies import changed_bodies
-from exu_press.scene.joint_changes import changed_joints
+from exu_press.scene.joints import joint_keys
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import nearest
 from exu_press.schema.table import RENAMED, changed_table, given_keys
 
-__all__ = ["asked_mechanism", "changed_keys", "drop", "gives_key"]
+__all__ = ["asked_mechanism", "by_group", "changed_keys", "drop", "gives_key"]
+
+TABLES_OF_JOINTS = ("contact", "friction", "film", "worn")
 
 DRAWN = "bodies", "joints", "guides", "output"
 """Tables of a mechanism that a scene changes; its defaults have become the scene's own keys."""
@@ -71,7 +74,7 @@ def changed_keys(
 
         data["load"] = changed_loads(data.get("load", {}), loads)
     if "joints" not in changes:
-        data["joints"] = changed_joints(data["joints"], groups, joints)
+        data["joints"] = _changed_joints(data["joints"], groups, joints)
     elif joints:
         raise InputError("joints and a key of joints: allowed is one of the two in one change")
     for name in (name for name, value in changes.items() if value is None):
@@ -79,6 +82,39 @@ def changed_keys(
             if _has(scene, path):
                 drop(data, path)
     return data
+
+
+def _changed_joints(
+    joints: Mapping[str, Mapping[str, Any]],
+    groups: Mapping[str, tuple[str, ...]],
+    changes: Mapping[str, Any],
+) -> dict[str, dict[str, Any]]:
+    """Return joints with other kinds or keys.
+
+    Args:
+        joints: as `Joints.to_dict` has them.
+        groups: names for several joints at once -> these joints.
+        changes: "NAME" -> a kind, or all keys; "NAME.key" or "NAME.law.key" -> a value.
+    """
+    changed = {name: dict(keys) for name, keys in joints.items()}
+    for path, value in changes.items():
+        name, _, inner = path.partition(".")
+        key, _, last = inner.partition(".")
+        for member in groups.get(name, (name,)):
+            keys = changed.setdefault(member, {})
+            if not inner and not isinstance(value, str):
+                changed[member] = {} if value is None else joint_keys(name, value)
+            elif not last:
+                keys[key or "kind"] = value
+            elif key in TABLES_OF_JOINTS and isinstance(keys.setdefault(key, {}), dict):
+                kind = load_object("scene.worn:WornDepths") if key == "worn" else TABLES[key]
+                keys[key] = changed_table(kind, keys[key], {last: value})
+            else:
+                raise InputError(
+                    f"joints.{path} = {value!r}: {key} is no table of a joint"
+                    f"{nearest(key, TABLES_OF_JOINTS)}; allowed are {', '.join(TABLES_OF_JOINTS)}"
+                )
+    return changed
 
 
 def asked_mechanism(mechanism: Any) -> Any:
@@ -152,3 +188,20 @@ def _has(value: Any, name: str) -> bool:
     first, _, rest = name.partition(".")
     keys = given_keys(value)
     return first in keys and (not rest or _has(keys[first], rest))
+
+
+def by_group(
+    message: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]
+) -> str:
+    """Return a message about a joint with the group's name, where that was changed.
+
+    Args:
+        message: names one joint of the group.
+        groups: names for several joints at once -> these joints.
+        changes: dotted name in the scene -> value.
+    """
+    for path in changes:
+        group = path.removeprefix("joints.").partition(".")[0]
+        for member in groups.get(group, ()):
+            message = message.replace(f"joints.{member}", f"joints.{group}")
+    return message

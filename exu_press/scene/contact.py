@@ -10,7 +10,7 @@ from exu_press.laws.contact_stiffness import Stiffness, cylindrical, hertz, hert
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind
 from exu_press.schema.registry import Registry, alternatives, choice
-from exu_press.schema.table import Table
+from exu_press.schema.table import Table, plain
 
 __all__ = [
     "DAMPING",
@@ -89,9 +89,7 @@ class StepDamping(ContactDamping):
         self, stiffness: Stiffness, *, tension: bool, usual_slowest: float
     ) -> NormalContact:
         """Return the normal contact; it does not depend on the speed of impact."""
-        law = DAMPING_LAWS["step"]
-        keys = {"damping_max": self.damping_max, "damping_depth": self.damping_depth}
-        return law(stiffness, tension=tension, **keys)
+        return DAMPING_LAWS["step"](stiffness, **plain(self), tension=tension)
 
 
 @dataclass(frozen=True)

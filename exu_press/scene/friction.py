@@ -1,6 +1,7 @@
 """[friction]: the law of joints whose surfaces may touch, Eqs. 27-33."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -11,7 +12,7 @@ from exu_press.laws.friction import coulomb, lugre_steady, no_friction, stribeck
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind
 from exu_press.schema.registry import Registry, choice
-from exu_press.schema.table import Table
+from exu_press.schema.table import Table, plain
 
 __all__ = ["FRICTION", "OF_GUIDES", "Friction", "FrictionLaw"]
 
@@ -49,15 +50,22 @@ class FrictionLaw(CustomKind, Table, ABC):
         """Return the law of one joint; a bristle belongs to that joint alone."""
 
 
+class _LibraryLaw(FrictionLaw):
+    """A law of `exu_press.laws.friction`, whose arguments are named as its keys."""
+
+    law: ClassVar[Callable[..., LawOfFriction | Bristle]]
+
+    def friction(self) -> LawOfFriction | Bristle:
+        """Return the law of one joint."""
+        return type(self).law(**plain(self))
+
+
 @dataclass(frozen=True)
-class NoFriction(FrictionLaw):
+class NoFriction(_LibraryLaw):
     """No friction."""
 
     registered_name: ClassVar[str] = "none"
-
-    def friction(self) -> LawOfFriction:
-        """Return no friction."""
-        return no_friction()
+    law = no_friction
 
 
 def _mu_kinetic() -> Any:
@@ -73,21 +81,18 @@ def _regularisation() -> Any:
 
 
 @dataclass(frozen=True)
-class Coulomb(FrictionLaw):
+class Coulomb(_LibraryLaw):
     """One coefficient."""
 
     registered_name: ClassVar[str] = "coulomb"
+    law = coulomb
     largest_coefficient: ClassVar[str] = "mu_kinetic"
     mu_kinetic: float = _mu_kinetic()
     regularisation_velocity: float = _regularisation()
 
-    def friction(self) -> LawOfFriction:
-        """Return the law."""
-        return coulomb(self.mu_kinetic, self.regularisation_velocity)
-
 
 @dataclass(frozen=True)
-class _StribeckCurve(FrictionLaw, ABC):
+class _StribeckCurve(_LibraryLaw):
     """A coefficient that falls from the static to the kinetic one."""
 
     largest_coefficient: ClassVar[str] = "mu_static"
@@ -102,27 +107,15 @@ class _StribeckCurve(FrictionLaw, ABC):
         super().__post_init__()
         demand_static_friction(self.table, self.mu_static, self.mu_kinetic)
 
-    @property
-    def _coefficients(self) -> tuple[float, float]:
-        return self.mu_static, self.mu_kinetic
-
-    @property
-    def _curve(self) -> tuple[float, float]:
-        return self.stribeck_velocity, self.stribeck_exponent
-
 
 @dataclass(frozen=True)
 class Stribeck(_StribeckCurve):
     """Stribeck's curve."""
 
     registered_name: ClassVar[str] = "stribeck"
+    law = stribeck
     sigma_2: float = _sigma_2()
     regularisation_velocity: float = _regularisation()
-
-    def friction(self) -> LawOfFriction:
-        """Return the law."""
-        soft = self.regularisation_velocity
-        return stribeck(*self._coefficients, *self._curve, soft, self.sigma_2)
 
 
 @dataclass(frozen=True)
@@ -130,13 +123,9 @@ class SteadyLuGre(_StribeckCurve):
     """The LuGre law of steady sliding."""
 
     registered_name: ClassVar[str] = "lugre_steady"
+    law = lugre_steady
     sigma_2: float = _sigma_2()
     regularisation_velocity: float = _regularisation()
-
-    def friction(self) -> LawOfFriction:
-        """Return the law."""
-        soft = self.regularisation_velocity
-        return lugre_steady(*self._coefficients, self.sigma_2, *self._curve, soft)
 
 
 @dataclass(frozen=True)
@@ -144,14 +133,10 @@ class LuGre(_StribeckCurve):
     """The LuGre law with its bristle."""
 
     registered_name: ClassVar[str] = "lugre"
+    law = Bristle
     sigma_0: float = key(1e5, "bristle stiffness per normal force", "1/m", above=0)
     sigma_1: float = key(316.0, "bristle damping per normal force", "s/m", at_least=0)
     sigma_2: float = _sigma_2()
-
-    def friction(self) -> Bristle:
-        """Return the law of one joint."""
-        sigmas = self.sigma_0, self.sigma_1, self.sigma_2
-        return Bristle(*self._coefficients, *sigmas, *self._curve)
 
 
 @dataclass(frozen=True)

@@ -107,6 +107,18 @@ class Joints(Mapping[str, Joint]):
         """
         return {name: joint.to_dict(laws) for name, joint in self.with_clearance.items()}
 
+    def unused_laws(self) -> dict[str, str]:
+        """Return which of the scene's laws no joint has, and of its start -> the reason."""
+        touching = "no joint is 'dry' or has a mixed film"
+        reasons = {"contact": touching, "friction": touching, "film": "no joint is 'lubricated'"}
+        joints = self._joints.values()
+        unused = {
+            law: reason
+            for law, reason in reasons.items()
+            if all(getattr(joint, law) is None for joint in joints)
+        }
+        return unused if self.with_clearance else {**unused, "start": "every joint is ideal"}
+
     def law_keys(
         self, law: str, names: Iterable[str] | None = None
     ) -> dict[str, dataclasses.Field[Any]]:

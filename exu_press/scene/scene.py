@@ -24,13 +24,12 @@ from exu_press.mechanism.kinematics import MotionError
 from exu_press.mechanism.spring_motion import joint_at
 from exu_press.mechanism.turning import require_turning
 from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
-from exu_press.scene.changes import asked_mechanism, changed_keys, drop, gives_key
+from exu_press.scene.changes import asked_mechanism, by_group, changed_keys, drop, gives_key
 from exu_press.scene.joint import SIZES, oil_of
-from exu_press.scene.joint_changes import by_group, unused_laws
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.law_keys import LawKeys
 from exu_press.scene.solver import RPM, Solver
-from exu_press.scene.usage import LAWS, TABLES, unused_tables
+from exu_press.scene.usage import LAWS, TABLES
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import import_kinds, refusal, with_unresolved
 from exu_press.schema.table import Table, demand_keys, given_names, plain, plain_value, table_from
@@ -54,7 +53,6 @@ ONLY_WHERE_GIVEN = ("drive", "guide", "output", "wear")
 
 
 if TYPE_CHECKING:
-    from exu_press.scene.built import AssembledModel
     from exu_press.scene.guide import ElasticGuide
     from exu_press.scene.load import Load
     from exu_press.scene.motor import Motor
@@ -154,7 +152,9 @@ class Scene(Table):
                 f"settle = {self.settle:g}: allowed is a number < revolutions = "
                 f"{self.revolutions:g}, or nothing is left to read"
             )
-        unused = unused_tables(self.mechanism)
+        shown_name = repr(self.mechanism) if self.shipped_name else "the scene's own"
+        dimensions = {"press", "slider_crank"} - {self.shipped_name}
+        unused = dict.fromkeys(dimensions, f"mechanism is {shown_name}")
         for name in TABLES:
             table = getattr(self, name)
             if name in LAWS:  # their defaults are the mechanism's
@@ -225,7 +225,7 @@ class Scene(Table):
         spherical = {joint.name: joint.spherical for joint in mechanism.joints}
         joints = joints_of(tables, mechanism.name, spherical, mechanism.groups, laws, sizes)
         object.__setattr__(self, "joints", joints)
-        unused = unused_laws(joints.values())
+        unused = joints.unused_laws()
         self._refuse(unused, "start", self.start)
         if self.start is None and "start" not in unused:
             object.__setattr__(self, "start", usual.get("start", STARTS[0]))
@@ -514,7 +514,7 @@ class Scene(Table):
 
         return cell(self)
 
-    def build(self) -> "AssembledModel":
+    def build(self) -> Any:  # a Model, of which a scene knows nothing
         """Return the assembled `exu_press.model.Model`; its mbs and SC are the real Exudyn objects.
 
         Every body has graphics for Exudyn's own renderer and SolutionViewer.
@@ -671,7 +671,7 @@ def mechanism_of(scene: Scene) -> Mechanism:
         drawn = _with_flywheel(drawn, scene.drive.on_crank)
     if not scene.guides:
         return drawn
-    from exu_press.scene.elastic import with_elastic_guides
+    from exu_press.scene.guides import with_elastic_guides
 
     return with_elastic_guides(drawn, scene.guides)
 

@@ -1,4 +1,4 @@
-"""The tables of a scene, and which of them a scene does not use."""
+"""The tables of a scene."""
 
 from collections.abc import Mapping
 from dataclasses import Field
@@ -7,7 +7,7 @@ from typing import Any
 from exu_press.schema.registry import Registry
 from exu_press.schema.table import Table, declared_keys
 
-__all__ = ["LAWS", "TABLES", "law_kind", "table_keys", "unused_tables"]
+__all__ = ["LAWS", "TABLES", "law_kind", "table_keys"]
 
 LAWS: dict[str, Registry] = {
     "contact": Registry(
@@ -20,14 +20,9 @@ LAWS: dict[str, Registry] = {
 
 TABLES = Registry(
     {
-        **{
-            law: f"scene.{law}:{kind}"
-            for law, kind in (
-                ("contact", "JournalContact"),
-                ("friction", "Friction"),
-                ("film", "JournalFilm"),
-            )
-        },
+        "contact": "scene.contact:JournalContact",
+        "friction": "scene.friction:Friction",
+        "film": "scene.film:JournalFilm",
         "drive": "scene.motor:Motor",
         "guide": "scene.guide:ElasticGuide",
         "output": "scene.output:Output",
@@ -53,10 +48,3 @@ def table_keys(name: str) -> Mapping[str, Field[Any]]:
         for key, field in declared_keys(kind).items():
             keys.setdefault(key, field)
     return keys
-
-
-def unused_tables(mechanism: Any) -> dict[str, str]:
-    """Return the tables that a scene of this mechanism does not use -> the reason."""
-    name = repr(mechanism) if isinstance(mechanism, str) else "the scene's own"
-    reason = f"mechanism is {name}"
-    return {name: reason for name in ("press", "slider_crank") if name != mechanism}

@@ -30,7 +30,7 @@ class WearAt(Table):
 
 
 def _own(meaning: str) -> Any:
-    metadata = {**key(None, meaning).metadata, "by_place": True}
+    metadata = {**key(None, meaning, also=Mapping).metadata, "by_place": True}
     return dataclasses.field(default=None, hash=False, metadata=metadata)
 
 
@@ -60,11 +60,8 @@ class Wear(WearAt):
                 name: table_from(WearAt, f"wear.{kind}.{name}", keys).given_values
                 for name, keys in tables.items()
             }
-            object.__setattr__(self, kind, None)
-            super().__post_init__()
             object.__setattr__(self, kind, checked)
-        if self.joints is self.guides is None:
-            super().__post_init__()
+        super().__post_init__()
 
     def check_places(
         self, joints: Mapping[str, str], guides: Mapping[str, str], groups: Mapping[str, Any]

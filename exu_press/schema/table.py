@@ -19,6 +19,7 @@ __all__ = [
     "check_keys",
     "declared_keys",
     "demand_keys",
+    "dotted_name",
     "given_keys",
     "given_names",
     "key_values",

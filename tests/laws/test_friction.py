@@ -15,7 +15,7 @@ CANUDAS = LuGre(1.5, 1.0, 1e5, math.sqrt(1e5), 0.4, stribeck_velocity=1e-3, stri
 STATELESS = {
     "none": no_friction(),
     "coulomb": coulomb(0.1, 1e-3),
-    "stribeck": stribeck(0.2, 0.1, 0.01, 0.5, 1e-3, viscous=0.05),
+    "stribeck": stribeck(0.2, 0.1, 0.01, 0.5, 1e-3, sigma_2=0.05),
     "lugre_steady": lugre_steady(0.2, 0.1, 0.05, 0.01, 2.0, 1e-3),
 }
 
@@ -181,7 +181,7 @@ def test_coulomb_limits() -> None:
 
 
 def test_stribeck_limits() -> None:
-    friction = stribeck(0.3, 0.1, 0.1, 2.0, 1e-5, viscous=0.02)
+    friction = stribeck(0.3, 0.1, 0.1, 2.0, 1e-5, sigma_2=0.02)
     assert friction(0.0) == (0.0, pytest.approx(0.3 / 1e-5 + 0.02))
     assert friction(1e-3)[0] == pytest.approx(0.3, rel=1e-3)  # v_r << v << v_s: static
     assert friction(0.1)[0] == pytest.approx(0.1 + 0.2 / math.e + 0.002)

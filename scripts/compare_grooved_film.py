@@ -1,9 +1,9 @@
 """Compare bearings with two axial grooves with published tables: a line for each row (5 s).
 
-Someya's stiffness is that of grooves which turn with the eccentricity, Lund's that of grooves which
-stay in the bearing, as they do.
+Lund's rows are equilibria and derivatives of a bearing whose grooves stay where they are. Someya's
+follow from another procedure, which `someya` repeats.
 
-Run it with: python scripts/compare_grooved_film.py
+Run it with: python scripts/compare_grooved_film.py [--equilibrium]
 """
 
 import argparse
@@ -20,79 +20,117 @@ TABLES = Path(__file__).parents[1] / "tests" / "laws" / "film" / "someya_lund.cs
 WIDTHS = {"Someya": 10.0, "Lund": 20.0}  # of a groove, deg; neither table says it
 LEAST, LARGEST = 0.19, 0.81
 STEP = 0.01
+"""Of a motion over the clearance, and of a velocity over that and omega, for a derivative."""
+
+SOMEYA_STEP = 0.02
+"""Of the velocity whose force, beside that of none, is Someya's damping."""
+
+SOMEYA_TOLERANCE = math.radians(2.0)
+"""Change of the attitude angle at which Someya's iteration ends."""
 
 
-def force(bearing, e):
-    """Return the steady force on the journal, x along the load, over P omega / 2."""
+def force(bearing, e, v=(0.0, 0.0)):
+    """Return the force on a turning journal at e with a velocity v, x along the bearing's middle.
+
+    Lengths are over the clearance, times over 1 / omega, forces over P omega.
+    """
     eps, angle = math.hypot(*e), math.atan2(e[1], e[0])
-    f_r, f_t, _ = solve_grooved(bearing, eps, angle, 0.0, eps)
-    return turned(f_r, f_t, angle)
-
-
-def turned(f_r, f_t, angle):
-    """Return a radial and a tangential component in the axes of the load."""
-    c, s = math.cos(angle), math.sin(angle)
+    c, s = e / eps
+    eps_dot, across = v[0] * c + v[1] * s, v[1] * c - v[0] * s
+    f_r, f_t, _ = solve_grooved(bearing, eps, angle, eps_dot, eps - 2.0 * across)
     return np.array([f_r * c - f_t * s, f_r * s + f_t * c])
 
 
-def coefficients(width, ratio, eps, grooves_turn):
-    """Return S, attitude (deg), K and B of a bearing with grooves at +-90 deg from the load."""
-    grooves = tuple(Groove(a, math.radians(width), 1.0) for a in (math.pi / 2, -math.pi / 2))
-    bearing = GroovedBearing(ratio, grooves)
+def place(eps, angle):
+    """Return the eccentricity at an angle."""
+    return eps * np.array([math.cos(angle), math.sin(angle)])
 
-    def place(angle):
-        return eps * np.array([math.cos(angle), math.sin(angle)])
 
-    attitude = brentq(lambda angle: force(bearing, place(angle))[1], 0.2, 1.6, xtol=1e-6)
-    e, normal = place(attitude), place(attitude) / eps
-    bears = force(bearing, e)
-    load = -bears[0]
+def slope(function, step, least):
+    """Return the difference of a function of a place between two steps, over their distance."""
+    return (function(step) - function(least)) / (step - least)
+
+
+def lund(bearing, eps):
+    """Return eccentricity, force, stiffness and damping in equilibrium."""
+    angle = brentq(lambda angle: force(bearing, place(eps, angle))[1], 0.2, 1.6, xtol=1e-6)
+    e = place(eps, angle)
+    axes = np.eye(2)
+    stiffness = [slope(lambda x, n=n: force(bearing, e + x * n), STEP, -STEP) for n in axes]
+    damping = [slope(lambda v, n=n: force(bearing, e, v * n), STEP, -STEP) for n in axes]
+    return e, force(bearing, e), -np.transpose(stiffness), -np.transpose(damping)
+
+
+def someya(bearing, eps):
+    """Return the same as Someya's tables have it.
+
+    The grooves are put across the direction of the load of the last iteration, the first of which
+    has an attitude of 90 deg. The bearing's stiffness is that of a force which turns with the
+    eccentricity, and its damping a forward difference.
+    """
+    angle, change = 0.5 * math.pi, math.inf
+    while change > SOMEYA_TOLERANCE:
+        e = place(eps, angle)
+        bears = force(bearing, e)
+        attitude = angle - math.atan2(-bears[1], -bears[0])
+        angle, change = attitude, abs(attitude - angle)
+    normal = e / eps
     across = np.array([-normal[1], normal[0]])
-
-    def slope(direction):
-        step = STEP * direction
-        return (force(bearing, e + step) - force(bearing, e - step)) / (2.0 * STEP)
-
-    by_across = slope(across)
-    if grooves_turn:  # the force turns with the eccentricity
-        by_across = np.array([-bears[1], bears[0]]) / eps
-    stiffness = -np.outer(slope(normal), normal) - np.outer(by_across, across)
-    damping = np.empty((2, 2))
-    for column, v in enumerate(np.eye(2)):
-        forces = [
-            turned(
-                *solve_grooved(
-                    bearing, eps, attitude, sign * STEP * v @ normal,
-                    eps - 2.0 * sign * STEP * v @ across,
-                )[:2],
-                attitude,
-            )
-            for sign in (1.0, -1.0)
-        ]  # fmt: skip
-        damping[:, column] = -(forces[0] - forces[1]) / (2.0 * STEP)
-    return 1.0 / (math.pi * load), math.degrees(attitude), stiffness / load, damping / load
+    by_normal = slope(lambda x: force(bearing, e + x * normal), STEP, -STEP)
+    by_across = np.array([-bears[1], bears[0]]) / eps
+    stiffness = -np.outer(by_normal, normal) - np.outer(by_across, across)
+    damping = [slope(lambda v, n=n: force(bearing, e, v * n), SOMEYA_STEP, 0.0) for n in np.eye(2)]
+    return e, bears, stiffness, -np.transpose(damping)
 
 
-def rows():
-    """Yield source, L/D, eps, and theirs and ours: S, attitude (deg), K and B (2, 2) each."""
+def coefficients(table, ratio, eps, procedure):
+    """Return S, attitude (deg), K and B of a bearing with grooves at +-90 deg from the load."""
+    grooves = tuple(
+        Groove(a, math.radians(WIDTHS[table]), 1.0) for a in (math.pi / 2, -math.pi / 2)
+    )
+    bearing = GroovedBearing(ratio, grooves)
+    e, bears, stiffness, damping = procedure(bearing, eps)
+    load = math.hypot(*bears)
+    axis = -bears / load
+    axes = np.array([axis, [-axis[1], axis[0]]])
+    attitude = math.atan2(*(axes @ e)[::-1])
+    matrices = (axes @ matrix @ axes.T / load for matrix in (stiffness, damping))
+    return 1.0 / (math.pi * load), math.degrees(attitude), *matrices
+
+
+PROCEDURES = {"Someya": someya, "Lund": lund}
+
+
+def table_rows():
+    """Yield a table's name and its numbers, of each row."""
     with TABLES.open(encoding="utf-8") as file:
         lines = [line for line in file if not line.startswith("#")]
     for row in csv.DictReader(lines):
-        source = row.pop("table").partition(" ")[0]
-        r = {name: float(value) for name, value in row.items()}
+        name = row.pop("table").partition(" ")[0]
+        yield name, {symbol: float(value) for symbol, value in row.items()}
+
+
+def rows(procedures=PROCEDURES):
+    """Yield source, L/D, eps, and theirs and ours: S, attitude (deg), K and B (2, 2) each."""
+    for source, r in table_rows():
         if not LEAST < r["E"] < LARGEST:
             continue
         ratio = r["length_to_diameter"]
-        ours = coefficients(WIDTHS[source], ratio, r["E"], source == "Someya")
+        ours = coefficients(source, ratio, r["E"], procedures[source])
         k, b = (np.array([[r[m + i + j] for j in "xy"] for i in "xy"]) for m in "KB")
         yield source, ratio, r["E"], (r["S"], r["Phi"], k, b), ours
 
 
 def main():
     """Print the table."""
-    argparse.ArgumentParser(description=__doc__).parse_args()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument(
+        "--equilibrium", action="store_true", help="compare Someya's rows like Lund's"
+    )
+    in_equilibrium = parser.parse_args().equilibrium
+    procedures = {**PROCEDURES, "Someya": lund} if in_equilibrium else PROCEDURES
     print("table   L/D  eps    S       attitude  K      B")
-    for source, ratio, eps, theirs, ours in rows():
+    for source, ratio, eps, theirs, ours in rows(procedures):
         s, attitude = ours[0] / theirs[0] - 1.0, ours[1] - theirs[1]
         k, b = (
             np.abs(o - t).max() / np.abs(t).max() for o, t in zip(ours[2:], theirs[2:], strict=True)

@@ -1,5 +1,6 @@
 """Newton's matrix as a filter of errors, and the errors of positions in constraints."""
 
+import exudyn as exu
 import numpy as np
 
 from exu_press.integrate.task import Task, inertia_factor
@@ -26,13 +27,11 @@ class NewtonFilter:
         self._number = -1  # of the Jacobian at hand
         self._jacobian, self._equations = np.zeros((0, 0)), Equations(np.zeros((0, 0)))
         self._roundoff = -1.0  # of its constraints, m, once it was asked for
-        self._start = np.array(self._positions)
-        self._start_time = 0.0
+        self._start: list[float] = []  # where the step begins, before any shift
 
     def begin_step(self) -> None:
         """Take the current state as a step's beginning."""
-        np.copyto(self._start, self._positions)
-        self._start_time = self._data.GetTime()
+        self._start = self._positions.tolist()
 
     def refresh(self) -> None:
         """Take the last Jacobian from the solver: of 70 unknowns that takes as long as a step."""
@@ -67,7 +66,7 @@ class NewtonFilter:
         """Return by how much the step before left each constraint violated, (count,)."""
         end, time = np.array(self._positions), self._data.GetTime()
         self._positions[:] = self._start
-        self._data.SetTime(self._start_time)
+        self._data.SetTime(self._data.GetTime(exu.ConfigurationType.StartOfStep))
         self._solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=False)
         residual = np.array(self._solver.GetSystemResidual())
         self._positions[:] = end

@@ -1,6 +1,7 @@
 """The first guess of a step, and where Newton's method ends."""
 
 import math
+from typing import Any
 
 from exu_press.integrate.jacobian import FlexibleJacobian, FrictionJacobian
 from exu_press.integrate.task import Task
@@ -34,13 +35,11 @@ class Predictor:
             FrictionJacobian(task)
         self._relative = tuning.newton_tolerance * task.tolerance
         current = system.current
-        self._multipliers = current.multipliers
-        self._positions, self._velocities = (
-            FloatBuffer(current.positions),
-            FloatBuffer(current.velocities),
-        )
+        self._positions = FloatBuffer(current.positions)
+        self._velocities = FloatBuffer(current.velocities)
         self._accelerations = FloatBuffer(current.accelerations)
-        self._multipliers_before = system.start.multipliers
+        self._multipliers: Any = current.multipliers.data
+        self._multipliers_before: Any = system.start.multipliers.data
         # where they begin among the coordinates, and their reference values
         self._quaternions: list[tuple[int, list[float]]] = []
         for node in system.nodes:
@@ -101,8 +100,7 @@ class Predictor:
         self._positions.write(positions)
         self._velocities.write(velocities)
         self._accelerations.write(expected)
-        if len(self._multipliers):
-            self._multipliers[:] = self._multipliers_before
+        self._multipliers[:] = self._multipliers_before
 
     def _normalise_quaternions(
         self, expected: list[float], positions: list[float], by_q: float

@@ -36,9 +36,8 @@ class GuidewayContact(InterfaceJoint):
             across: unit vector across it.
             interface: of surfaces; its radius is the body's half width, m.
         """
-        super().__init__([interface], turns=False)
+        super().__init__(list(end.indices), [interface], turns=False)
         self.end = end
-        self.indices = list(end.indices)
         self._length, self._angle = end.polar
         self._x, self._y = end.reference[0] - middle[0], end.reference[1] - middle[1]
         self._across = across

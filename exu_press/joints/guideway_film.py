@@ -7,30 +7,19 @@ body's face, half a width beside its middle.
 """
 
 import math
-from typing import Any
 
 import numpy as np
 
 from exu_press.joints.ends import BodyEnd, Vector, cross, rotate
-from exu_press.joints.joint import JointState
-from exu_press.joints.path import Path
+from exu_press.joints.joint import ClearanceJoint, JointState
 from exu_press.laws.film.plane_pad import PadFilm, PadLaw
 from exu_press.numerics.arrays import Array
 
 __all__ = ["GuidewayFilm"]
 
 
-class GuidewayFilm:
-    """Two films in a body's guideway, a `ClearanceJoint`; contacts are joints beside it.
-
-    Attributes:
-        clearance: thickness of each film where the body is in the middle, m.
-        contact_onset: displacement of an end at which its surfaces touch, m.
-    """
-
-    lubricated = True
-    largest_eccentricity = math.inf
-    outside: float | None = None
+class GuidewayFilm(ClearanceJoint):
+    """Two films in a body's guideway; contacts are joints beside it."""
 
     def __init__(
         self,
@@ -61,16 +50,15 @@ class GuidewayFilm:
             half_width: of the body across the guideway, m.
         """
         assert rear.indices == front.indices
-        self.clearance, self.contact_onset = clearance, contact_onset
-        self.indices = [*rear.indices, *line.indices]
-        self.path = Path()
+        super().__init__(
+            [*rear.indices, *line.indices], clearance, contact_onset, math.inf, lubricated=True
+        )
         self._ends, self._line = (rear, front), line
         self._drawn: Vector = (along[0], along[1], 0.0)
         self._along: Vector = self._drawn
         self._across: Vector = (along[1], -along[0], 0.0)
         self._law, self._viscosity = law, viscosity
         self._length, self._half_width = length, half_width
-        self._step = 0.0
         self._places = self._rates = 0.0, 0.0
         self._sliding = self._turning = 0.0
         self._loads = 0.0, 0.0, 0.0, 0.0
@@ -186,25 +174,6 @@ class GuidewayFilm:
         """Force on the body at the last `add_force`, N."""
         across_1, across_2, along, _ = self._loads
         return self._in_plane(across_1 + across_2, along)
-
-    def begin_step(self, step: float, accepted: bool) -> None:
-        """Start a step of size `step` (s), after the last one was accepted or is repeated."""
-        if accepted:
-            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, 0.0, 0.0)
-        self._step = step
-
-    def reset(self) -> None:
-        """Forget everything."""
-        self.path, self._step = Path(), 0.0
-
-    def memory(self) -> list[Any]:
-        """Return the memory of the steps before."""
-        return [self._step, self.path.memory()]
-
-    def recall(self, memory: list[Any]) -> None:
-        """Take over another's memory."""
-        self._step = memory[0]
-        self.path.recall(memory[1])
 
     def _in_plane(self, across: float, along: float) -> tuple[float, float]:
         """Return a vector across and along the guideway in the global frame."""

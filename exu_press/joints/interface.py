@@ -11,8 +11,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from exu_press.joints.joint import SHALLOW, JointState
-from exu_press.joints.path import Path
+from exu_press.joints.joint import SHALLOW, ClearanceJoint, JointState
 from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.film.contract import FilmLaw
 from exu_press.laws.friction import Friction, LuGre
@@ -389,35 +388,33 @@ class FunctionInterface(InterfaceLaw):
         return 0.0 if self.energy is None else self.energy(e)[1] * e_dot
 
 
-class InterfaceJoint:
+class InterfaceJoint(ClearanceJoint):
     """Base of revolute joints in the plane and in space: interfaces acting in parallel.
 
     Attributes:
         interfaces: the first one has the joint's clearance.
-        clearance: radial clearance, m.
-        contact_onset: eccentricity at which surfaces touch in one of them, m, or infinity.
-        largest_eccentricity: eccentricity up to which their contact laws hold, m, or infinity.
-        lubricated: whether one of them is a film.
-        path: of the journal.
     """
 
-    def __init__(self, interfaces: Sequence[InterfaceLaw], turns: bool = True) -> None:
+    def __init__(
+        self, indices: list[int], interfaces: Sequence[InterfaceLaw], turns: bool = True
+    ) -> None:
         """Let surfaces touch; their normal turns with the eccentricity, or a guideway's stays."""
         self.interfaces = list(interfaces)
         self._turns = turns
-        self.clearance = self.interfaces[0].clearance
         dry = [interface for interface in self.interfaces if isinstance(interface, DryInterface)]
-        self.contact_onset = min([interface.clearance for interface in dry], default=math.inf)
-        self.largest_eccentricity = self.clearance + min(
-            [SHALLOW * interface.radius for interface in dry if turns], default=math.inf
+        clearance = self.interfaces[0].clearance
+        shallow = [SHALLOW * interface.radius for interface in dry if turns]
+        super().__init__(
+            indices,
+            clearance,
+            contact_onset=min([interface.clearance for interface in dry], default=math.inf),
+            largest_eccentricity=clearance + min(shallow, default=math.inf),
+            lubricated=any(isinstance(interface, FilmInterface) for interface in self.interfaces),
         )
-        self.lubricated = any(isinstance(interface, FilmInterface) for interface in self.interfaces)
         self._motion: Motion = (0.0, 0.0, 0.0, 0.0, 0.0)
         self._loads: list[Load | None] = [None for _ in self.interfaces]
         self._motion_before = self._motion
         self._loads_before = self._loads
-        self.path = Path()
-        self._step = 0.0
 
     @property
     def outside(self) -> float | None:
@@ -426,10 +423,6 @@ class InterfaceJoint:
             if interface.outside is not None:
                 return interface.outside
         return None
-
-    def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
-        """Add the joint's generalised forces to `out`."""
-        raise NotImplementedError
 
     def in_frame(self, along_n: float, along_t: float) -> tuple[float, ...]:
         """Return a vector of the joint's plane at the last `add_force` in the global frame."""
@@ -500,16 +493,16 @@ class InterfaceJoint:
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
-        if accepted:
-            depth = self._motion[0] - self.contact_onset
-            memory = self._contact_memory() if depth > 0.0 else 0.0
-            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth, memory)
-        self._step = step
+        super().begin_step(step, accepted)
         for interface in self.interfaces:
             interface.drift = self.path.drift
             interface.begin_step(step, accepted)
 
-    def _contact_memory(self) -> float:
+    def contact_depth(self) -> float:
+        """Return the penetration at the last `add_force`, m; none where it is not positive."""
+        return self._motion[0] - self.contact_onset
+
+    def contact_memory(self) -> float:
         """Return damping over stiffness of the normal force at the last `add_force`, s."""
         e, _, _, w_j, w_b = self._motion
         stiffness = damping = 0.0
@@ -522,21 +515,19 @@ class InterfaceJoint:
 
     def reset(self) -> None:
         """Forget everything."""
+        super().reset()
         self._loads = [None for _ in self.interfaces]
-        self.path, self._step = Path(), 0.0
         for interface in self.interfaces:
             interface.drift = 0.0
             interface.reset()
 
     def memory(self) -> list[Any]:
         """Return the memory of the steps before, numbers in lists."""
-        interfaces = [interface.memory() for interface in self.interfaces]
-        return [self._step, self.path.memory(), interfaces]
+        return [*super().memory(), [interface.memory() for interface in self.interfaces]]
 
     def recall(self, memory: list[Any]) -> None:
         """Take over the memory of another joint of its kind, in the state of the last forces."""
-        self._step = memory[0]
-        self.path.recall(memory[1])
+        super().recall(memory)
         for interface, interface_memory in zip(self.interfaces, memory[2], strict=True):
             interface.drift = self.path.drift
             interface.recall(interface_memory)

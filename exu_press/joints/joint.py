@@ -1,6 +1,6 @@
-"""The joint as the user force element needs it, and its state; compiled like the joints."""
+"""The base of all joints with clearance, and a joint's state."""
 
-from typing import Any, Protocol
+from typing import Any
 
 from exu_press.joints.path import Path
 from exu_press.numerics.arrays import Array
@@ -75,60 +75,104 @@ class JointState:
         return sum(load * rate for load, rate in pairs)
 
 
-class ClearanceJoint(Protocol):
-    """A joint over some of the coordinates of the user force element's item."""
+class ClearanceJoint:
+    """A joint over some of the coordinates of the user force element's item.
 
-    clearance: float
-    """Radial clearance, m."""
-    contact_onset: float
-    """Eccentricity at which its surfaces begin to touch, m, less than the clearance where they are
-    rough; infinite where a film alone lies between them."""
-    largest_eccentricity: float
-    """Eccentricity up to which its contact laws hold, m; infinite without contact."""
-    lubricated: bool
-    """True with a film."""
-    path: Path
-    """Path of the journal."""
-    indices: list[int]
-    """Positions of the joint's coordinates among those of the item."""
+    Attributes:
+        indices: positions of its coordinates among those of the item.
+        clearance: radial clearance, m.
+        contact_onset: eccentricity at which its surfaces begin to touch, m, less than the clearance
+            where they are rough; infinite where a film alone lies between them.
+        largest_eccentricity: up to which its contact laws hold, m; infinite without contact.
+        lubricated: whether it has a film.
+        path: of the journal.
+        orientation: with grooves, angle of the eccentricity in the bearing, rad, and power of the
+            pump that feeds the film, W, at the last `add_force`; else empty.
+    """
+
+    def __init__(
+        self,
+        indices: list[int],
+        clearance: float,
+        contact_onset: float,
+        largest_eccentricity: float,
+        lubricated: bool,
+    ) -> None:
+        self.indices = indices
+        self.clearance = clearance
+        self.contact_onset = contact_onset
+        self.largest_eccentricity = largest_eccentricity
+        self.lubricated = lubricated
+        self.path = Path()
+        self.orientation: Vector = ()
+        self._step = 0.0
 
     @property
     def outside(self) -> float | None:
         """Eccentricity ratio of the last state if a film's law did not hold there."""
+        return None
 
     @property
     def eccentricity(self) -> Vector:
         """Journal centre - bearing centre at the last `add_force`, m."""
+        raise NotImplementedError
 
     @property
     def relative_velocity(self) -> Vector:
         """Rate of the eccentricity at the last `add_force`, m/s."""
+        raise NotImplementedError
 
     @property
     def force(self) -> Vector:
         """Force on the journal at the last `add_force`, N."""
+        raise NotImplementedError
+
+    @property
+    def rubbing(self) -> Vector:
+        """Normal force of the contact, N, and sliding velocity, m/s, where they can be recorded."""
+        return ()
+
+    @property
+    def state(self) -> JointState:
+        """The joint's state at the last `add_force`."""
+        raise NotImplementedError
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
         """Add the joint's generalised forces to `out`."""
+        raise NotImplementedError
 
     def jacobian(self, by_q: float, by_q_t: float) -> list[float] | Array | None:
         """Return -(by_q dQ/dq + by_q_t dQ/dq_t) at the state of the last `add_force`, by rows.
 
         Over the joint's own coordinates; None where nothing acts.
         """
+        raise NotImplementedError
 
-    @property
-    def state(self) -> JointState:
-        """The joint's state at the last `add_force`."""
+    def contact_depth(self) -> float:
+        """Return the penetration at the last `add_force`, m; none where it is not positive."""
+        return 0.0
+
+    def contact_memory(self) -> float:
+        """Return damping over stiffness of the normal force at the last `add_force`, s."""
+        return 0.0
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""
+        if accepted:
+            depth = self.contact_depth()
+            memory = self.contact_memory() if depth > 0.0 else 0.0
+            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth, memory)
+        self._step = step
 
     def reset(self) -> None:
         """Forget everything."""
+        self.path, self._step = Path(), 0.0
 
     def memory(self) -> list[Any]:
         """Return the memory of the steps before, numbers in lists."""
+        return [self._step, self.path.memory()]
 
     def recall(self, memory: list[Any]) -> None:
         """Take over the memory of another joint of its kind, in the state of the last forces."""
+        self._step = memory[0]
+        self.path.recall(memory[1])

@@ -37,9 +37,8 @@ class MovingGuidewayContact(InterfaceJoint):
             interface: of surfaces; its radius is the lever of friction, m.
             radius: of the circle of a circular slot, m; None: straight.
         """
-        super().__init__([interface], turns=False)
+        super().__init__([*end.indices, *line.indices], [interface], turns=False)
         self.end, self.line = end, line
-        self.indices = [*end.indices, *line.indices]
         self._length_j, self._angle_j = end.polar
         self._length_b, self._angle_b = line.polar
         self._across, self._radius = across + line.reference[2], radius

@@ -124,12 +124,7 @@ class TiltedInterface(GroovedInterface):
 
 
 class OrientedJoint(PlanarJoint):
-    """A planar joint that tells its grooved film where in the bearing the journal is.
-
-    Attributes:
-        orientation: angle of the eccentricity in the bearing, rad, and power of the pump that
-            feeds the film, W, at the last `add_force`.
-    """
+    """A planar joint that tells its grooved film where in the bearing the journal is."""
 
     def __init__(
         self,

@@ -37,10 +37,9 @@ class PlanarJoint(InterfaceJoint):
     def __init__(
         self, journal: PlanarEnd, bearing: PlanarEnd, interfaces: Sequence[InterfaceLaw]
     ) -> None:
-        super().__init__(interfaces)
+        super().__init__([*journal.indices, *bearing.indices], interfaces)
         self.journal = journal
         self.bearing = bearing
-        self.indices = [*journal.indices, *bearing.indices]
         self._length_j, self._angle_j = journal.polar
         self._length_b, self._angle_b = bearing.polar
         self._far = journal.reference[0] - bearing.reference[0]

@@ -28,13 +28,12 @@ class SpatialRevolute(InterfaceJoint):
         turns: bool = True,
     ) -> None:
         """Join the two ends by the interfaces; `axis` is the bearing's, in its body's frame."""
-        super().__init__(interfaces, turns)
+        super().__init__(journal.indices + bearing.indices, interfaces, turns)
         self.journal = journal
         self.bearing = bearing
         x, y, z = (float(component) for component in axis)
         length = sqrt(x * x + y * y + z * z)
         self._axis: Vector = (x / length, y / length, z / length)
-        self.indices = journal.indices + bearing.indices
         # after `add_force`: the turned axis, across it towards the journal and tangentially, and
         # from the bearing's centre along the axis to the journal's
         self._a: Vector = self._axis

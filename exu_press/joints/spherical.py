@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.joints.ends import BodyEnd, Vector, cross, cross_matrix
-from exu_press.joints.joint import SHALLOW, JointState
-from exu_press.joints.path import Path
+from exu_press.joints.joint import SHALLOW, ClearanceJoint, JointState
 from exu_press.joints.spherical_film import SphericalFilm
 from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.friction import Friction, LuGre
@@ -16,7 +15,7 @@ from exu_press.numerics.arrays import Array
 __all__ = ["SpatialSpherical"]
 
 
-class SpatialSpherical:
+class SpatialSpherical(ClearanceJoint):
     """A ball in a socket, touching where their centres are further apart than the clearance.
 
     Both forces act at the contact point on the ball's surface, so that momentum and angular
@@ -36,25 +35,27 @@ class SpatialSpherical:
         asperity_onset: float = 0.0,
     ) -> None:
         """Join ball and socket; radius, radial clearance and the gap at which they touch in m."""
+        super().__init__(
+            ball.indices + socket.indices,
+            clearance,
+            contact_onset=math.inf if contact is None else clearance - asperity_onset,
+            largest_eccentricity=math.inf if contact is None else clearance + SHALLOW * radius,
+            lubricated=film is not None,
+        )
         self.ball = ball
         self.socket = socket
-        self.indices = ball.indices + socket.indices
         self._stateful = contact is not None and (
             isinstance(friction, LuGre) or contact.needs_impact_speed
         )
         self._contact, self._friction = contact, friction
         self._radius = radius
-        self.clearance = clearance
-        self.contact_onset = math.inf if contact is None else clearance - asperity_onset
-        self.largest_eccentricity = math.inf if contact is None else clearance + SHALLOW * radius
-        self.lubricated = film is not None
         self._film = film
         self._approach = Approach()
         self._next_bristle: Array = np.zeros(3)
         self._sliding: Array | None = None
         self._sliding_before: Array | None = None
         self._normal = self._normal_before = self._in_bristles = 0.0
-        self._e = self._step = 0.0
+        self._e = 0.0
         self._touching = False
         self.reset()
 
@@ -65,19 +66,22 @@ class SpatialSpherical:
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Keep bristle deflection and approach speed of the last step if it was accepted."""
+        super().begin_step(step, accepted)
         if accepted:
-            depth = self._e - self.contact_onset
-            memory = self._contact_memory() if self._touching else 0.0
-            self.path.go_on(self.eccentricity, self.relative_velocity, self._step, depth, memory)
             self._in_bristles += self._into_bristles()
             self._bristle = self._next_bristle
             self._sliding_before = self._sliding
             self._normal_before = self._normal
             self._approach.accept()
-        self._step = step
 
-    def _contact_memory(self) -> float:
+    def contact_depth(self) -> float:
+        """Return the penetration at the last `add_force`, m; none where it is not positive."""
+        return self._e - self.contact_onset
+
+    def contact_memory(self) -> float:
         """Return damping over stiffness of the normal force at the last `add_force`, s."""
+        if not self._touching:
+            return 0.0
         stiffness, damping = self._law[1:]
         if self._film is not None:
             by_place, by_rates = self._film.partials()
@@ -87,7 +91,7 @@ class SpatialSpherical:
 
     def reset(self) -> None:
         """Relax the bristle."""
-        self.path, self._step = Path(), 0.0
+        super().reset()
         self._e = 0.0
         self._n, self._relative = np.array([1.0, 0.0, 0.0]), np.zeros(3)
         self._bristle = np.zeros(3)
@@ -103,12 +107,11 @@ class SpatialSpherical:
         """Return the memory of the steps before, numbers in lists."""
         vectors = self._bristle, self._next_bristle, self._sliding, self._sliding_before
         vectors_as_lists = [None if vector is None else vector.tolist() for vector in vectors]
-        return [self._step, self.path.memory(), vectors_as_lists, self._approach.memory()]
+        return [*super().memory(), vectors_as_lists, self._approach.memory()]
 
     def recall(self, memory: list[Any]) -> None:
         """Take over the memory of another joint of its kind, in the state of the last forces."""
-        self._step = memory[0]
-        self.path.recall(memory[1])
+        super().recall(memory)
         bristle, following, *sliding = memory[2]
         self._bristle, self._next_bristle = np.array(bristle), np.array(following)
         self._sliding, self._sliding_before = (

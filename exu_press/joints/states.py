@@ -51,12 +51,10 @@ class States:
             numbers.append(state.gap)
             numbers.append(state.stored_energy)
             numbers.append(state.stored_power)
-            rubbing: Any = getattr(joint, "rubbing", ()) if self._rubbing[i] else ()
-            rubbed = len(rubbing)
+            rubbing = joint.rubbing if self._rubbing[i] else ()
             numbers += rubbing
-            orientation: Any = getattr(joint, "orientation", ())
-            numbers += orientation
+            numbers += joint.orientation
             if len(self.lengths) == i:
                 lengths = [len(vector) for vector in state.vectors]
-                self.lengths.append([*lengths, 1, 1, 1, rubbed, len(orientation)])
+                self.lengths.append([*lengths, 1, 1, 1, len(rubbing), len(joint.orientation)])
         self.numbers.fromlist(numbers)

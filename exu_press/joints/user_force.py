@@ -9,7 +9,6 @@ item costs a call of its own.
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from struct import Struct
 from typing import Any
 
 import exudyn as exu
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.joints.joint import GROUND, SHALLOW, ClearanceJoint, JointState
+from exu_press.numerics.floats import FloatBuffer
 
 __all__ = ["UserForceElement", "add_massless_item", "holds_joints", "user_force_of"]
 
@@ -54,9 +54,9 @@ class UserForceElement:
         self._last: tuple[Any, Any] = None, None
         self._time = 0.0  # of it, s
         self._idle: list[list[float]] = []
-        self._moving_entries: NDArray[np.intp] | None = None
+        self._moving: list[int] | None = None  # entries of the Jacobian that are not the ground's
         self._triplets: NDArray[np.float64] = np.zeros((0, 3))
-        self._pack = Struct("").pack
+        self._entries = FloatBuffer(np.zeros(0))
         self._matrix = exu.MatrixContainer()
         self._within: list[tuple[NDArray[np.intp], NDArray[np.intp], int]] = []
         self._silent = False
@@ -87,13 +87,11 @@ class UserForceElement:
             for column in joint.indices
         ]
         self._idle = [[0.0] * len(joint.indices) ** 2 for joint in self.joints]
-        self._pack = Struct(f"{len(entries)}d").pack
         moving = [i for i, (row, column) in enumerate(entries) if row >= 0 and column >= 0]
-        self._moving_entries = (
-            np.array(moving) if len(moving) < len(entries) else None
-        )  # all but the ground's
-        self._triplets = np.zeros((len(moving), 3))
+        self._moving = moving if len(moving) < len(entries) else None
+        self._triplets = np.zeros((3, len(moving))).T
         self._triplets[:, :2] = [entries[i] for i in moving]
+        self._entries = FloatBuffer(self._triplets[:, 2])
         if self.item is None:
             self.item = add_massless_item(self._mbs, nodes, self._forces, self._jacobian)
         else:
@@ -291,10 +289,7 @@ class UserForceElement:
                 values += block
             else:
                 values += block.tolist()
-        weights = np.frombuffer(self._pack(*values))  # a third of the time of np.array(values)
-        self._triplets[:, 2] = (
-            weights if self._moving_entries is None else weights[self._moving_entries]
-        )
+        self._entries.write(values if self._moving is None else [values[i] for i in self._moving])
         self._matrix.SetWithSparseMatrix(self._triplets, self.size, self.size)
         return self._matrix
 

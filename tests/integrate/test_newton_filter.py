@@ -31,12 +31,14 @@ def filter_of(constraints, violation=0.0):
         alphaF=0.0,
     )
     scales = SimpleNamespace(length=3.0, norm=max)
-    data = SimpleNamespace(GetTime=lambda: 0.0, SetTime=lambda time: None)
+    data = SimpleNamespace(GetTime=lambda *_: 0.0, SetTime=lambda time: None)
     current = SimpleNamespace(positions=np.zeros(2))
     system = SimpleNamespace(current=current, data=data, mbs=None)
     tuning = SimpleNamespace(rounding=ROUNDING)
     task = SimpleNamespace(solver=solver, scales=scales, system=system, tuning=tuning)
-    return NewtonFilter(task)
+    newton_filter = NewtonFilter(task)
+    newton_filter.begin_step()
+    return newton_filter
 
 
 @pytest.mark.parametrize("count", [1, 2])

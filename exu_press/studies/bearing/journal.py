@@ -62,7 +62,7 @@ class Journal:
         self.viscosity = kind.film.cold_viscosity
         self._turning = turning
         self._interfaces = interfaces_of(kind, scene)
-        joint = InterfaceJoint(self._interfaces)
+        joint = InterfaceJoint([], self._interfaces)
         touching = math.isfinite(joint.contact_onset)
         self._beyond_film = joint.largest_eccentricity if touching else None
         tilted = any(isinstance(interface, TiltedInterface) for interface in self._interfaces)

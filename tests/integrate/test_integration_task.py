@@ -63,12 +63,6 @@ def constraints_of(scene):
     return Constraints(Task(system, settings(), 1e-3, ErrorScales(), SolverTuning()))
 
 
-def test_directions_have_length_one_and_zeros_stay():
-    directions, lengths = normalise(np.array([[3.0, 4.0], [0.0, 0.0]]))
-    assert directions.tolist() == [[0.6, 0.8], [0.0, 0.0]]
-    assert lengths.tolist() == [5.0, 1.0]
-
-
 @pytest.mark.parametrize("twice", [False, True])
 def test_the_projection_is_the_least_change_in_the_norm_of_masses(twice):
     """x + y = 1 of masses of 1 and 3 kg: the light one takes three quarters; also twice."""

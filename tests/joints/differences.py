@@ -1,4 +1,4 @@
-"""Forces of a joint, and its Jacobian against their differences."""
+"""Forces and state of a joint, and its Jacobian against differences of its forces."""
 
 import numpy as np
 
@@ -12,12 +12,18 @@ def forces(joint, q, q_t):
     return np.array(out[: len(q)])
 
 
-def assert_jacobian(joint, q, q_t, factors, allowed):
+def state_in(joint, q, q_t):
+    """Return the state of a joint whose forces are asked for in a state of its coordinates."""
+    joint.add_force(q, q_t, [0.0] * len(q))
+    return joint.state
+
+
+def assert_jacobian(joint, q, q_t, factors, allowed, by_rows=True):
     """Check a joint's Jacobian of a state, where its forces are those of all of q."""
     force = forces(joint, q, q_t)
     state = [*q], [*q_t]
     given = np.reshape(joint.jacobian(*factors), (len(force), -1))
-    assert_partials(given, lambda: forces(joint, *state), state, factors, allowed)
+    assert_partials(given, lambda: forces(joint, *state), state, factors, allowed, by_rows)
 
 
 def assert_partials(given, forces, state, factors, allowed, by_rows=True):

@@ -3,15 +3,18 @@
 import exudyn as exu
 import numpy as np
 import pytest
-from differences import assert_jacobian, assert_partials, forces
+from differences import assert_jacobian, assert_partials, forces, state_in
 from solving import planar_body
-from state_in import state_in
 
 from exu_press.joints.ends import BodyEnd
 from exu_press.joints.guide_friction import GuideFriction, SpringSide
 from exu_press.joints.guide_line import TurningLine
 from exu_press.joints.guide_springs import GuideSprings
 from exu_press.joints.guideway_film import GuidewayFilm
+from exu_press.joints.interface import DryInterface
+from exu_press.joints.moving_guideway import MovingGuidewayContact
+from exu_press.joints.planar import PlanarEnd
+from exu_press.laws.contact import hertz, step_damping
 from exu_press.laws.film.asperities import pad_with_asperities
 from exu_press.laws.film.plane_pad import plane_pad
 from exu_press.laws.friction import coulomb
@@ -89,3 +92,27 @@ def test_a_film_on_a_moving_body_keeps_momentum_and_has_its_power_and_jacobian()
     assert state.power == pytest.approx(force @ q_t, rel=1e-6)
     assert state.dissipated_power > 0.0
     assert_jacobian(film, q, q_t, (0.0, 1.0), 1e-3)
+
+
+def touching(radius):
+    """Return a contact between walls of another body, and coordinates in which it touches."""
+    contact = step_damping(hertz(1e7, 1.0), damping_max=1e3, damping_depth=1e-6)
+    end = PlanarEnd((0, 1, 2), tuple(BODY), (0.1, 0.0))
+    line = PlanarEnd((3, 4, 5), tuple(BASE), (0.3, 0.05))
+    interface = DryInterface(contact, coulomb(0.2, 0.5), 0.02, 1e-4)
+    joint, q = MovingGuidewayContact(end, line, 0.6, interface, radius), np.zeros(6)
+    for _ in range(20):
+        forces(joint, q, np.zeros(6))
+        q[:2] += (2e-4 - joint._motion[0]) * np.array(joint._rows[0][:2])
+    return joint, q
+
+
+@pytest.mark.parametrize("radius", [None, 0.1])
+def test_a_contact_on_a_moving_body_keeps_momentum_and_has_its_jacobian(radius):
+    """But for what only turns arms."""
+    (joint, q), q_t = touching(radius), [0.3, -0.2, 5.0, 0.1, 0.4, -3.0]
+    force = forces(joint, q, q_t)
+    assert np.hypot(*force[:2]) > 100.0
+    assert_balanced(force, q)
+    for factors in ((1.0, 0.0), (0.0, 1.0)):
+        assert_jacobian(joint, q, q_t, factors, 2e-2, by_rows=False)

@@ -5,7 +5,7 @@ import math
 import exudyn as exu
 import numpy as np
 import pytest
-from differences import assert_jacobian
+from differences import assert_jacobian, state_in
 from exudyn.itemInterface import (
     LoadForceVector,
     LoadTorqueVector,
@@ -14,7 +14,6 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
 )
 from solving import completed, planar_body, recorded
-from state_in import state_in
 
 from exu_press import InputError
 from exu_press.joints import add_guideway_contact, add_joint_sensor

@@ -5,12 +5,11 @@ import math
 import exudyn as exu
 import numpy as np
 import pytest
-from differences import assert_jacobian, forces
+from differences import assert_jacobian, forces, state_in
 from exudyn.itemInterface import LoadForceVector, LoadTorqueVector, MarkerBodyRigid
 from independent.pad_pressure import end_forces
 from scipy.integrate import solve_ivp
 from solving import completed, planar_body, recorded
-from state_in import state_in
 
 from exu_press.joints import add_guideway_contact, add_guideway_film, add_joint_sensor
 from exu_press.joints.ends import BodyEnd

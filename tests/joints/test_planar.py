@@ -4,9 +4,8 @@ import random
 
 import numpy as np
 import pytest
-from differences import assert_jacobian, forces
+from differences import assert_jacobian, forces, state_in
 from planar_states import FILMS, KINDS, WORN_KINDS, arms, joints, places
-from state_in import state_in
 
 from exu_press.joints.joint import GROUND
 from exu_press.joints.planar import PlanarEnd, PlanarJoint

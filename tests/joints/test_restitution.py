@@ -34,17 +34,16 @@ def bounce(contact, mass, speed, duration, step=1e-6, clearance=1e-4):
     return -np.asarray(mbs.GetSensorStoredData(velocity))[:, 1].min() / speed
 
 
-@pytest.mark.parametrize("law", sorted({*DAMPING_LAWS} - {"step"}))
-@pytest.mark.parametrize("wanted", [0.1, 0.9])
+@pytest.mark.parametrize(("law", "wanted"), [("flores", 0.1), ("hu_guo", 0.9)])
 def test_hysteretic_laws(law, wanted):
     contact = DAMPING_LAWS[law](hertz(1e10), restitution=wanted)
     expected = delivered_restitution(contact, mass=1.0, speed=0.5)
     assert bounce(contact, 1.0, 0.5, 1.2e-3) == pytest.approx(expected, abs=1e-3)
 
 
-@pytest.mark.parametrize("speed", [0.1, 0.5])
-def test_an_almost_undamped_contact_gives_everything_back(speed):
+def test_an_almost_undamped_contact_gives_everything_back():
     """c_max = 0.01 N s/m at the press's stiffness and the slider's mass."""
+    speed = 0.5
     contact = step_damping(hertz(2.5545e10), damping_max=0.01, damping_depth=1e-5)
     assert delivered_restitution(contact, 1347.0, speed) == pytest.approx(1.0, abs=1e-6)
     assert bounce(contact, 1347.0, speed, 7.5e-3, step=2e-6) == pytest.approx(1.0, abs=1e-4)

@@ -7,9 +7,8 @@ import math
 
 import numpy as np
 import pytest
-from differences import forces
+from differences import forces, state_in
 from planar_states import ANGLES, CLEARANCE, KINDS, STIFFNESS, WORN_KINDS, joints, unit
-from state_in import state_in
 
 from exu_press.joints.joint import GROUND
 from exu_press.joints.worn import WornJoint, WornSurfaces
@@ -19,7 +18,7 @@ from exu_press.laws.profile import profile
 
 def test_the_place_of_contact_is_the_nearest_one():
     """It is where the state was put, and no other direction is deeper."""
-    for joint, q, q_t, angle in joints("steady friction", True, 2, 100):
+    for joint, q, q_t, angle in joints("steady friction", True, 2, 20):
         state = state_in(joint, [*q, *GROUND], [*q_t, *GROUND])
         assert joint._touched[:2] == pytest.approx(unit(angle), abs=1e-9)
         all_round = [

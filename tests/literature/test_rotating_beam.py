@@ -133,7 +133,7 @@ def spun_up(part, speed, end=TIME):
     )
     mbs.Assemble()
     settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = end, 1500
+    settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = end, 750
     settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
     settings.solution.file.write, settings.timeIntegration.verboseMode = False, 0
     settings.solution.sensors.writePeriod = end / 150

@@ -49,25 +49,17 @@ def test_knuckle_is_straight_at_bottom_dead_centre(side):
         assert body.position[0, 2] == pytest.approx(-math.pi / 2, abs=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("body", "length"),
-    [
-        ("linkage", 0.383),
-        ("link_5_left", 0.23),
-        ("link_5_right", 0.23),
-        ("link_6_left", 0.24),
-        ("link_6_right", 0.24),
-        ("link_7_left", 0.164),
-        ("link_7_right", 0.164),
-        ("counter_linkage", 0.275),
-    ],
-)
-def test_link_lengths_of_table_2(body, length):
+def test_link_lengths_of_table_2():
     """Both joints of a link sit at its ends, so that closed joints mean a constant length."""
-    ends = np.array(PRESS.points(body))
-    assert ends[:, 1] == pytest.approx(0.0, abs=1e-15)
-    assert np.abs(ends[:, 0]) == pytest.approx(length / 2, abs=1e-15)
-    assert np.ptp(ends[:, 0]) == pytest.approx(length, abs=1e-15)
+    lengths = {"linkage": 0.383, "counter_linkage": 0.275}
+    for side in ("left", "right"):
+        for link, length in (("link_5", 0.23), ("link_6", 0.24), ("link_7", 0.164)):
+            lengths[f"{link}_{side}"] = length
+    for body, length in lengths.items():
+        ends = np.array(PRESS.points(body))
+        assert ends[:, 1] == pytest.approx(0.0, abs=1e-15)
+        assert np.abs(ends[:, 0]) == pytest.approx(length / 2, abs=1e-15)
+        assert np.ptp(ends[:, 0]) == pytest.approx(length, abs=1e-15)
 
 
 def test_the_two_sides_are_mirror_images():
@@ -87,22 +79,12 @@ def test_counterweight_moves_against_the_slide_above_the_shaft():
 
 def test_masses_of_table_2():
     """Links per side (A-7), slide 60 kg (A-4)."""
-    assert {body.name: body.mass for body in PRESS.bodies} == {
-        "crank": 217.6,
-        "linkage": 184.5,
-        "slide": 60.0,
-        "link_5_right": 22.72,
-        "link_6_right": 24.13,
-        "link_7_right": 15.5,
-        "plunger_right": 155.3,
-        "link_5_left": 22.72,
-        "link_6_left": 24.13,
-        "link_7_left": 15.5,
-        "plunger_left": 155.3,
-        "slider": 1347.0,
-        "counter_linkage": 22.58,
-        "counterweight": 1847.2,
-    }
+    masses = {"crank": 217.6, "linkage": 184.5, "slide": 60.0, "slider": 1347.0}
+    masses |= {"counter_linkage": 22.58, "counterweight": 1847.2}
+    for side in ("left", "right"):
+        masses |= {f"link_5_{side}": 22.72, f"link_6_{side}": 24.13}
+        masses |= {f"link_7_{side}": 15.5, f"plunger_{side}": 155.3}
+    assert {body.name: body.mass for body in PRESS.bodies} == masses
 
 
 def test_links_are_uniform_rods():

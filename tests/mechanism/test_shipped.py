@@ -27,39 +27,21 @@ JOINTS = {
     "two_point_press": {"crank_pins": PINS, "wrist_pins": PINS},
     "whitworth": {"crank_pin": PINS, "pivot": PINS},
 }
-BARS = {"contact": {"length": 0.02}, "film": {"length": 0.02, "viscosity": 0.1}}
-LAWS = {
-    "andrews_squeezer": {
-        "contact": {"length": 2e-3},
-        "film": {"length": 2e-3, "viscosity": 0.4},
-    },
-    "cycloidal_press": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
-    "drag_link": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
-    **dict.fromkeys(
-        (
-            "crank_shaper",
-            "elliptic_trammel",
-            "scotch_yoke",
-            "four_bar",
-            "inverted_slider_crank",
-            "oldham",
-            "oscillating_cylinder",
-            "whitworth",
-        ),
-        BARS,
-    ),
-    "six_bar": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
-    "two_point_press": {"contact": {"length": 0.04}, "film": {"length": 0.04, "viscosity": 0.1}},
-}
+SIZES = {"andrews_squeezer": (2e-3, 0.4), "eccentric_press": None}
+SIZES |= dict.fromkeys(("cycloidal_press", "drag_link", "six_bar", "two_point_press"), (0.04, 0.1))
+"""Length of a joint, and viscosity, of those that are no bars; the eccentric press has its own."""
 
 
 def run(name, kind, **given):
     joints = {joint: {"kind": kind, **keys} for joint, keys in JOINTS[name].items()}
     if kind == "ideal":
         joints = dict.fromkeys(joints, kind)
-    law = {"dry": "contact", "lubricated": "film"}.get(kind)
-    laws = {law: LAWS[name][law]} if law in LAWS.get(name, {}) else {}
-    short = 0.1 if kind == "ideal" else 0.05
+    laws, size = {}, SIZES.get(name, (0.02, 0.1))
+    if size and kind == "dry":
+        laws = {"contact": {"length": size[0]}}
+    elif size and kind == "lubricated":
+        laws = {"film": {"length": size[0], "viscosity": size[1]}}
+    short = 0.1 if kind == "ideal" else 0.03
     scene = Scene(mechanism=name, joints=joints, revolutions=short, **laws, **given)
     return simulate(scene)
 
@@ -152,9 +134,9 @@ def test_the_squeezer_has_the_test_sets_lengths():
     assert math.dist(places["pivot_b"], places["fork_3"]) == pytest.approx(0.035, abs=1e-8)
 
 
-@pytest.mark.parametrize(("name", "force"), [("four_bar", 500.0), ("six_bar", 5e4)])
-def test_a_blanking_force_acts_in_the_outputs_direction(name, force):
-    """On a rocker along x, on a ram along y: the drive does its work."""
+def test_a_blanking_force_acts_in_the_outputs_direction():
+    """On a rocker along x: the drive does its work."""
+    name, force = "four_bar", 500.0
     pulse = {"kind": "blanking", "force": force, "rise": 5e-3, "fall": 5e-3, "end_angle_deg": 60.0}
     scene = Scene(mechanism=name, joints={}, revolutions=0.2, load={"blanking": pulse})
     result = simulate(scene)

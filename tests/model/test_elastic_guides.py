@@ -9,7 +9,7 @@ from scipy.optimize import fsolve
 
 from exu_press import Scene, simulate
 from exu_press.model import build
-from exu_press.scene import flexible_press, mechanism_of
+from exu_press.scene import mechanism_of
 
 IDEAL = {"joints": {}}
 ECCENTRIC = {"kind": "blanking", "force": 1e4, "offset": [0.1, 0.0], "end_angle_deg": 60.0}
@@ -19,26 +19,6 @@ def run(**scene):
     result = simulate(Scene.from_dict(scene))
     assert result.completed, result.info["reason"]
     return result
-
-
-def kinds(**scene):
-    mbs = build(Scene.from_dict(scene)).mbs
-    return [mbs.GetObject(i)["objectType"] for i in range(mbs.systemData.NumberOfObjects())]
-
-
-def test_springs_take_the_place_of_constraints():
-    """Four bodies that slid, the slider's one constraint, the two balls that held y alone."""
-    ideal, elastic = kinds(**IDEAL), kinds(**IDEAL, guide={"lateral_stiffness": 1e9})
-    assert not {"ConnectorCoordinateSpringDamper", "ConnectorLinearSpringDamper"} & {*ideal}
-    assert ideal.count("Mass1D") == 4
-    assert "Mass1D" not in elastic
-    assert ideal.count("ConnectorCoordinateVector") == 1
-    assert ideal.count("JointGeneric") == 2
-    assert elastic.count("ConnectorCoordinateSpringDamper") == 5
-    assert elastic.count("ConnectorLinearSpringDamper") == 5
-    assert not {"ConnectorCoordinateVector", "JointGeneric"} & {*elastic}
-    assert elastic.count("ConnectorCoordinate") == ideal.count("ConnectorCoordinate") == 1  # drive
-    assert elastic.count("JointRevolute2D") == ideal.count("JointRevolute2D") + 2
 
 
 def test_springs_cost_no_callback():
@@ -190,9 +170,3 @@ def test_guide_force_is_the_springs():
     scale = np.abs(result["guide_force"]).max()
     assert still.sum() > 5
     assert np.abs(result["guide_force"] - force)[still].max() < 2e-2 * scale
-
-
-def test_flexible_press():
-    result = run(bodies=flexible_press(modes=4), revolutions=0.02, guide={"lateral_stiffness": 1e9})
-    assert result.quantity("energy.residual").value < 1e-2
-    assert np.abs(result["slide_guide_force"]).max() > 1.0

@@ -344,7 +344,9 @@ def test_the_start_fits_what_a_guide_holds(tmp_path):
 
 def test_the_damping_of_a_guide_is_that_of_the_solids_mass(slider):
     """2 D sqrt(k m) of the body that moves, not of the drawn one."""
-    system = System(scene := slider(guide={"lateral_stiffness": 2e8}), placed_parts(scene))
+    system = System(
+        scene := slider(body={"modes": 0}, guide={"lateral_stiffness": 2e8}), placed_parts(scene)
+    )
     (guide,) = system.mechanism.guides
     part, ratio = system.parts["slider"], scene.guide.support.damping_ratio
     drawn = mechanism_of(scene).body("slider").mass

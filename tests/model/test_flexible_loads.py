@@ -37,9 +37,9 @@ def rocker(tmp_path_factory):
     half = 500.0 * SIDE
     solid = Box(Pnt(360 - half, -15, -half), Pnt(360 + half, 500, half))
     for y in (0.0, 300.0):
-        solid += Cylinder(Pnt(360, y, -half), Z, r=1.2 * half, h=2 * half)
+        solid += Cylinder(Pnt(360, y, -half), Z, r=1.5 * half, h=2 * half)
     for y in (0.0, 300.0):
-        solid -= Cylinder(Pnt(360, y, -2 * half), Z, r=0.4 * half, h=4 * half)
+        solid -= Cylinder(Pnt(360, y, -2 * half), Z, r=0.8 * half, h=4 * half)
     solid.WriteStep(str(path))
     data = Scene(mechanism=mechanism_of(Scene(mechanism="four_bar"))).to_dict()["mechanism"]
     data["joints"]["pivot"]["at"] = [AT, 0.0]
@@ -49,7 +49,7 @@ def rocker(tmp_path_factory):
 
 def scene(rocker, load, **keys):
     data, path = rocker
-    bores = {joint: {"radius": 0.2 * SIDE} for joint in ("knuckle", "pivot")}
+    bores = {joint: {"radius": 0.4 * SIDE} for joint in ("knuckle", "pivot")}
     body = {"flexible": path, "mesh_size": MESH, "modes": 8, "faces": bores}
     body |= keys.pop("body", {})
     load = {name: {"body": "rocker", **one} for name, one in load.items()}
@@ -91,7 +91,7 @@ def deflection(rocker):
 @pytest.mark.long
 def test_the_tip_bends_as_all_finite_elements_and_as_a_beam(rocker, deflection):
     bores = {"pivot": 0.0, "knuckle": LENGTH}
-    ends = {name: Axis((AT, y), radius=0.2 * SIDE) for name, y in bores.items()}
+    ends = {name: Axis((AT, y), radius=0.4 * SIDE) for name, y in bores.items()}
     tip = Patch(box=((-np.inf, TIP["y"][0], -np.inf), (np.inf, TIP["y"][1], np.inf)))
     solid = StepFile(Path(rocker[1]), 1e-3, axes=ends, patches={"tip": (tip,)})
     interfaces = tuple(Interface(name) for name in ("pivot", "knuckle", "tip"))

@@ -30,15 +30,16 @@ pytestmark = pytest.mark.usefixtures("sound_files")
 
 STEEL = 2.1e11
 RUN = {"joints": {}, "speed_rpm": 200.0, "revolutions": 0.12, "solver": {"tolerance": 1e-5}}
+COARSE = {"tolerance": 3e-4}
 PIN = (0.0, -0.25)
 
 
 def bar(low, high, half_width, *bores):
-    """Return a bar along y (m) of 20 mm with bores of 10 mm at points of its drawing, in mm."""
+    """Return a bar along y (m) of 20 mm with bores of 20 mm at points of its drawing, in mm."""
     w, d = 1e3 * half_width, 10.0
     solid = Box(Pnt(-w, 1e3 * low, -d), Pnt(w, 1e3 * high, d))
     for x, y in bores:
-        solid -= Cylinder(Pnt(1e3 * x, 1e3 * y, -100), Z, r=5.0, h=200)
+        solid -= Cylinder(Pnt(1e3 * x, 1e3 * y, -100), Z, r=10.0, h=200)
     return solid
 
 
@@ -79,7 +80,7 @@ def drawn(tmp_path_factory):
         if not path.exists():  # a file has the time in it, and another one is reduced again
             solid.WriteStep(str(path))
         held = {"faces": {key.partition(".")[2]: faces}} if faces else {}
-        own = {"flexible": str(path), "mesh_size": 0.02, **body, **held}
+        own = {"flexible": str(path), "mesh_size": 0.05, **body, **held}
         keys = {**RUN, "mechanism": mechanism(), "bodies": {name: own}, **changes}
         part = placed_parts(Scene(**{k: v for k, v in keys.items() if k != "guide"}))[name]
         at = mechanism().body(name)
@@ -138,7 +139,7 @@ def test_stiff_it_is_the_rigid_body(drawn, case, body, guide):
 
 def test_bent_its_pin_stays_in_the_slot(drawn):
     """The pin of a rod a hundredth as stiff follows the slot, and its unbent line does not."""
-    scene, _, channel = drawn("pin", {"youngs_modulus": 0.003 * STEEL, "modes": 8})
+    scene, _, channel = drawn("pin", {"youngs_modulus": 0.003 * STEEL, "modes": 8}, solver=COARSE)
     model = build(scene)
     result = record(model, model.solve())
     assert result.completed, result.info["reason"]

@@ -87,7 +87,8 @@ def test_a_rubbing_slide_on_a_turning_arm_is_that_of_another_model(stiffness, to
     ],
 )
 def test_what_a_guide_on_a_body_dissipates_the_drive_puts_in(guide):
-    result = run("whitworth", {"block": guide}, speed_rpm=120.0)
+    solver = {"tolerance": 3e-3 if "viscosity" in guide else 1e-3}
+    result = run("whitworth", {"block": guide}, speed_rpm=120.0, solver=solver)
     lost = result.quantity("guides.block.dissipated").value
     assert lost > 0.5
     assert lost == pytest.approx(result.quantity("energy.dissipated").value, rel=1e-9)

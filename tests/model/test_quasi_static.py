@@ -12,6 +12,7 @@ pytest.importorskip("ngsolve")
 
 IDEAL = {"joints": {"crank_pin": "ideal", "balls": "ideal"}}
 TURN = 0.25  # s
+SMALL = {"modes": 2, "mesh_size": 0.1}
 
 
 def _over(result, channel, begin, end):
@@ -23,7 +24,7 @@ def _over(result, channel, begin, end):
 
 @pytest.fixture(scope="module")
 def result():
-    scene = Scene(**IDEAL, revolutions=1.1, bodies=flexible_press(), solver={"step": 2e-4})
+    scene = Scene(**IDEAL, revolutions=1.1, bodies=flexible_press(modes=4), solver={"step": 2e-4})
     found = simulate(scene)
     assert found.completed
     return found
@@ -35,7 +36,7 @@ def result():
         ("counter_pin_force", 2e-4),
         ("crank_pin_force", 4e-4),  # 14.7 of 32.6 kN where the bodies start undeformed
         ("slider_acceleration", 4e-4),
-        ("drive_torque", 1e-3),
+        ("drive_torque", 2e-3),
         ("crank_pin_deflection", 1e-3),
     ],
 )
@@ -59,7 +60,7 @@ def test_a_body_too_soft_to_stay_in_shape_is_refused(monkeypatch, singular):
         return solve(matrix, right)
 
     monkeypatch.setattr(np.linalg, "solve", solved)
-    linkage = {"flexible": "linkage", "modes": 4, "youngs_modulus": 1.69e5}
+    linkage = {"flexible": "linkage", "modes": 4, "mesh_size": 0.1, "youngs_modulus": 1.69e5}
     scene = Scene(**IDEAL, bodies={"linkage": linkage}, revolutions=0.001)
     message = (
         r"bodies\.linkage: its .* more than its size; .* 0\.\d+, of a larger youngs_modulus than "
@@ -73,7 +74,11 @@ def test_a_body_too_soft_to_stay_in_shape_is_refused(monkeypatch, singular):
 def test_where_nothing_moves_the_bodies_hang_in_their_static_deflection():
     """A crank at a hundredth of a revolution a minute: weight and stiffness alone."""
     scene = Scene(
-        **IDEAL, bodies=flexible_press(), speed_rpm=0.01, revolutions=1e-7, start_angle_deg=60.0
+        **IDEAL,
+        bodies=flexible_press(modes=4),
+        speed_rpm=0.01,
+        revolutions=1e-7,
+        start_angle_deg=60.0,
     )
     deflection = simulate(scene)["crank_pin_deflection"]
     assert np.abs(deflection).max() > 1e-6
@@ -112,7 +117,6 @@ def test_elastic_guides_start_loaded():
     assert force[0] == pytest.approx(force[-1], abs=10.0)
 
 
-SMALL = {"modes": 2, "mesh_size": 0.1}
 LINKAGE = {"linkage": {"flexible": "linkage", **SMALL}}
 
 
@@ -125,7 +129,7 @@ def test_beside_a_flexible_body_a_joint_with_clearance_is_one_in_space(kind, coo
 
 def test_with_clearance_in_the_guides_they_start_in_the_deformation_between_ideal_ones():
     """Bodies with clearance rest nowhere, so that no balance could be found with them."""
-    scene = Scene(bodies=flexible_press(**SMALL), start_angle_deg=60.0)
+    scene = Scene(bodies=flexible_press(modes=4), start_angle_deg=60.0)
     modes = []
     for guide in (None, {"clearance": 5e-5}):
         model = scene.replace({"guide": guide}).build()

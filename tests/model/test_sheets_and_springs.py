@@ -34,7 +34,7 @@ def cutting():
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-4])
 def test_a_step_ends_on_the_fracture_whatever_the_tolerance(cutting, tolerance):
     result = cutting[tolerance]
-    angle = np.linspace(0.0, 2.0 * np.pi, 200001)
+    angle = np.linspace(0.0, 2.0 * np.pi, 5001)
     mechanism = mechanism_of(result.scene)
     height = mechanism.ideal_slider(angle, 1.0)[0] - mechanism.bottom
     fractures = np.interp(-(3e-3 - 0.8e-3), -height[: height.argmin()], angle[: height.argmin()])
@@ -61,7 +61,7 @@ def test_work_is_that_of_the_curve_and_the_crack(cutting, tolerance):
 
 def test_clearance_stacks_up():
     keys = {"kind": "dry", "clearance": 1e-4}
-    scene = ideal(SHEET, joints={"crank_pin": keys}, revolutions=0.15, start_angle_deg=150.0)
+    scene = ideal(SHEET, joints={"crank_pin": keys}, revolutions=0.08, start_angle_deg=150.0)
     result = simulate(scene)
     assert result.completed
     up = result.quantity("loads.part.stack_up").value
@@ -88,8 +88,8 @@ def test_a_cushion_that_presses_more_than_snaps_back_leaves_no_reverse_load():
     keys["contact"] |= {"damping_max": 1e6, "damping_depth": 1e-6}
     cushion = SPRING | {"travel": [0.0, 5e-4, 0.021], "force": [0.0, 3e4, 3e4]}
     scene = ideal(
-        SHEET, joints={"wrist_pin": keys}, speed_rpm=30.0, revolutions=0.2, start_angle_deg=130.0,
-        start="centred",
+        SHEET, joints={"wrist_pin": keys}, speed_rpm=30.0, revolutions=0.1, start_angle_deg=150.0,
+        start="centred", solver={"tolerance": 3e-3},
     )  # fmt: skip
     result = simulate(scene.replace({"load.cushion": cushion, "load.part.stripping": 0.05}))
     assert result.quantity("loads.part.reverse_force").value == 0.0
@@ -123,7 +123,7 @@ def test_damping_takes_out_its_integral():
     damped = simulate(ideal(SPRING | {"damping": 0.2}))
     speed = damped.scene.angular_speed
     mechanism = mechanism_of(damped.scene)
-    angle = np.linspace(0.0, 2.0 * np.pi, 20001)
+    angle = np.linspace(0.0, 2.0 * np.pi, 2001)
     place, velocity, _ = mechanism.ideal_slider(angle, speed)
     travel = np.maximum(0.02 - (place - mechanism.bottom), 0.0)
     force = np.interp(travel, SPRING["travel"], SPRING["force"])

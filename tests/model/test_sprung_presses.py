@@ -166,7 +166,7 @@ def test_a_guide_bears_a_spring_that_swings_through():
     assert abs(peak.value - expected) < peak.error < 0.01 * expected
 
 
-@pytest.mark.parametrize("rest", [1e-2, 1e-5])
+@pytest.mark.parametrize("rest", [1e-2, pytest.param(1e-5, marks=pytest.mark.long)])
 def test_a_gas_spring_that_nearly_bottoms_keeps_the_energy(rest):
     """All but this share of the gas is pressed together: its peak is the polytropic one."""
     spring = gas(at=((0.0, -1.2), (0.0, -0.5)), volume=0.02 * 0.16 * (1.0 + rest))

@@ -44,9 +44,9 @@ def test_published_frequencies(name, mesh_size, compare):
         )
 
 
-def test_clamping_what_is_no_interface(crank):
+def test_clamping_what_is_no_interface(bar):
     with pytest.raises(InputError, match="cannot clamp"):
-        clamped_frequencies(crank, 2, faces=("seat",))
+        clamped_frequencies(bar, 2, faces=("seat",))
 
 
 def test_observed_order_of_a_known_law():

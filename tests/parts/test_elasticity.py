@@ -13,15 +13,14 @@ from fe_models.reduction import reduce_part
 STEEL = Material(2.1e11, 0.3, 7850.0)
 
 
-def test_rigid_motions_cost_no_energy(linkage_model):
-    rigid = rigid_motions(linkage_model.nodes, np.zeros(3))
-    forces = abs(linkage_model.stiffness @ rigid).max()
-    assert forces < 1e-12 * abs(linkage_model.stiffness).max()
+def test_rigid_motions_cost_no_energy(crank_model):
+    rigid = rigid_motions(crank_model.nodes, np.zeros(3))
+    forces = abs(crank_model.stiffness @ rigid).max()
+    assert forces < 1e-12 * abs(crank_model.stiffness).max()
 
 
-def test_mass_matrix_knows_the_mass(crank_model, linkage_model):
+def test_mass_matrix_knows_the_mass(crank_model):
     assert crank_model.nodal_mass.sum() == pytest.approx(217.6, abs=1e-3)
-    assert linkage_model.nodal_mass.sum() == pytest.approx(184.5, abs=1e-3)
 
 
 def test_face_motion_reads_rigid_motion_exactly(crank_model):

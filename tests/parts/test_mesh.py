@@ -13,15 +13,6 @@ from fe_models.errors import InputError
 from fe_models.solid_view import facing, turned_view
 
 
-def points(part):
-    mesh = generate_mesh(part)  # kept: its points are views into it
-    return np.array([list(p) for p in mesh.ngmesh.Points()])
-
-
-def test_same_part_same_mesh(linkage):
-    assert np.array_equal(points(linkage), points(linkage))
-
-
 def test_missing_face_is_named_with_those_there_are(linkage):
     part = linkage.replace(interfaces=(Interface("middle"),))
     with pytest.raises(InputError, match=r"no face named 'middle'.*'big bore'"):
@@ -56,19 +47,15 @@ class Thin:
         return Cylinder(Pnt(0, 0, 0), Z, r=0.06, h=0.1) - bore
 
 
-def test_the_lines_that_netgen_prints_of_a_mesh_that_fails_are_dropped(linkage, capfd):
-    part = linkage.replace(geometry=Thin(), interfaces=(Interface("end"),), mesh_size=0.05)
+@pytest.mark.parametrize(("geometry", "size"), [(Hollow(), 0.06), (Thin(), 0.05)])
+def test_a_mesh_that_fails_says_what_to_do_in_one_line(linkage, geometry, size, capfd):
+    """What Netgen prints of it is dropped."""
+    part = linkage.replace(geometry=geometry, interfaces=(Interface("end"),), mesh_size=size)
     with pytest.raises(InputError, match=r"meshing failed at mesh_size.*try a smaller") as refused:
         generate_mesh(part)
     print("afterwards")
     assert capfd.readouterr().out == "afterwards\n"
     assert "\n" not in str(refused.value)
-
-
-def test_a_mesh_that_fails_says_what_to_do(linkage):
-    part = linkage.replace(geometry=Hollow(), interfaces=(Interface("end"),))
-    with pytest.raises(InputError, match=r"meshing failed at mesh_size.*try a smaller"):
-        generate_mesh(part)
 
 
 def test_picture_is_drawn_and_coloured(bar, tmp_path: Path):

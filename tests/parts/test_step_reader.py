@@ -33,12 +33,11 @@ def rod(path, **limits):
     return Part("rod", step, CRANK_STEEL, (Interface("big"), Interface("small")), 0.05)
 
 
-@pytest.mark.parametrize("name", ["ROD.STEP", "rod.stp", "Rod.Stp"])
-def test_a_file_is_read_however_its_name_ends(name, tmp_path):
-    path = tmp_path / name
-    shutil.copy(ROD, path)
-    solid, original = StepFile(path).build(), StepFile(ROD).build()
-    assert solid.mass == pytest.approx(original.mass, rel=1e-12)
+def test_a_file_is_read_however_its_name_ends(tmp_path):
+    mass = StepFile(ROD).build().mass
+    for name in ("ROD.STEP", "rod.stp", "Rod.Stp"):
+        shutil.copy(ROD, tmp_path / name)
+        assert StepFile(tmp_path / name).build().mass == pytest.approx(mass, rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -36,7 +36,7 @@ SCENES = {
         "joints": {"crank_pin": {"kind": "lubricated", "clearance": 2e-5}},
         "revolutions": 0.2,
     },
-    "dry": {"joints": {"crank_pin": "dry"}, "revolutions": 0.2},
+    "dry": {"joints": {"crank_pin": "dry"}, "revolutions": 0.1},
     "steps": {"revolutions": 0.03, "solver": {"step": 2e-5}},
     "flexible": {
         "mechanism": "press",
@@ -82,8 +82,6 @@ def test_errors_stand_in_the_summary_and_in_the_file(tmp_path):
     assert set(told) == {"error", "determined", "low", "high"}
     result.save(tmp_path / "run.nc")
     assert Result.load(tmp_path / "run.nc").info["errors"] == result.info["errors"]
-    again = with_errors(simulate(scene)).info["errors"]
-    assert again["stroke"]["error"] == pytest.approx(result.quantity("stroke").error)
 
 
 def test_motions_that_part_leave_bounds(result):
@@ -250,9 +248,8 @@ def test_a_run_is_not_lost_with_its_refinements(monkeypatch):
     assert result.info["errors"] == {}
 
 
-def test_errors_of_a_quantity_of_ones_own_are_those_of_the_declared_one():
-    scene = Scene(**DRY, revolutions=0.2)
-    result = simulate(scene)
+def test_errors_of_a_quantity_of_ones_own_are_those_of_the_declared_one(result):
+    scene = result.scene
     refinements = [(ratio, simulate(other)) for ratio, other in plan(scene).items()]
     told = errors_of(result, refinements)["errors"]
     force = quantities_of(scene)["joints.crank_pin.peak_force"]
@@ -264,7 +261,7 @@ def test_errors_of_a_quantity_of_ones_own_are_those_of_the_declared_one():
         "m",
         "of half of the run",
         MOTION,
-        lambda run, _: 1.0 if run.time[-1] > 0.02 else None,
+        lambda run, _: 1.0 if run.time[-1] > 0.01 else None,
     )
     late = {"late": QuantityAt(half)}
     assert set(errors_of(result, refinements, late)["errors"]) == {"late"}

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from exact_bearings import long_full_film_moments, long_half_film_moments, wall_moments
-from test_finite_bearing import ATTITUDE, BUTENSCHOEN, ERROR, ROTATION, WIDTHS, rows
+from test_finite_bearing import BUTENSCHOEN, ERROR, WIDTHS, rows
 
 from exu_press.joints.interface import FilmInterface
 from exu_press.laws.film import finite, pi_film
@@ -74,8 +74,8 @@ def test_butenschoen_1976_friction(compare):
 
     The formula as MBDyn's module-hydrodynamic_plain_bearing has it from him; DIN 31652 has it too.
     """
-    ratios, load = rows(ROTATION)
-    sine = np.sin(np.radians(rows(ATTITUDE)[1]))
+    ratios, load = rows("rotation")
+    sine = np.sin(np.radians(rows("attitude")[1]))
     eps = ratios[:, None]
     published = math.pi / (load * np.sqrt(1.0 - eps**2)) + 0.5 * eps * sine
     computed = np.array([[friction(width, e) for width in WIDTHS] for e in ratios])

@@ -43,7 +43,7 @@ LAW = flores(hertz(1e8), 0.5)
         (stribeck, SMOOTH, "stribeck_velocity", 0.0),
         (stribeck, SMOOTH, "stribeck_exponent", 0.0),
         (stribeck, SMOOTH, "regularisation_velocity", math.nan),
-        (stribeck, SMOOTH, "viscous", -1.0),
+        (stribeck, SMOOTH, "sigma_2", -1.0),
         (lugre_steady, {**SMOOTH, "sigma_2": 0.0}, "sigma_2", -1.0),
         (LuGre, BRISTLE, "mu_static", math.inf),
         (LuGre, BRISTLE, "sigma_0", 0.0),

@@ -19,7 +19,6 @@ __all__ = [
     "Face",
     "Flexible",
     "bodies_of",
-    "body_dict",
     "changed_bodies",
     "face_dict",
     "faces_given",
@@ -179,6 +178,12 @@ class Flexible(Table):
                 f"matrices = {self.matrices!r}: allowed is the path of a description, {DESCRIPTION}"
             )
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the keys that it gives as a nested mapping."""
+        faces = {name: [face_dict(face) for face in held] for name, held in self.faces.items()}
+        keys = {name: value for name, value in plain(self).items() if name != "faces"}
+        return {**keys, "faces": faces} if faces else keys
+
     @property
     def source(self) -> str:
         """Return the shipped part or the file that the body comes from."""
@@ -252,20 +257,13 @@ def flexible_press(**keys: Any) -> dict[str, dict[str, Any]]:
     return {name: {"flexible": name, **keys} for name in ("crank", "linkage")}
 
 
-def body_dict(body: Flexible) -> dict[str, Any]:
-    """Return a flexible body as a nested mapping of the keys it gives."""
-    faces = {joint: [face_dict(face) for face in faces] for joint, faces in body.faces.items()}
-    keys = {name: value for name, value in plain(body).items() if name != "faces"}
-    return {**keys, "faces": faces} if faces else keys
-
-
 def changed_bodies(
     bodies: Mapping[str, Mapping[str, Any]], changes: Mapping[str, Any]
 ) -> dict[str, Any]:
     """Return flexible bodies with other keys.
 
     Args:
-        bodies: as `body_dict` has them.
+        bodies: as `Flexible.to_dict` has them.
         changes: "NAME" -> a part, a file, or all keys; "NAME.key" -> a value.
     """
     changed: dict[str, Any] = dict(bodies)

@@ -11,11 +11,11 @@ from typing import Any, ClassVar
 from exu_press.errors import InputError, error_prefix
 from exu_press.laws.load_curve import LoadCurve
 from exu_press.mechanism import Mechanism
-from exu_press.scene.bodies import Face, patch_given
+from exu_press.scene.bodies import Face, face_dict, patch_given
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind
 from exu_press.schema.registry import Registry
-from exu_press.schema.table import Table, demand_keys
+from exu_press.schema.table import Table, demand_keys, plain
 
 __all__ = [
     "ATTACHMENT",
@@ -79,6 +79,14 @@ class Load(CustomKind, Table, ABC):
         super().__post_init__()
         if self.direction is not None and math.hypot(*self.direction) == 0.0:
             raise InputError("direction = [0, 0]: allowed is a direction, such as [0, 1]")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return its keys as a mapping; a table with its numbers, not its file."""
+        keys = {"kind": self.kind, **plain(self)}
+        if self.face is not None:
+            faces = [face_dict(face) for face in self.face]
+            keys["face"] = faces[0] if len(faces) == 1 else faces
+        return keys
 
     @classmethod
     def read_file(cls, path: Path) -> dict[str, Any]:

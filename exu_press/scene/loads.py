@@ -7,13 +7,12 @@ from typing import Any
 
 from exu_press.errors import InputError, UnusedKeyError, error_prefix
 from exu_press.mechanism import Mechanism
-from exu_press.scene.bodies import face_dict
 from exu_press.scene.load import ATTACHMENT, COLUMNS, LOAD_KINDS, Load
 from exu_press.scene.solver import RPM
 from exu_press.schema.checks import demand_known, demand_name
-from exu_press.schema.table import declared_keys, plain
+from exu_press.schema.table import declared_keys
 
-__all__ = ["changed_loads", "load_dict", "loads_of", "with_files_beside"]
+__all__ = ["changed_loads", "loads_of", "with_files_beside"]
 
 
 INSTEAD = {
@@ -59,15 +58,6 @@ def loads_of(
     return loads
 
 
-def load_dict(load: Load) -> dict[str, Any]:
-    """Return a load as a mapping; a table with its numbers, not its file."""
-    keys = {"kind": load.kind, **plain(load)}
-    if load.face is not None:
-        faces = [face_dict(face) for face in load.face]
-        keys["face"] = faces[0] if len(faces) == 1 else faces
-    return keys
-
-
 def changed_loads(loads: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return loads as mappings with other keys.
 
@@ -76,7 +66,7 @@ def changed_loads(loads: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[
         changes: "NAME.key" -> a value, or "NAME" -> all keys; None leaves the load out.
     """
     changed = {
-        name: dict(keys) if isinstance(keys, Mapping) else load_dict(keys)
+        name: dict(keys) if isinstance(keys, Mapping) else keys.to_dict()
         for name, keys in loads.items()
     }
     for path in sorted(changes, key=lambda path: not path.endswith(".kind")):

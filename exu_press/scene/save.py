@@ -9,36 +9,25 @@ from typing import Any
 from exu_press.errors import InputError
 from exu_press.files.output_directory import replacing
 from exu_press.mechanism import Mechanism, mechanism_lines
-from exu_press.scene.bodies import Flexible, body_dict
+from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
 from exu_press.scene.load import LOAD_KINDS, Load
-from exu_press.scene.loads import load_dict
-from exu_press.scene.usage import table_keys
+from exu_press.scene.usage import LAWS, table_keys
 from exu_press.schema.table import Table, declared_keys, key_values, plain_value
 from exu_press.schema.toml import toml_text
 
-Laws = Mapping[str, Mapping[str, Any] | None]
-"""The scene's own "contact", "friction" and "film"."""
+__all__ = ["field_lines", "save_scene", "table_lines"]
 
-__all__ = [
-    "body_lines",
-    "joint_lines",
-    "law_lines",
-    "load_lines",
-    "save_scene",
-    "section_lines",
-    "table_lines",
-]
+Fields = Mapping[str, dataclasses.Field[Any]]
 
 
 def save_scene(
-    scene: Table, laws: Laws, path: str | Path, *, comments: bool = False, overwrite: bool = False
+    scene: Any, path: str | Path, *, comments: bool = False, overwrite: bool = False
 ) -> None:
     """Write a complete scene: every key that it uses, defaults filled in.
 
     Args:
         scene: complete.
-        laws: of joints that have none of their own.
         path: of the file.
         comments: write meaning and unit behind every key.
         overwrite: replace an existing file, whose own comments would be lost.
@@ -52,101 +41,97 @@ def save_scene(
             f"{path}: exists, and its comments would be lost; allowed is another name, or "
             "overwrite=True"
         )
-    lines, drawn = table_lines(scene, comments), []
+    lines = table_lines(scene, comments)
     for field in dataclasses.fields(scene):
-        table = getattr(scene, field.name)
-        if isinstance(table, Joints):
-            lines += joint_lines(table, laws, comments)
-        elif field.name == "load":
-            for name, load in table.items():
-                lines += ["", f"[load.{name}]", *load_lines(load, comments)]
-        elif field.name == "bodies":
-            for name, body in table.items():
-                if body.from_file:  # a scene file has it relative to itself
-                    file = "flexible" if body.matrices is None else "matrices"
-                    beside = os.path.relpath(body.path, path.parent)
-                    body = dataclasses.replace(body, **{file: beside})
-                lines += ["", f"[bodies.{name}]", *body_lines(body, comments)]
-        elif field.name in laws and table is not None:
-            lines += law_lines(field.name, table, comments)
-        elif isinstance(table, Table):
-            lines += section_lines(field.name, table, comments)
-        elif isinstance(table, Mechanism):
-            drawn = ["", *mechanism_lines(table, "mechanism.")]
+        lines += field_lines(scene, field.name, comments, folder=path.parent)
+    if isinstance(scene.mechanism, Mechanism):
+        lines += ["", *mechanism_lines(scene.mechanism, "mechanism.")]
     with replacing(path) as partial:
-        partial.write_text("\n".join([*lines, *drawn, ""]), encoding="utf-8")
+        partial.write_text("\n".join([*lines, ""]), encoding="utf-8")
 
 
-def section_lines(name: str, table: Table, comments: bool, *, absent: bool = False) -> list[str]:
-    """Return one table with its header, and the tables within it behind it.
+def field_lines(
+    scene: Any, name: str, comments: bool, *, absent: bool = False, folder: Path | None = None
+) -> list[str]:
+    """Return the tables of one field of a scene, none of one that has no table.
 
     Args:
-        name: dotted.
-        table: of a scene.
+        scene: complete.
+        name: of the field.
         comments: write meaning and unit behind every key.
         absent: name the keys that are not used or given, too, as comments.
+        folder: from which files of bodies have their paths.
     """
-    lines = ["", f"[{name}]", *table_lines(table, comments, absent=absent)]
-    for key, inside, field in key_values(table):
-        if isinstance(inside, Table):
-            lines += section_lines(f"{name}.{key}", inside, comments, absent=absent)
-        elif "by_name" in field.metadata:
+    value = getattr(scene, name)
+    if isinstance(value, Joints):
+        return _joint_lines(value, scene.laws, comments)
+    if name in LAWS and value is not None:
+        return _section_lines(name, value, table_keys(name), comments, absent)
+    if isinstance(value, Table):
+        return _table_section(name, value, comments, absent)
+    lines = []
+    for inner, table in value.items() if name in ("load", "bodies") else ():
+        if isinstance(table, Flexible) and table.from_file and folder is not None:
+            file = "flexible" if table.matrices is None else "matrices"
+            beside: dict[str, Any] = {file: os.path.relpath(table.path, folder)}
+            table = dataclasses.replace(table, **beside)
+        lines += ["", f"[{name}.{inner}]", *table_lines(table, comments, absent=absent)]
+    return lines
+
+
+def _table_section(name: str, table: Table, comments: bool, absent: bool) -> list[str]:
+    """Return one table with its header, and the tables within it behind it."""
+    values = {key: value for key, value, _ in key_values(table)}
+    return _section_lines(name, values, _fields(table, absent=absent), comments, absent)
+
+
+def _section_lines(
+    name: str, values: Mapping[str, Any], fields: Fields, comments: bool, absent: bool
+) -> list[str]:
+    """Return the same of keys with their declarations; a key of a user's law may have none."""
+    by_name = [key for key, field in fields.items() if "by_name" in field.metadata]
+    inside = [key for key, value in values.items() if isinstance(value, Table) or key in by_name]
+    own = {k: v for k, v in values.items() if v is not None and k not in inside}
+    meanings = _meanings(fields)
+    meanings |= {key: "" for key in own if key not in meanings}
+    lines = ["", f"[{name}]", *_given_lines(own, meanings, comments, absent)]
+    for key in inside:
+        if key in by_name:
             from exu_press.scene.guides import fields_of  # loaded by these tables
 
-            meanings = {name: _meaning(declared) for name, declared in fields_of().items()}
-            lines += ["", f"[{name}.{key}]", *_given_lines(inside, meanings, comments, False)]
+            meanings = _meanings(fields_of())
+            lines += ["", f"[{name}.{key}]", *_given_lines(values[key], meanings, comments, False)]
+        else:
+            lines += _table_section(f"{name}.{key}", values[key], comments, absent)
     return lines
 
 
 def table_lines(table: Table, comments: bool, *, absent: bool = False) -> list[str]:
-    """Return the keys of one table.
+    """Return the keys of one table, or of a scene, without tables within it.
 
     Args:
         table: of a scene, or the scene.
         comments: write meaning and unit behind every key.
-        absent: name the keys that the scene does not use or give, too, as comments.
+        absent: name the keys that are not used or given, too, as comments.
     """
-    meanings = _meanings(table, absent=absent)
     values = {name: value for name, value, _ in key_values(table) if value is not None}
-    drawn = {name for name, value in values.items() if isinstance(value, Mechanism)}
-    meanings = {name: text for name, text in meanings.items() if name not in drawn}
+    meanings = _meanings(_fields(table, absent=absent))
+    if isinstance(table, Flexible):
+        values = table.to_dict()
+        meanings["faces"] = "joint = face's name, or {radius, z} of its cylinder; guide = {x, y, z}"
+    elif isinstance(table, Load):
+        values = table.to_dict()
+        meanings = {**dict.fromkeys(values, ""), "kind": " | ".join(LOAD_KINDS), **meanings}
+    elif isinstance(values.get("mechanism"), Mechanism):
+        del meanings["mechanism"]
     return _given_lines(values, meanings, comments, absent)
 
 
-def law_lines(
-    name: str, keys: Mapping[str, Any], comments: bool, *, absent: bool = False
-) -> list[str]:
-    """Return [contact], [friction] or [film]; arguments as those of `section_lines`."""
-    fields = {key: field for key, field in table_keys(name).items() if "meaning" in field.metadata}
-    meanings = {key: _meaning(field) for key, field in fields.items()}
-    meanings |= {key: "" for key in keys if key not in meanings}
-    values = {key: value for key, value in keys.items() if not isinstance(value, Table)}
-    meanings = {key: text for key, text in meanings.items() if key in values or key in fields}
-    lines = ["", f"[{name}]", *_given_lines(values, meanings, comments, absent)]
-    for key, value in keys.items():
-        if isinstance(value, Table):
-            lines += section_lines(f"{name}.{key}", value, comments, absent=absent)
-    return lines
-
-
-def body_lines(body: Flexible, comments: bool, *, absent: bool = False) -> list[str]:
-    """Return the keys of a flexible body; arguments as those of `table_lines`."""
-    faces = "joint = face's name, or {radius, z} of its cylinder; guide = {x, y, z}"
-    return _given_lines(body_dict(body), {**_meanings(body), "faces": faces}, comments, absent)
-
-
-def load_lines(load: Load, comments: bool, *, absent: bool = False) -> list[str]:
-    """Return the keys of a load; arguments as those of `table_lines`."""
-    keys = load_dict(load)
-    meanings = {**dict.fromkeys(keys, ""), "kind": " | ".join(LOAD_KINDS), **_meanings(load)}
-    return _given_lines(keys, meanings, comments, absent)
-
-
-def joint_lines(joints: Joints, laws: Laws, comments: bool) -> list[str]:
+def _joint_lines(joints: Joints, laws: Mapping[str, Any], comments: bool) -> list[str]:
     """Return the joints with clearance, group by group; without any, all joints are ideal."""
     lines = [] if joints.by_group else ["", "[joints]"]
     for name, joint in joints.by_group.items():
-        meanings = _meanings(joint)
+        meanings = _meanings(_fields(joint))
         meanings["kind"] = "ideal | dry | lubricated; a joint that is not named is ideal"
         meanings["worn"] = "depths worn off the surfaces, m, by angle from the body's x axis"
         keys = {
@@ -177,14 +162,17 @@ def _lines(keys: Mapping[str, str], comments: bool) -> list[str]:
     return [f"{key:{width}}  # {meaning}" if comments else key for key, meaning in keys.items()]
 
 
-def _meanings(table: Table, *, absent: bool = False) -> dict[str, str]:
-    """Return the meaning, unit and choices of every key that a table uses, or may use."""
+def _fields(table: Table, *, absent: bool = False) -> Fields:
+    """Return the declarations of the keys that a table uses, or may use."""
     fields = {name: field for name, _, field in key_values(table)}
-    fields = dict(declared_keys(type(table))) | fields if absent else fields
-    return {n: _meaning(field) for n, field in fields.items() if "meaning" in field.metadata}
+    return {**declared_keys(type(table)), **fields} if absent else fields
 
 
-def _meaning(field: dataclasses.Field[Any]) -> str:
-    meta = field.metadata
-    meaning = ", ".join(filter(None, [meta["meaning"], meta["unit"]]))
-    return ": ".join(filter(None, [meaning, " | ".join(meta["choices"])]))
+def _meanings(fields: Fields) -> dict[str, str]:
+    """Return the meaning, unit and choices of keys that have one."""
+    meanings = {}
+    for name, field in fields.items():
+        if "meaning" in (meta := field.metadata):
+            meaning = ", ".join(filter(None, [meta["meaning"], meta["unit"]]))
+            meanings[name] = ": ".join(filter(None, [meaning, " | ".join(meta["choices"])]))
+    return meanings

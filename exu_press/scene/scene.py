@@ -23,7 +23,7 @@ from exu_press.mechanism import Joint as Drawn
 from exu_press.mechanism.kinematics import MotionError
 from exu_press.mechanism.spring_motion import joint_at
 from exu_press.mechanism.turning import require_turning
-from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of, body_dict
+from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of
 from exu_press.scene.changes import asked_mechanism, by_group, changed_keys, drop, gives_key
 from exu_press.scene.joint import SIZES, oil_of
 from exu_press.scene.joints import Joints, joints_of
@@ -429,8 +429,7 @@ class Scene(Table):
             elif field.name in LAWS and value is not None:
                 complete[field.name] = {name: plain_value(inner) for name, inner in value.items()}
             elif field.name in ("load", "bodies"):
-                to_dict = _load_dict if field.name == "load" else body_dict
-                tables = {name: to_dict(table) for name, table in value.items()}
+                tables = {name: table.to_dict() for name, table in value.items()}
                 complete |= {field.name: tables} if tables else {}
             elif isinstance(value, Table):
                 complete[field.name] = plain(value)
@@ -453,7 +452,7 @@ class Scene(Table):
         """
         from exu_press.scene.save import save_scene
 
-        save_scene(self, self.laws, path, comments=comments, overwrite=overwrite)
+        save_scene(self, path, comments=comments, overwrite=overwrite)
 
     def replace(self, changes: Mapping[str, Any]) -> "Scene":
         """Return the scene with other values: replace({"film.viscosity": 0.1}).
@@ -635,13 +634,6 @@ def _with_files(scene: Scene, files: Mapping[str, str]) -> Scene:
     """Return a scene for which further files were read."""
     object.__setattr__(scene, "files", {**files, **scene.files})
     return scene
-
-
-def _load_dict(load: "Load") -> dict[str, Any]:
-    """Return a load as a mapping."""
-    from exu_press.scene.loads import load_dict
-
-    return load_dict(load)
 
 
 def _require_turning(mechanism: Mechanism) -> None:

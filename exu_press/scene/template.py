@@ -8,20 +8,12 @@ from typing import Any
 from exu_press.scene.blanking_load import BlankingLoad
 from exu_press.scene.bodies import Flexible
 from exu_press.scene.joints import Joints
-from exu_press.scene.load import Load
 from exu_press.scene.oil import Oil
 from exu_press.scene.readings import Readings
-from exu_press.scene.save import (
-    body_lines,
-    joint_lines,
-    law_lines,
-    load_lines,
-    section_lines,
-    table_lines,
-)
+from exu_press.scene.save import field_lines, table_lines
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.scene.table_load import TableLoad
-from exu_press.scene.usage import LAWS, TABLES
+from exu_press.scene.usage import TABLES
 from exu_press.schema.table import Table, table_from
 
 __all__ = ["template"]
@@ -48,33 +40,16 @@ def _lines(scene: Scene) -> Iterator[str]:
     yield "# Lines that begin with # are not in use; every key can be left out: it has its default."
     yield from table_lines(scene, True, absent=True)
     for field in dataclasses.fields(scene):
-        value = getattr(scene, field.name)
-        if isinstance(value, Joints):
-            yield from ("", *_all_joints(value), *joint_lines(value, scene.laws, True))
-            if not value.by_group:  # an example
-                name = [joint for joint in value if joint not in value.spherical][-1]
-                dry = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
-                example = scene.replace({f"joints.{name}": dry, "contact": {"length": 0.05}})
-                example_lines = joint_lines(example.joints, example.laws, True)[1:]
-                yield from ("", *_not_in_use(example_lines))
-        elif field.name == "load":
-            yield from ("", *_not_in_use(_loads()))
-        elif field.name == "bodies":
-            yield from ("", *_not_in_use(_a_flexible_body(scene)))
-        elif field.name in LAWS and value is not None:
-            yield from law_lines(field.name, value, True, absent=True)
-        elif isinstance(value, Table):
-            yield from section_lines(field.name, value, True, absent=True)
-        elif (kind := TABLES.get(field.name)) is not None and field.name not in OF_MECHANISMS:
-            summary = (kind.__doc__ or "").splitlines()[0]
-            table = table_from(kind, field.name, EXAMPLES.get(field.name, {}))
-            lines = f"[{field.name}]  # {summary}", *table_lines(table, True, absent=True)
-            yield from ("", *_not_in_use(lines))
-        if field.name == "film" and "oil" not in (scene.film or {}):
-            yield from ("", *_not_in_use(_an_oil()))
-        if field.name == "output":
-            readings = Readings(average=(5e-4,), average_deg=(1.0,), sampled=(5000.0,))
-            yield from ("", *_not_in_use(_inner_table(readings)))
+        if field.name == "joints":
+            yield from ("", *_all_joints(scene.joints))
+        yield from field_lines(scene, field.name, True, absent=True)
+        if field.name == "joints" and not scene.joints.by_group:  # an example
+            name = [joint for joint in scene.joints if joint not in scene.joints.spherical][-1]
+            dry = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
+            example = scene.replace({f"joints.{name}": dry, "contact": {"length": 0.05}})
+            yield from ("", *_not_in_use(field_lines(example, "joints", True)[1:]))
+        for head, table in _examples(scene, field.name):
+            yield from ("", *_not_in_use([head, *table_lines(table, True, absent=True)]))
 
 
 EXAMPLES: dict[str, dict[str, Any]] = {
@@ -96,41 +71,31 @@ def _not_in_use(lines: Iterable[str]) -> Iterator[str]:
         yield line.replace("  #", "    #", 1) if absent else f"# {line}".rstrip("# ")
 
 
-def _an_oil() -> Iterator[str]:
-    fields = {field.name: field for field in dataclasses.fields(Oil)}
-    example = Oil(**{name: fields[name].metadata["example"] for name in Oil.needed})
-    yield from _inner_table(example)
-
-
-def _inner_table(example: Oil | Readings) -> Iterator[str]:
-    yield f"[{example.table}]  # {(type(example).__doc__ or '').splitlines()[0]}"
-    yield from table_lines(example, True, absent=True)
-
-
-def _loads() -> Iterator[str]:
-    examples: dict[str, Load] = {
-        "blanking": BlankingLoad(force=1e4),
-        "forming": TableLoad(crank_angle_deg=(120.0, 175.0, 180.0), force=(0.0, 1e4, 0.0)),
-    }
-    words = {
-        "blanking": "Any number of loads, on any body.",
-        "forming": 'Forces from a list, or file = "forming.csv" with two columns.',
-    }
-    for name, load in examples.items():
-        yield f"[load.{name}]  # {words[name]}"
-        yield from load_lines(load, True, absent=True)
-        yield ""
-
-
-def _a_flexible_body(scene: Scene) -> Iterator[str]:
-    mechanism = mechanism_of(scene)
-    guided = {guide.body for guide in mechanism.guides if guide.is_rail}
-    free = [body.name for body in mechanism.bodies if body.name not in guided]
-    shipped = scene.shipped_name == "press"
-    name = "linkage" if shipped else free[-1]
-    example = Flexible("linkage" if shipped else "my_part.step")
-    yield f"[bodies.{name}]  # A flexible body: any one of the mechanism; rigid without it."
-    yield from body_lines(example, True, absent=True)
+def _examples(scene: Scene, name: str) -> Iterator[tuple[str, Table]]:
+    """Yield head and table of the examples for tables of a field that a scene does not have."""
+    tables: list[Table] = []
+    if name == "load":
+        yield "[load.blanking]  # Any number of loads, on any body.", BlankingLoad(force=1e4)
+        head = '[load.forming]  # Forces from a list, or file = "forming.csv" with two columns.'
+        yield head, TableLoad(crank_angle_deg=(120.0, 175.0, 180.0), force=(0.0, 1e4, 0.0))
+    elif name == "bodies":
+        mechanism, shipped = mechanism_of(scene), scene.shipped_name == "press"
+        guided = {guide.body for guide in mechanism.guides if guide.is_rail}
+        free = [body.name for body in mechanism.bodies if body.name not in guided]
+        head = "A flexible body: any one of the mechanism; rigid without it."
+        yield (
+            f"[bodies.{'linkage' if shipped else free[-1]}]  # {head}",
+            Flexible("linkage" if shipped else "my_part.step"),
+        )
+    elif name in TABLES and name not in OF_MECHANISMS and getattr(scene, name) is None:
+        tables.append(table_from(TABLES[name], name, EXAMPLES.get(name, {})))
+    if name == "film" and "oil" not in (scene.film or {}):
+        fields = {field.name: field for field in dataclasses.fields(Oil)}
+        tables.append(Oil(**{key: fields[key].metadata["example"] for key in Oil.needed}))
+    if name == "output":
+        tables.append(Readings(average=(5e-4,), average_deg=(1.0,), sampled=(5000.0,)))
+    for table in tables:
+        yield f"[{table.table}]  # {(type(table).__doc__ or '').splitlines()[0]}", table
 
 
 def _all_joints(joints: Joints) -> list[str]:

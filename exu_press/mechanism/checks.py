@@ -18,7 +18,14 @@ from exu_press.mechanism.parts import (
     drawing_size,
 )
 from exu_press.mechanism.springs import SpringBetween, check_springs
-from exu_press.schema.checks import demand_known, demand_name, demand_number, refuse_unknown
+from exu_press.schema.checks import (
+    demand_at_least_zero,
+    demand_known,
+    demand_name,
+    demand_number,
+    demand_point,
+    refuse_unknown,
+)
 
 __all__ = ["check_defaults", "check_drawing", "require_kind"]
 
@@ -70,11 +77,9 @@ def check_defaults(defaults: Any) -> None:
             kind = types.get(DEFAULTS[key][-1], "a table of keys")
             raise InputError(f"defaults.{key} = {value!r}: allowed is {kind}")
         if key in ("clearance", "radius"):
-            _check_positive(f"defaults.{key}", value, "m")
+            demand_at_least_zero(f"defaults.{key}", value, "m", positive=True)
         elif key == "settle":
-            demand_number("defaults.settle", value)
-            if isinstance(value, int | float) and value < 0.0:
-                raise InputError(f"defaults.settle = {value!r}: allowed is a number >= 0")
+            demand_at_least_zero("defaults.settle", value)
         else:
             _check_numbers(f"defaults.{key}", value)
 
@@ -120,11 +125,11 @@ def check_drawing(
             raise InputError(f"bodies.{name}: this name means {what}; allowed is another one")
     for body in bodies:
         where = f"bodies.{body.name}"
-        _check_positive(f"{where}.mass", body.mass, "kg")
-        _check_point(f"{where}.centre_of_mass", body.centre_of_mass)
+        demand_at_least_zero(f"{where}.mass", body.mass, "kg", positive=True)
+        demand_point(f"{where}.centre_of_mass", body.centre_of_mass)
         demand_number(f"{where}.angle", body.angle)
         if not _is_rod(body):
-            _check_positive(f"{where}.inertia", body.inertia, "kg m^2")
+            demand_at_least_zero(f"{where}.inertia", body.inertia, "kg m^2", positive=True)
     for joint in joints:
         _check_joint(joint, names)
         _check_channels(joint.name, [*names, *(guide.name for guide in guides)])
@@ -144,7 +149,7 @@ def check_drawing(
     _check_direction("output.direction", output.direction)
     if not isinstance(output.rotation, bool):
         raise InputError(f"output.rotation = {output.rotation!r}: allowed is true or false")
-    _check_point("output.origin", output.origin)
+    demand_point("output.origin", output.origin)
     for guide in guides:
         if guide.body == output.body and guide.is_rail and output.rotation:
             raise InputError(
@@ -173,7 +178,7 @@ def check_drawing(
 
 def _check_joint(joint: Joint, names: Collection[str]) -> None:
     where = f"joints.{joint.name}"
-    _check_point(f"{where}.at", joint.at)
+    demand_point(f"{where}.at", joint.at)
     _check_known(f"{where}.journal", joint.journal, [*names, GROUND])
     _check_known(f"{where}.bearing", joint.bearing, [*names, GROUND])
     if joint.journal == joint.bearing:
@@ -190,14 +195,14 @@ def _check_slot(guide: Guide) -> None:
         return
     for key in ("at", "centre", "middle"):
         if key == "at" or getattr(guide, key) is not None:
-            _check_point(f"{guide.key}.{key}", getattr(guide, key))
+            demand_point(f"{guide.key}.{key}", getattr(guide, key))
     if guide.centre == guide.at:
         raise InputError(
             f"{guide.key}.centre = {guide.centre!r}: is that of the pin; allowed is the centre of "
             "the circle on which the pin moves"
         )
     if guide.length is not None:
-        _check_positive(f"{guide.key}.length", guide.length, "m")
+        demand_at_least_zero(f"{guide.key}.length", guide.length, "m", positive=True)
 
 
 def _check_channels(joint: str, bodies: Sequence[str]) -> None:
@@ -287,24 +292,11 @@ def _is_rod(body: Body) -> bool:
     return isinstance(body.inertia, float) and math.isnan(body.inertia)
 
 
-def _check_positive(where: str, value: Any, unit: str) -> None:
-    demand_number(where, value)
-    if not value > 0.0:
-        raise InputError(f"{where} = {value!r}: allowed is a number > 0 ({unit})")
-
-
-def _check_point(where: str, value: Any) -> None:
-    if not isinstance(value, tuple) or len(value) != 2:
-        raise InputError(f"{where} = {value!r}: allowed are two numbers, x and y (m)")
-    for number in value:
-        demand_number(where, number)
-
-
 def _cosine(a: Sequence[float], b: Sequence[float]) -> float:
     return (a[0] * b[0] + a[1] * b[1]) / (math.hypot(*a) * math.hypot(*b))
 
 
 def _check_direction(where: str, value: Any) -> None:
-    _check_point(where, value)
+    demand_point(where, value)
     if math.hypot(*value) == 0.0:
         raise InputError(f"{where} = {value!r}: allowed is a direction, such as (0, 1)")

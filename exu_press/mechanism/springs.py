@@ -20,7 +20,12 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.mechanism.parts import GROUND, Point
 from exu_press.numerics.arrays import Array
-from exu_press.schema.checks import demand_known, demand_number
+from exu_press.schema.checks import (
+    demand_at_least_zero,
+    demand_known,
+    demand_number,
+    demand_point,
+)
 
 __all__ = [
     "ATMOSPHERE",
@@ -164,7 +169,7 @@ class LinearSpring(SpringBetween):
 
     def check(self, where: str) -> None:
         """Raise InputError for the first key that is not allowed."""
-        _check_at_least(f"{where}.stiffness", self.stiffness, "N/m", positive=True)
+        demand_at_least_zero(f"{where}.stiffness", self.stiffness, "N/m", positive=True)
         alternatives = {"free_length": self.free_length, "preload": self.preload}
         numbers = {key: value for key, value in alternatives.items() if value is not None}
         if len(numbers) != 1:
@@ -241,9 +246,9 @@ class GasSpring(SpringBetween):
                 "apart, < 0 where it pulls them together"
             )
         for key, unit in (("pressure", "Pa"), ("volume", "m^3")):
-            _check_at_least(f"{where}.{key}", getattr(self, key), unit, positive=True)
-        _check_at_least(f"{where}.exponent", self.exponent, "")
-        _check_at_least(f"{where}.ambient", self.ambient, "Pa")
+            demand_at_least_zero(f"{where}.{key}", getattr(self, key), unit, positive=True)
+        demand_at_least_zero(f"{where}.exponent", self.exponent)
+        demand_at_least_zero(f"{where}.ambient", self.ambient, "Pa")
 
     def why_impossible(self, length: float, least: float = 0.0) -> str:
         """Return why it cannot have a length, m, or nothing."""
@@ -270,19 +275,8 @@ def check_springs(springs: Sequence[SpringBetween], bodies: Collection[str]) -> 
         if not isinstance(ends, tuple) or len(ends) != 2:
             raise InputError(f"{where}.at = {ends!r}: allowed are two points [[x, y], [x, y]] (m)")
         for end in ends:
-            if not isinstance(end, tuple) or len(end) != 2:
-                raise InputError(f"{where}.at: {end!r} is no point; allowed are x and y (m)")
-            for number in end:
-                demand_number(f"{where}.at", number)
+            demand_point(f"{where}.at", end)
         if spring.drawn_length == 0.0:
             raise InputError(f"{where}.at: its ends coincide; allowed are two places")
-        _check_at_least(f"{where}.damping", spring.damping, "N s/m")
+        demand_at_least_zero(f"{where}.damping", spring.damping, "N s/m")
         spring.check(where)
-
-
-def _check_at_least(where: str, value: Any, unit: str, *, positive: bool = False) -> None:
-    """Raise InputError unless a value is a number >= 0, or > 0."""
-    demand_number(where, value)
-    if value < 0.0 or (positive and value == 0.0):
-        limit = f"{'>' if positive else '>='} 0{f' ({unit})' if unit else ''}"
-        raise InputError(f"{where} = {value!r}: allowed is a number {limit}")

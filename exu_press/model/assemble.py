@@ -111,13 +111,14 @@ def _assemble(
             add_spring(system, spring)
     guideways = _guideways(system)
     friction = _guide_friction(system)
+    crank_angle = crank_angle_of(system)
     start_stop: StartStop | None = None
     motor = system.scene.drive
     if motor is not None and motor.clutch is not None:
         from exu_press.model.start_stop import add_flywheel, add_start_stop
 
         add_flywheel(system)
-        start_stop = add_start_stop(system, turned_body(system), crank_angle_of(system))
+        start_stop = add_start_stop(system, turned_body(system), crank_angle)
     add_drive(system)
     loads: dict[str, ActingLoad] = {}
     if system.loads:
@@ -142,7 +143,7 @@ def _assemble(
         rigid=system.rigid,
         clearance_joints=clearance,
         drive=system.forces["drive", "force"],
-        crank_angle=crank_angle_of(system),
+        crank_angle=crank_angle,
         start_stop=start_stop,
         stall=_stall(system.scene),
         loads=loads,

@@ -69,12 +69,9 @@ class System:
             from exu_press.scene.guides import with_elastic_guides
 
             self.mechanism = with_elastic_guides(self.mechanism, scene.guides, solids)
-        guided = _guided_bodies(scene, self.mechanism)
-        self.constraints = with_all_coordinates(
-            independent_constraints(self.mechanism, scene.joints.ideal),
-            self.mechanism,
-            _beside_flexible(scene, self.mechanism) | guided,
-        )
+        bodies = _beside_flexible(scene, self.mechanism) | _guided_bodies(scene, self.mechanism)
+        constraints = independent_constraints(self.mechanism, scene.joints.ideal)
+        self.constraints = with_all_coordinates(constraints, self.mechanism, bodies)
         self.ideal = self.mechanism.motion(np.array([scene.start_angle]), scene.start_speed)
         self.loads = {
             name: replace(load, point=parts[load.body].middles.get(name, load.point))

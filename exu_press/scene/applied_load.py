@@ -77,10 +77,11 @@ class AppliedLoad:
             memory: of the load's clock or sheet before the first instant.
         """
         if self.sheet is not None:
-            depths = self.top - slider[0], -slider[1]
-            return _cutting(self.sheet, time, *depths, memory)
+            cut = PunchStroke(self.sheet)
+            return _replay(cut, cut.force, (time, self.top - slider[0], -slider[1]), memory)
         if self.clock is not None:
-            position = _since(self.clock, time, *crank, memory)
+            clock = self.clock(float(crank[0][0]), float(crank[1][0]))
+            position = _replay(clock, clock.since_begin, (time, *crank), memory)
         else:
             position = {"time": time, "crank_angle_deg": crank[0], "height": slider[0]}[self.over]
         pairs = zip(position.tolist(), slider[1].tolist(), strict=True)
@@ -114,40 +115,22 @@ class AppliedLoad:
         return self.curve.peak / (self.curve.steepest * rate)
 
 
-def _since(
-    clock: Callable[[float, float], PulseClock],
-    time: Array,
-    angle: Array,
-    speed: Array,
+def _replay(
+    clock: PulseClock | PunchStroke,
+    value: Callable[..., float],
+    states: tuple[Array, Array, Array],
     memory: tuple[float, float | None] | None,
 ) -> Array:
-    """Return the times since the beginning of a pulse, (n,), s."""
-    running, places = clock(float(angle[0]), float(speed[0])), []
+    """Return the values of a clock, (n,), whose memory follows the states over n instants."""
     if memory is not None:
-        running.recall(memory)
-    for state in zip(time.tolist(), angle.tolist(), speed.tolist(), strict=True):
-        places.append(running.since_begin(*state))
-        running.accept(*state)
-    return np.array(places)
-
-
-def _cutting(
-    sheet: Sheet,
-    time: Array,
-    penetration: Array,
-    rate: Array,
-    memory: tuple[float, float | None] | None,
-) -> Array:
-    running = PunchStroke(sheet)
-    forces: list[float] = []
-    if memory is not None:
-        running.recall(memory)
-    for state in zip(time.tolist(), penetration.tolist(), rate.tolist(), strict=True):
-        if not forces:
-            running.accept(*state)
-        forces.append(running.force(*state))
-        running.accept(*state)
-    return np.array(forces)
+        clock.recall(memory)
+    values: list[float] = []
+    for state in zip(*(level.tolist() for level in states), strict=True):
+        if isinstance(clock, PunchStroke) and not values:
+            clock.accept(*state)
+        values.append(value(*state))
+        clock.accept(*state)
+    return np.array(values)
 
 
 def _fastest(scene: Scene) -> float:

@@ -253,10 +253,7 @@ def _joint(
     spherical: bool,
 ) -> Joint:
     path, kind = f"joints.{name}", table.get("kind")
-    chosen = JOINT_KINDS.find(f"{path}.kind", kind, table)
-    if chosen is None:
-        what = f"{path}.kind = {kind!r}" if "kind" in table else f"{path} has no kind"
-        raise InputError(f"{what}: allowed is one of {', '.join(map(repr, JOINT_KINDS))}")
+    chosen = JOINT_KINDS.choose(f"{path}.kind", kind, table)
     keys = [field.name for field in dataclasses.fields(chosen)]
     is_custom = issubclass(chosen, CustomJoint)
     refuse_unknown(path, table, ("kind", *keys) if is_custom else OF_JOINTS)

@@ -105,13 +105,8 @@ def _load(where: str, table: Any) -> Load:
     if not isinstance(table, Mapping):
         raise InputError(f"{where} = {table!r}: allowed is a table of keys")
     keys = dict(table)
-    kinds = ", ".join(map(repr, LOAD_KINDS))
-    if "kind" not in keys:
-        raise InputError(f"{where} has no kind: allowed is one of {kinds}")
-    name = keys.pop("kind")
-    kind = LOAD_KINDS.find("kind", name, keys)
-    if kind is None:
-        raise InputError(f"kind = {name!r}: allowed is one of {kinds}")
+    name = keys.pop("kind", None)
+    kind = LOAD_KINDS.choose("kind", name, keys)
     if "file" in keys:
         path = keys.pop("file")
         if not isinstance(path, str):

@@ -129,33 +129,25 @@ def _viscosity(scene: Scene) -> Iterator[str]:
         if guide.oil is not None:
             films[scene.guide_key(name, "viscosity")] = guide.oil.viscosity
     for key, viscosity in films.items():
-        if THINNEST <= viscosity <= THICKEST:
-            continue
-        side = f"below water's {THINNEST:g}" if viscosity < THINNEST else f"above {THICKEST:g}"
-        yield (
-            f"{key} = {viscosity:g} Pa s is {side} Pa s. Bearing oils in use have 0.005 to "
-            "1, honey has 10 and air 2e-5. Force and drag of the film are in proportion to it."
-            + _slip(viscosity, THINNEST, THICKEST, "Pa s")
-        )
+        if text := _outside(key, viscosity, (THINNEST, THICKEST), "Pa s", "water's "):
+            yield (
+                f"{text}. Bearing oils in use have 0.005 to 1, honey has 10 and air 2e-5. Force "
+                "and drag of the film are in proportion to it."
+                + _slip(viscosity, THINNEST, THICKEST, "Pa s")
+            )
 
 
 def _stiffness(scene: Scene) -> Iterator[str]:
     for name, body in scene.bodies.items():
-        density = body.density
-        if density is not None and not LIGHTEST <= density <= HEAVIEST:
-            side = f"below {LIGHTEST:g}" if density < LIGHTEST else f"above {HEAVIEST:g}"
-            yield (
-                f"bodies.{name}.density = {density:g} kg/m^3 is {side} kg/m^3; steel has 7850. "
-                "In t/mm^3 it would be 7.85e-9."
-            )
+        path = f"bodies.{name}"
+        if text := _outside(f"{path}.density", body.density, (LIGHTEST, HEAVIEST), "kg/m^3"):
+            yield f"{text}; steel has 7850. In t/mm^3 it would be 7.85e-9."
         modulus = body.youngs_modulus
-        if modulus is None or SOFTEST <= modulus <= STIFFEST:
-            continue
-        side = f"below {SOFTEST:g}" if modulus < SOFTEST else f"above {STIFFEST:g}"
-        yield (
-            f"bodies.{name}.youngs_modulus = {modulus:g} Pa is {side} Pa. Plastics have 1e9, steel "
-            "has 2.1e11 and diamond 1.05e12. Deflections are in proportion to its inverse."
-        )
+        if text := _outside(f"{path}.youngs_modulus", modulus, (SOFTEST, STIFFEST), "Pa"):
+            yield (
+                f"{text}. Plastics have 1e9, steel has 2.1e11 and diamond 1.05e12. Deflections are "
+                "in proportion to its inverse."
+            )
 
 
 def _modes(scene: Scene) -> Iterator[str]:
@@ -236,6 +228,17 @@ def _forming(scene: Scene) -> Iterator[str]:
                 f"load.{name} acts while the output closes, and pushes the way it goes: it puts "
                 "energy in. A forming force is positive in the output's direction."
             )
+
+
+def _outside(
+    key: str, value: float | None, usual: tuple[float, float], unit: str, lowest: str = ""
+) -> str:
+    """Return that a key's value is outside a usual range, or nothing."""
+    low, high = usual
+    if value is None or low <= value <= high:
+        return ""
+    side = f"below {lowest}{low:g}" if value < low else f"above {high:g}"
+    return f"{key} = {value:g} {unit} is {side} {unit}"
 
 
 def _slip(value: float, low: float, high: float, unit: str) -> str:

@@ -19,9 +19,11 @@ __all__ = [
     "check_columns",
     "check_increasing",
     "checked_value",
+    "demand_at_least_zero",
     "demand_known",
     "demand_name",
     "demand_number",
+    "demand_point",
     "key",
     "list_of_tables",
     "nearest",
@@ -158,6 +160,22 @@ def demand_number(where: str, value: Any) -> None:
     """Raise InputError unless a value is a number of an allowed magnitude."""
     if isinstance(value, bool) or not isinstance(value, int | float) or not _is_in_range(value):
         raise InputError(f"{where} = {value!r:.80}: allowed is a number{_magnitudes(value)}")
+
+
+def demand_at_least_zero(where: str, value: Any, unit: str = "", *, positive: bool = False) -> None:
+    """Raise InputError unless a value is a number >= 0, or > 0."""
+    demand_number(where, value)
+    if value < 0.0 or (positive and value == 0.0):
+        limit = f"{'>' if positive else '>='} 0{f' ({unit})' if unit else ''}"
+        raise InputError(f"{where} = {value!r}: allowed is a number {limit}")
+
+
+def demand_point(where: str, value: Any) -> None:
+    """Raise InputError unless a value is a point, in m."""
+    if not isinstance(value, tuple) or len(value) != 2:
+        raise InputError(f"{where} = {value!r}: allowed are two numbers, x and y (m)")
+    for number in value:
+        demand_number(where, number)
 
 
 def _is_in_range(value: float) -> bool:

@@ -56,6 +56,15 @@ class Registry(Mapping[Any, type[Any]]):
         if self._base:
             yield from ((kind_name(kind), kind) for kind in loaded_kinds(load_object(self._base)))
 
+    def choose(self, key: str, name: Any, keys: Collection[str] = ()) -> type[Any]:
+        """Return the kind of a name, as `find` does; raise InputError where there is none."""
+        kind = self.find(key, name, keys)
+        if kind is None:
+            allowed = "true or false" if True in self else f"one of {', '.join(map(repr, self))}"
+            value_text = ": missing;" if name is None else f" = {name!r:.200}:"
+            raise InputError(f"{key}{value_text} allowed is {allowed}")
+        return kind
+
     def find(self, key: str, name: Any, keys: Collection[str] = ()) -> type[Any] | None:
         """Return the kind of a name, also one that users or distributions offer, or None.
 
@@ -126,13 +135,7 @@ class Choice:
         Raises:
             InputError: there is no such kind.
         """
-        name = keys.get(key, default)
-        kind = self.kinds.find(path, name, keys)
-        if kind is None:
-            names = ", ".join(map(repr, self.kinds))
-            allowed = "true or false" if True in self.kinds else f"one of {names}"
-            raise InputError(f"{path} = {name!r:.200}: allowed is {allowed}")
-        return kind
+        return self.kinds.choose(path, keys.get(key, default), keys)
 
     def classes(self) -> Iterator[tuple[str, type[Any]]]:
         """Yield every name, as a scene file has it, with its dataclass."""

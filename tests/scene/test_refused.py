@@ -65,7 +65,7 @@ joints.crank_pn = 'dry' -> joints.crank_pn = 'dry': press has no such joint or g
 joints.crank_pin = 'wet' -> joints.crank_pin.kind = 'wet': allowed is one of 'ideal', 'dry',
 joints.crank_pin.kind = ['dry'] -> joints.crank_pin.kind = ['dry']: allowed is one of
 joints.crank_pin = ['dry'] -> joints.crank_pin = ['dry']: allowed is a table of keys, or one of
-joints.crank_pin = {} -> joints.crank_pin has no kind: allowed is one of
+joints.crank_pin = {} -> joints.crank_pin.kind: missing; allowed is one of
 joints.pivots = {kind = 'dry', clearance = '1'} -> joints.pivots.clearance = '1': allowed is a num
 joints.pivots = {kind = 'dry', gap = 1} -> joints.pivots.gap = 1: unknown key
 joints.pivots = {kind = 'dry', clearance = 2, radius = 1} -> clearance = 2.0: allowed is .. < radius
@@ -217,7 +217,7 @@ bodies.crank.faces.crank_pin.z = [1, 0] -> pin.z = [1.0, 0.0]: allowed
 load = 5 -> load = 5: allowed is a table of loads
 load.'a b'.kind = 'blanking' -> load: 'a b' is no name
 load.a = 3 -> load.a = 3: allowed is a table of keys
-load.a.force = 1.0 -> load.a has no kind: allowed is one of 'blanking', 'table'
+load.a.force = 1.0 -> load.a.kind: missing; allowed is one of 'blanking', 'table'
 load.a.kind = [] -> load.a.kind = []: allowed is one of
 load.a.kind = 'blank' -> load.a.kind = 'blank': allowed is one of
 load.a.kind = 'blanking' -> load.a.force: missing

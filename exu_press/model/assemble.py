@@ -17,7 +17,6 @@ from exu_press.model.drive import (
     add_drive,
     add_gear,
     crank_angle_of,
-    hold_flexible_bodies,
     turned_body,
 )
 from exu_press.model.guides import add_guide
@@ -97,6 +96,8 @@ def _assemble(
         if joint.name in {*constraints.joints, *constraints.single_axis}:
             add_ideal_joint(system, joint)
     if system.flexible:
+        from exu_press.model.flexible_support import hold_flexible_bodies
+
         hold_flexible_bodies(system, start)
     for guide in mechanism.guides:
         if guide.name in constraints.guides:

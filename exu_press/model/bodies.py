@@ -79,16 +79,7 @@ def _add_flexible_body(
     if guide is not None:
         holds = system.constraints.guides[guide.name]
         frame = fit_to_guide(frame, placed, guide, holds, ideal)
-    body = add_part(
-        system.mbs,
-        name,
-        placed,
-        frame,
-        mechanism=system.mechanism,
-        loads=system.loads,
-        gravity=system.scene.gravity,
-    )
-    system.flexible[name] = body
+    system.flexible[name] = body = add_part(system, name, frame)
     system.bodies[name], system.nodes[name] = body.object_number, body.node_rigid
     if body.node_modes is not None:
         system.nodes[f"{name}_modes"] = body.node_modes

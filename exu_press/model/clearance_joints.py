@@ -110,10 +110,8 @@ def _worn_surfaces(system: System, joint: Joint, kind: SceneJoint) -> "WornSurfa
 
 
 def _end(system: System, joint: Joint, body: str, point: Point) -> Any:
-    if body == GROUND:
-        return system.ground, point
     if body not in system.flexible:
-        return system.bodies[body], system.rigid[body].local(point)
+        return system.end(body, point)
     from exu_press.model.flexible_body import joint_end
 
-    return joint_end(system.flexible[body], system.parts[body], joint, point)
+    return joint_end(system, body, joint, point)

@@ -1,6 +1,6 @@
-"""The drive of the crank, and the support of flexible bodies in space."""
+"""The drive of the crank, and the gears that turn with it."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any
 
 import exudyn as exu
@@ -9,9 +9,8 @@ from exudyn.itemInterface import (
     ObjectConnectorCoordinateSpringDamper,
 )
 
-from exu_press.mechanism import Body, Gear, Motion
+from exu_press.mechanism import Gear
 from exu_press.mechanism.parts import DRIVE, FLYWHEEL
-from exu_press.model.rigid_body import RigidBody
 from exu_press.model.system import System
 
 __all__ = [
@@ -19,18 +18,11 @@ __all__ = [
     "add_drive",
     "add_gear",
     "crank_angle_of",
-    "hold_flexible_bodies",
     "turned_body",
 ]
 
 CrankAngle = Callable[[], tuple[float, float]]
 """Angle, rad, and angular velocity, rad/s, of the driven body in the current state."""
-
-DISC_MASS = 1e-3
-"""Mass of the disc on a flexible crank, kg: negligible, but not zero."""
-
-CARRIER_INERTIA = 1e-5
-"""Mass and inertia of a disc that moves with a face, over those of its body: likewise."""
 
 
 def add_drive(system: System) -> None:
@@ -95,59 +87,3 @@ def crank_angle_of(system: System) -> CrankAngle:
         return zero + float(q), float(data.GetODE2Coordinates_t(current, False)[index[0]])
 
     return angle
-
-
-def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> None:
-    """Hold flexible bodies in the plane and on pivots of the frame.
-
-    A disc drives a flexible crank, and one moves with each face in a slot or a moving guide.
-
-    Args:
-        system: with all bodies in it.
-        start: name -> motion at the start, where it is not the ideal mechanism's.
-    """
-    from exu_press.model.flexible_body import (
-        guide_points,
-        hold_on_face,
-        hold_pivot,
-        hold_upright,
-    )
-
-    mbs = system.mbs
-    for name, body in system.flexible.items():
-        placed = system.parts[name]
-        if name == system.mechanism.crank:
-            _add_disc(system, start.get(DRIVE))
-            hold_on_face(mbs, system.bodies[DRIVE], body, placed)
-        for guide in placed.carriers:
-            carrier, points = system.carriers[guide, name], guide_points(guide)
-            _add_carrier(system, carrier, name, start.get(carrier))
-            at = placed.to_body(body.point_positions[points[0]])
-            hold_on_face(mbs, system.bodies[carrier], body, placed, points, at)
-        pivot = system.constraints.pivots.get(name)
-        hold_upright(mbs, system.still, body, placed, pivot)
-        if pivot is not None:
-            for joint, number in hold_pivot(mbs, system.ground, body, placed, pivot).items():
-                system.record(joint, "force", number)
-
-
-def _add_disc(system: System, start: Motion | None) -> None:
-    """Add the disc that turns a flexible crank, on the shaft's axis unless the start is moved."""
-    crank = system.mechanism.body(system.mechanism.crank)
-    relaxed = system.ideal[crank.name].point_motion(crank.local(system.mechanism.shaft.at))
-    motor = system.scene.drive
-    inertia = 1.0 if motor is None else motor.on_crank
-    disc = Body(DRIVE, DISC_MASS, inertia)
-    system.add_rigid(
-        DRIVE, RigidBody(system.mbs, disc, start or relaxed, reference=relaxed.position[0])
-    )
-
-
-def _add_carrier(system: System, carrier: str, body: str, start: Motion | None) -> None:
-    """Add the disc that moves with a face of a flexible body; its frame is the body's."""
-    relaxed = system.ideal[body]
-    solid = system.parts[body]
-    disc = Body(carrier, CARRIER_INERTIA * solid.reduced.mass, CARRIER_INERTIA * solid.inertia)
-    system.add_rigid(
-        carrier, RigidBody(system.mbs, disc, start or relaxed, reference=relaxed.position[0])
-    )

@@ -1,23 +1,13 @@
-"""Flexible bodies in an Exudyn system, and their constraints out of the plane.
+"""Flexible bodies in an Exudyn system, with the points where joints, guides and loads act.
 
-Modes come from fe_models. In the plane the joints are those of rigid bodies. Out of the plane a
-body on a pivot of the frame with two faces is held by these, any other one by its mean motion.
+Modes come from fe_models.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.itemInterface import (
-    MarkerBodyRigid,
-    MarkerNodeCoordinate,
-    ObjectConnectorCoordinate,
-    ObjectConnectorDistance,
-    ObjectJointRevolute2D,
-    ObjectJointSpherical,
-)
 from exudyn.rigidBodyUtilities import (
     EulerParameters2G,
     EulerParameters2RotationMatrix,
@@ -26,22 +16,20 @@ from exudyn.rigidBodyUtilities import (
 
 from exu_press.errors import InputError
 from exu_press.joints.ends import FlexiblePoint
-from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Motion, Point
+from exu_press.mechanism import Guide, Joint, Motion, Point
 from exu_press.model.placed_part import PlacedPart, point_name
+from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
-from exu_press.scene.applied_load import AppliedLoad
 from fe_models import FlexibleBody, add_flexible_body
 
 __all__ = [
+    "DRIVEN",
     "FrameStart",
     "add_part",
     "fit_to_guide",
     "guide_end",
     "guide_points",
     "guided_motion",
-    "hold_on_face",
-    "hold_pivot",
-    "hold_upright",
     "joint_end",
     "load_point",
     "shift_start",
@@ -51,9 +39,6 @@ __all__ = [
 
 DRIVEN = ("driven", "driven rim")
 """Points that move with the driven face of the crank: on the shaft's axis, and beside it."""
-
-OUT_OF_PLANE = (2, 4, 5)
-"""Among a frame's coordinates: the height, and the Euler parameters of both tilts."""
 
 
 @dataclass(frozen=True)
@@ -136,33 +121,16 @@ def start_from_state(
     )
 
 
-def add_part(
-    mbs: exu.MainSystem,
-    name: str,
-    placed: PlacedPart,
-    start: FrameStart,
-    mechanism: Mechanism,
-    loads: Mapping[str, AppliedLoad],
-    gravity: float,
-) -> FlexibleBody:
-    """Add a part, with the points where joints and loads act.
-
-    Args:
-        mbs: the system.
-        name: of the body.
-        placed: the part.
-        start: of the solid's frame and the modes.
-        mechanism: for the joints.
-        loads: of all bodies.
-        gravity: downwards, m/s^2.
-    """
+def add_part(system: System, name: str, start: FrameStart) -> FlexibleBody:
+    """Add a body's part in its start, with the points where joints, guides and loads act."""
+    placed, mechanism = system.parts[name], system.mechanism
     points = {}
     for joint in mechanism.joints:
         for body, point in mechanism.ends(joint):
             for number, face in enumerate(placed.faces[joint.name] if body == name else ()):
                 position = *placed.to_solid(point), _height(placed, joint, face)
                 points[point_name(joint.name, number)] = face, position
-    for load_name, load in loads.items():
+    for load_name, load in system.loads.items():
         for number, face in enumerate(placed.loads[load_name] if load.body == name else ()):
             height = float(placed.reduced.interface(face).centre[2])
             points[load_point(load_name, number)] = face, (*placed.to_solid(load.point), height)
@@ -175,7 +143,7 @@ def add_part(
         for moved, arm in zip(names, (0.0, interface.arm), strict=True):
             points[moved] = face, (u + arm, v, z)
     return add_flexible_body(
-        mbs,
+        system.mbs,
         placed.reduced,
         position=start.position.tolist(),
         rotation=start.rotation,
@@ -183,7 +151,7 @@ def add_part(
         angular_velocity=start.angular_velocity.tolist(),
         initial_modes=start.modes,
         initial_modes_t=start.modes_t,
-        gravity=(0.0, -gravity, 0.0),
+        gravity=(0.0, -system.scene.gravity, 0.0),
         damping_ratio=placed.damping_ratio,
         points=points,
         name=name,
@@ -205,12 +173,13 @@ def guide_points(guide: str) -> tuple[str, str]:
     return f"guide {guide}", f"guide {guide} rim"
 
 
-def joint_end(body: FlexibleBody, placed: PlacedPart, joint: Joint, point: Point) -> Any:
+def joint_end(system: System, name: str, joint: Joint, point: Point) -> Any:
     """Return the end of a clearance joint that moves with an interface, at a point (x, y).
 
     Raises:
         InputError: the joint holds several faces.
     """
+    body, placed = system.flexible[name], system.parts[name]
     face, *further = placed.faces[joint.name]
     if further:
         raise InputError(
@@ -222,76 +191,6 @@ def joint_end(body: FlexibleBody, placed: PlacedPart, joint: Joint, point: Point
     if body.node_modes is None:
         return body.object_number, centre
     return FlexiblePoint(body.object_number, centre, interface.translation, interface.rotation)
-
-
-def hold_pivot(
-    mbs: exu.MainSystem, ground: int, body: FlexibleBody, placed: PlacedPart, joint: Joint
-) -> dict[str, int]:
-    """Hold a body in the frame by the faces of an ideal joint; return name -> object number.
-
-    Args:
-        mbs: the system.
-        ground: object number of the frame.
-        body: flexible.
-        placed: part of the body.
-        joint: with the frame.
-    """
-    faces = placed.faces[joint.name]
-    numbers = {}
-    for number, face in enumerate(faces):
-        height = float(body.reduced.interface(face).centre[2])
-        seat = mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=[*joint.at, height]))
-        ends = [body.add_point_marker(mbs, point_name(joint.name, number)), seat]
-        name = joint.name if len(faces) == 1 else f"{joint.name}_{number + 1}"
-        lengthwise = int(len(faces) > 1 and number == 0)
-        numbers[name] = int(
-            mbs.AddObject(
-                ObjectJointSpherical(
-                    name=name,
-                    markerNumbers=ends if joint.bearing == GROUND else ends[::-1],
-                    constrainedAxes=[1, 1, lengthwise],
-                )
-            )
-        )
-    return numbers
-
-
-def hold_on_face(
-    mbs: exu.MainSystem,
-    disc: int,
-    body: FlexibleBody,
-    placed: PlacedPart,
-    points: tuple[str, str] = DRIVEN,
-    at: Point = (0.0, 0.0),
-) -> None:
-    """Let a disc move in the plane with the mean motion of a body's face.
-
-    A massless link along the tangent transmits a force, and the disc's pin its opposite: a couple
-    on the face. A joint between frames would need twice as many equations, and a marker with three
-    nodes.
-
-    Args:
-        mbs: the system.
-        disc: object number of the disc, which has next to no mass.
-        body: flexible.
-        placed: part of the body.
-        points: of the body that move with the face, the first on the disc's pin.
-        at: that point in the disc's frame, which is turned as the body's, m.
-    """
-    middle, rim = (np.array(body.point_positions[point]) for point in points)
-    pinned = [*at, float(middle[2])]
-    arm = RotationMatrixZ(-placed.angle) @ (rim - middle)
-    end = pinned + arm + np.cross((0.0, 0.0, 1.0), arm)
-    pin, link = (
-        [
-            mbs.AddMarker(MarkerBodyRigid(bodyNumber=disc, localPosition=position)),
-            body.add_point_marker(mbs, point),
-        ]
-        for point, position in zip(points, (pinned, end.tolist()), strict=True)
-    )
-    mbs.AddObject(ObjectJointRevolute2D(markerNumbers=pin))
-    length = float(np.linalg.norm(arm))
-    mbs.AddObject(ObjectConnectorDistance(markerNumbers=link, distance=length))
 
 
 def fit_to_guide(
@@ -334,8 +233,9 @@ def fit_to_guide(
     )
 
 
-def guide_end(body: FlexibleBody, placed: PlacedPart, point: Point) -> Any:
+def guide_end(system: System, name: str, point: Point) -> Any:
     """Return an end for guideways with clearance: a point that moves with the guide's faces."""
+    body, placed = system.flexible[name], system.parts[name]
     position, modes = placed.carried_point((placed.guide,), point)
     if body.node_modes is None:
         return body.object_number, position
@@ -343,9 +243,7 @@ def guide_end(body: FlexibleBody, placed: PlacedPart, point: Point) -> Any:
     return FlexiblePoint(body.object_number, position, modes, rotation)
 
 
-def guided_motion(
-    mbs: exu.MainSystem, body: FlexibleBody, placed: PlacedPart
-) -> tuple[Array, Array]:
+def guided_motion(system: System, name: str) -> tuple[Array, Array]:
     """Return the guided motion of a body, linear in its coordinates: x, y (m), angle (rad).
 
     It is the mean motion of the faces in the guide, at the body's centre of mass. In a guide a body
@@ -355,7 +253,8 @@ def guided_motion(
         Its values at the reference values of the coordinates, (3,), and its derivatives by the
         coordinates of the frame and of the modes, (3, coordinates).
     """
-    pose = np.asarray(mbs.GetNodeParameter(body.node_rigid, "referenceCoordinates"))
+    body, placed = system.flexible[name], system.parts[name]
+    pose = np.asarray(system.mbs.GetNodeParameter(body.node_rigid, "referenceCoordinates"))
     rotation = np.asarray(EulerParameters2RotationMatrix(pose[3:]))
     centre, modes = placed.carried_point((placed.guide,), (0.0, 0.0))
     arm = rotation @ centre
@@ -367,26 +266,3 @@ def guided_motion(
     rows[2, 7:] = placed.reduced.interface(placed.guide).rotation[2]
     angle = 2.0 * np.arctan2(pose[6], pose[3]) + placed.angle
     return np.array([pose[0] + arm[0], pose[1] + arm[1], angle]), rows
-
-
-def hold_upright(
-    mbs: exu.MainSystem, still: int, body: FlexibleBody, placed: PlacedPart, pivot: Joint | None
-) -> None:
-    """Hold a body in the plane, unless the two faces of a pivot do.
-
-    The coordinates of its frame, the mean of its motion, are held, which costs least. A body that
-    is not symmetric to the plane bends about that mean.
-
-    Args:
-        mbs: the system.
-        still: marker on a coordinate of the frame of the press.
-        body: flexible.
-        placed: part of the body.
-        pivot: its ideal joint with the frame, if it has one.
-    """
-    if pivot is not None and len(placed.faces[pivot.name]) > 1:
-        return
-    for coordinate in OUT_OF_PLANE:
-        marker = MarkerNodeCoordinate(nodeNumber=body.node_rigid, coordinate=coordinate)
-        markers = [still, mbs.AddMarker(marker)]
-        mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers))

@@ -24,7 +24,7 @@ def add_guide_friction(system: System, guide: Guide) -> GuideFriction:
         from exu_press.model.flexible_body import guided_motion
 
         body = system.flexible[guide.body]
-        values, rows = guided_motion(mbs, body, system.parts[guide.body])
+        values, rows = guided_motion(system, guide.body)
         missed = float(normal @ (values - system.ideal[guide.body].position[0])[:2])
         nodes = body.nodes
         line = FixedLine(np.array(guide.direction) @ rows[:2], normal @ rows[:2], missed)

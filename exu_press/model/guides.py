@@ -52,7 +52,7 @@ def _add_flexible_guide(system: System, guide: Guide) -> None:
     from exu_press.model.flexible_body import guided_motion
 
     mbs, body = system.mbs, system.flexible[guide.body]
-    values, rows = guided_motion(mbs, body, system.parts[guide.body])
+    values, rows = guided_motion(system, guide.body)
     change = values - system.ideal[guide.body].position[0]
     change[2] = np.remainder(change[2] + np.pi, 2.0 * np.pi) - np.pi
     is_held = dict(zip(("force", "moment"), system.constraints.guides[guide.name], strict=True))

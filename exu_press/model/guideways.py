@@ -82,7 +82,7 @@ def _add_moving(system: System, guide: Guide, end: Any, **laws: Any) -> Clearanc
     return add_moving_guideway_contact(
         system.mbs,
         end,
-        (system.ground, line) if guide.on_frame else _end(system, on, line),
+        _end(system, on, line),
         across=math.atan2(guide.normal[1], guide.normal[0]) - base.angle + frame_angle,
         radius=None if guide.centre is None else math.dist(at, guide.centre),
         **laws,
@@ -91,7 +91,7 @@ def _add_moving(system: System, guide: Guide, end: Any, **laws: Any) -> Clearanc
 
 def _end(system: System, body: str, point: Point) -> Any:
     if body not in system.flexible:
-        return system.bodies[body], system.rigid[body].local(point)
+        return system.end(body, point)
     from exu_press.model.flexible_body import guide_end
 
-    return guide_end(system.flexible[body], system.parts[body], point)
+    return guide_end(system, body, point)

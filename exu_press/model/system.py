@@ -106,9 +106,13 @@ class System:
 
     def marker(self, body: str, point: Point) -> int:
         """Add a marker on a rigid body or the frame."""
-        local = point if body == GROUND else self.rigid[body].local(point)
-        marker = MarkerBodyRigid(bodyNumber=self.bodies[body], localPosition=[*local, 0.0])
+        number, local = self.end(body, point)
+        marker = MarkerBodyRigid(bodyNumber=number, localPosition=[*local, 0.0])
         return int(self.mbs.AddMarker(marker))
+
+    def end(self, body: str, point: Point) -> tuple[int, Point]:
+        """Return the object of a rigid body or the frame, and a point of the body in its frame."""
+        return self.bodies[body], point if body == GROUND else self.rigid[body].local(point)
 
     def in_guide(self, guide: Guide) -> tuple[str, str]:
         """Return both rigid bodies of a slot or moving guide: a flexible body's is its disc."""

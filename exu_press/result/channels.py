@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exu_press.errors import InputError
-from exu_press.numerics.arrays import Array
+from exu_press.numerics.arrays import Array, checksum
 from exu_press.result.channel import Channel
 
 if TYPE_CHECKING:
@@ -99,7 +99,6 @@ class MemmapChannels(_StoredChannels):
         Energies count from it in `channels`, and from the start here.
         """
         from exu_press.files.output_directory import writing
-        from exu_press.result.classic import checksum
 
         first = 1 if self.count else 0
         for name, channel in channels.items():
@@ -131,8 +130,6 @@ class MemmapChannels(_StoredChannels):
 
     def _check(self, name: str, values: Array) -> None:
         """Raise InputError unless the values of a channel have its checksum."""
-        from exu_press.result.classic import checksum
-
         checksum_read = 0
         for first in range(0, self.count, AT_ONCE):
             checksum_read = checksum(values[first : first + AT_ONCE], checksum_read)

@@ -1,7 +1,11 @@
 """A result as a NetCDF file, or as a dataset of xarray: units and names, and the scene."""
 
 import json
-from collections.abc import Mapping
+import stat
+import warnings
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -11,8 +15,8 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError, error_prefix, required_package
 from exu_press.files.file_format import NewerFormatError, refuse_newer_format
 from exu_press.files.output_directory import replacing
+from exu_press.numerics.arrays import checksum
 from exu_press.result.channel import AXES, Channel
-from exu_press.result.classic import Classic, Variable, checksum, header_checksum, open_classic
 from exu_press.result.contents import Contents
 from exu_press.result.info import Info
 from exu_press.result.surface import ARRAYS, Surface
@@ -28,6 +32,9 @@ Kind = TypeVar("Kind", bound=Contents)
 Number = TypeVar("Number", bound=np.generic)
 
 FORMAT = "exu_press result 2"
+
+CHECKSUM = "checksum"
+"""Attribute of a variable, whose bytes it belongs to, and of a file, whose header it belongs to."""
 
 SAMPLE, AT_SAMPLES = "sample", "_at_samples"
 """Dimension of the samples, and the end of the names of channels over it."""
@@ -64,23 +71,36 @@ def write(result: Contents, path: Path, **more: str) -> None:
 
 def write_checksums(file: "netcdf_file") -> None:
     """Write a checksum of each variable, and one of all that is no value."""
-
-    def texts(owner: Any) -> dict[str, bytes]:
-        """Return the texts of the file or of a variable as they are stored."""
-        stored = owner._attributes.items()
-        return {n: (t if isinstance(t, bytes) else t.encode()) or b"\0" for n, t in stored}
-
     for variable in file.variables.values():
         variable.checksum = f"{checksum(variable.data):08x}"
+    file.checksum = _header_checksum(file)
+
+
+def _header_checksum(file: "netcdf_file") -> str:
+    """Return the CRC-32 of a header's texts, names, types and sizes, 8 hexadecimal digits."""
+
+    def texts(owner: Any) -> dict[str, str]:
+        """Return the texts of the file or of a variable as they are stored."""
+        return {name: text.decode("latin-1") or "\0" for name, text in _texts(owner).items()}
+
     variables = {
         name: (
-            dict(zip(variable.dimensions, variable.shape, strict=True)),
+            [*zip(variable.dimensions, variable.shape, strict=True)],
             texts(variable),
-            variable.data.dtype,
+            variable.data.dtype.str,
         )
         for name, variable in file.variables.items()
     }
-    file.checksum = header_checksum(texts(file), variables)
+    whole = {name: text for name, text in texts(file).items() if name != CHECKSUM}
+    return f"{zlib.crc32(json.dumps([whole, variables], sort_keys=True).encode()):08x}"
+
+
+def _texts(owner: Any) -> dict[str, bytes]:
+    """Return the texts of a file or a variable, not decoded; empty ones for numbers."""
+    return {
+        name: value.encode() if isinstance(value, str) else value * isinstance(value, bytes)
+        for name, value in owner._attributes.items()
+    }
 
 
 def _write_channel(file: "netcdf_file", name: str, along: str, channel: Channel) -> None:
@@ -102,17 +122,17 @@ def read(path: Path, kind: type[Kind]) -> Kind:
         InputError: it cannot be read, is no result, is damaged, or a later version's.
     """
     try:
-        file = _open_checked(path)
-        scene = from_json(dict[str, Any], _text(file.attributes, "scene"), "scene")
-        asked = from_json(list[str], file.attributes.get("asked", b"[]"), "asked")
-        return kind(
-            scene=Scene.from_dict(scene, asked, resolve=False),
-            channels=_channels(file, "time"),
-            info=from_json(Info, _text(file.attributes, "info"), "info"),
-            bodies=from_json(tuple[str, ...], _text(file.attributes, "bodies"), "bodies"),
-            surfaces=_surfaces(file),
-            sampled=_channels(file, SAMPLE),
-        )
+        with _opened(path) as file:
+            scene = from_json(dict[str, Any], _text(file, "scene"), "scene")
+            asked = from_json(list[str], _text(file, "asked"), "asked")
+            return kind(
+                scene=Scene.from_dict(scene, asked, resolve=False),
+                channels=_channels(file, "time"),
+                info=from_json(Info, _text(file, "info"), "info"),
+                bodies=from_json(tuple[str, ...], _text(file, "bodies"), "bodies"),
+                surfaces=_surfaces(file),
+                sampled=_channels(file, SAMPLE),
+            )
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error})") from None
     except NewerFormatError as error:
@@ -121,17 +141,28 @@ def read(path: Path, kind: type[Kind]) -> Kind:
         raise InputError(f"{path}: not a result of exu_press, or damaged: {error!s:.400}") from None
 
 
-def _text(attributes: Mapping[str, bytes], name: str) -> str:
+def _text(owner: Any, name: str) -> str:
     """Return a text of a file or a variable."""
-    if name not in attributes:
+    texts = _texts(owner)
+    if name not in texts:
         raise InputError(f"has no {name}")
     try:
-        return attributes[name].decode()
+        return texts[name].decode()
     except UnicodeDecodeError:
-        raise InputError(f"{name} = {short_text(attributes[name])}: allowed is UTF-8") from None
+        raise InputError(f"{name} = {short_text(texts[name])}: allowed is UTF-8") from None
 
 
-def _channels(file: Classic, along: str) -> dict[str, Channel]:
+def _values(variable: Any, dtype: type[Number]) -> NDArray[Number]:
+    """Return a copy of a variable's values; raise InputError where they are damaged."""
+    stored: NDArray[Any] = variable.data
+    if _text(variable, CHECKSUM) != f"{checksum(stored):08x}":
+        raise InputError("its values are damaged: they do not have the checksum of the file")
+    if stored.dtype.newbyteorder("=") != dtype:
+        raise InputError(f"type {stored.dtype.name}; allowed is {np.dtype(dtype).name}")
+    return stored.astype(dtype)
+
+
+def _channels(file: "netcdf_file", along: str) -> dict[str, Channel]:
     """Return the channels over time, or over the samples."""
     suffix = AT_SAMPLES if along == SAMPLE else ""
     return {
@@ -141,47 +172,66 @@ def _channels(file: Classic, along: str) -> dict[str, Channel]:
     }
 
 
-def _channel(name: str, variable: Variable) -> Channel:
+def _channel(name: str, variable: Any) -> Channel:
     """Return a channel; its last dimension names its columns."""
     _, *inner = variable.dimensions
     with error_prefix(f"channel {short_text(name)}: "):
         return Channel(
-            variable.values(np.float64),
-            _text(variable.attributes, "units"),
-            _text(variable.attributes, "long_name"),
+            _values(variable, np.float64),
+            _text(variable, "units"),
+            _text(variable, "long_name"),
             inner[-1] if inner else "",
         )
 
 
 def read_text(path: Path, name: str) -> str:
     """Return a text that a file has beside a result; raise InputError if it is damaged."""
-    with error_prefix(f"{path}: "):
-        return _text(_open_checked(path).attributes, name)
+    with error_prefix(f"{path}: "), _opened(path) as file:
+        return _text(file, name)
 
 
-def _open_checked(path: Path) -> Classic:
-    """Return a file of a result, its header checked.
+@contextmanager
+def _opened(path: Path) -> Iterator["netcdf_file"]:
+    """Open the file of a result, whose header is checked; values are read when they are used.
 
     Raises:
         InputError: it is of another format, or its header is damaged.
         OSError: it cannot be opened.
     """
-    file = open_classic(path)
-    form = file.attributes.get("format", b"").decode(errors="replace")
-    refuse_newer_format(form, FORMAT)
-    if form != FORMAT:
-        raise InputError(f"has no format = {FORMAT!r}")
-    file.check_header()
-    return file
+    from scipy.io import netcdf_file  # takes longer to load than a short run
+
+    if not stat.S_ISREG(path.stat().st_mode):
+        raise OSError("not a file")
+    try:
+        file = netcdf_file(path, "r", mmap=True)
+    except OSError:
+        raise
+    except Exception:  # whatever the reader raises of foreign bytes
+        raise InputError("not a whole NetCDF file of the classic format") from None
+    try:
+        sizes = [variable.data.nbytes for variable in file.variables.values()]
+        if sum(sizes) > path.stat().st_size:  # it would ask for any amount of memory
+            raise InputError("its variables lie over each other")
+        form = _texts(file).get("format", b"").decode(errors="replace")
+        refuse_newer_format(form, FORMAT)
+        if form != FORMAT:
+            raise InputError(f"has no format = {FORMAT!r}")
+        if _texts(file).get(CHECKSUM) != _header_checksum(file).encode():
+            raise InputError("its header is damaged: it does not have the checksum of the file")
+        yield file
+    finally:
+        with warnings.catch_warnings():  # of values that a traceback still has
+            warnings.simplefilter("ignore", RuntimeWarning)
+            file.close()
 
 
 def is_whole(path: Path) -> bool:
     """Return whether a file is there, as long as its header says, and the header undamaged."""
     try:
-        open_classic(path).check_header()
+        with _opened(path):
+            return True
     except (OSError, InputError):
         return False
-    return True
 
 
 def _write_surface(file: "netcdf_file", body: str, surface: Surface) -> None:
@@ -201,20 +251,20 @@ def _write_surface(file: "netcdf_file", body: str, surface: Surface) -> None:
         variable.long_name = f"{body}: {meaning}"
 
 
-def _surfaces(file: Classic) -> dict[str, Surface]:
+def _surfaces(file: "netcdf_file") -> dict[str, Surface]:
     """Return the surfaces in a file, by body."""
     suffix = "_surface_nodes"
     bodies = [name.removesuffix(suffix) for name in file.variables if name.endswith(suffix)]
     return {body: _surface(file, body) for body in bodies}
 
 
-def _surface(file: Classic, body: str) -> Surface:
+def _surface(file: "netcdf_file", body: str) -> Surface:
     """Return the surface of a body; in a file without stresses there are none."""
 
     def array(name: str, dtype: type[Number]) -> NDArray[Number]:
         if f"{body}_surface_{name}" not in file.variables:
             raise InputError(f"has no {name}")
-        return file.variables[f"{body}_surface_{name}"].values(dtype)
+        return _values(file.variables[f"{body}_surface_{name}"], dtype)
 
     with error_prefix(f"surface of {short_text(body)}: "):
         modes = array("modes", np.float32)

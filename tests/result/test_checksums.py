@@ -1,6 +1,8 @@
 """Damage of a result's file is noticed where it is read, and only there."""
 
+import contextlib
 import random
+import struct
 import warnings
 
 import numpy as np
@@ -84,3 +86,41 @@ def test_a_changed_header_is_refused(content, path, change):
     with pytest.raises(InputError, match=r"header is damaged|has no format"):
         Result.load(path)
     assert not is_whole(path)
+
+
+@pytest.mark.parametrize("kept", [0, 3, 4, 40, 150, -1])
+def test_a_file_that_ends_too_early(content, path, kept):
+    path.write_bytes(content[:kept])
+    with pytest.raises(InputError, match="not a whole NetCDF file of the classic format"):
+        Result.load(path)
+    assert not is_whole(path)
+
+
+@pytest.mark.parametrize("number", [-1, 2**31 - 1])
+def test_no_number_of_the_header_asks_for_more_than_the_file_has(content, path, number):
+    """Every 160 bytes of it in turn; a variable that begins elsewhere has other values."""
+    path.write_bytes(content)
+    original = Result.load(path)
+    for place in range(0, 8000, 160):
+        path.write_bytes(content[:place] + struct.pack(">i", number) + content[place + 4 :])
+        with contextlib.suppress(InputError):
+            assert same(Result.load(path), original), place
+
+
+def test_variables_that_share_their_bytes(path):
+    """They would let a small file ask for any amount of memory."""
+    with netcdf_file(path, "w") as file:
+        file.createDimension("long", 50)
+        file.createVariable("one", "d", ("long",))[:] = np.arange(50.0)
+    content = path.read_bytes()
+    count = content.index(struct.pack(">ii", 11, 1)) + 4
+    first = count + 4
+    once = content[first : content.index(np.arange(50.0, dtype=">f8").tobytes())]
+    path.write_bytes(content[:count] + struct.pack(">i", 9) + 9 * once + 500 * bytes(8))
+    with pytest.raises(InputError, match="damaged"):
+        Result.load(path)
+
+
+def test_what_is_no_file(tmp_path):
+    with pytest.raises(InputError, match="not a file"):
+        Result.load(tmp_path)

@@ -58,21 +58,20 @@ class RunningScales:
         longest: float,
         first: float = math.inf,
         rounding: float = 0.0,
-        least_speed: float = 0.0,
     ) -> None:
-        """Take the given scales, the longest and the first step, s, and the least speed, m/s.
+        """Take the given scales, the longest and the first step, s.
 
         Rounding is that of accelerations due to positions, times the step's square, over the
         length.
         """
         self._prescribed, self._system, self._longest = scales, system, longest
-        self._first, self._rounding, self._least_speed = first, rounding, least_speed
+        self._first, self._rounding = first, rounding
         self.gravity, self.length = scales.gravity, system.length
         self.roundoff = self.roundoff_speed = 0.0
         self.masses: list[float] = []
         self.inertias: list[float] = []
         self.ends = [node.start + node.size for node in system.nodes]
-        self.speed = max(scales.speed or 0.0, least_speed)
+        self.speed = scales.speed or 0.0
         self.force = scales.force or 0.0
         self.updates = scales.speed is None or scales.force is None
 

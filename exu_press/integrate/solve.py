@@ -36,7 +36,6 @@ def solve_dynamic(
     settings: exu.SimulationSettings,
     *,
     tolerance: float | None = 1e-3,
-    absolute: float = 0.0,
     scales: ErrorScales = NO_SCALES,
     tuning: SolverTuning = DEFAULTS,
     criteria: Criteria = default_criteria,
@@ -44,7 +43,6 @@ def solve_dynamic(
     next_corner: Callable[[float], float] | None = None,
     watch: Callable[[float], str] = lambda time: "",
     sample: float | None = None,
-    hold: bool = False,
     event: Callable[[exu.MainSystem, float], float] | None = None,
     bodies: Mapping[int, tuple[str, float]] | None = None,
     advice: Callable[[System, bool], Advice] = Advice,
@@ -69,7 +67,6 @@ def solve_dynamic(
         settings: Exudyn's.
         tolerance: of the run, relative: velocities to the largest speed, eccentricities to their
             clearances; from 1e-8 to 0.1. None takes fixed steps of the settings' size.
-        absolute: velocity, m/s: errors below it do not count, however small the largest speed.
         scales: of errors, where they are not those of the motion so far.
         tuning: the numbers of step control, to vary them.
         criteria: makes the criteria of the error of a step.
@@ -79,11 +76,10 @@ def solve_dynamic(
             steps end on them. None: there are none.
         watch: time (s) -> why the motion has come to its end there, or nothing; is asked after
             every step. ARRIVED ends a run that got where it was to go.
-        sample: period of the system's pre-step function, s. Steps end on its multiples, and the
-            function is called once for each period, with its end; what it sets is held. None and
-            0.0: it is called before every try of a step, with the step's end.
-        hold: whether what a pre-step function sets is meant to jump from period to period, as the
-            output of a digital controller; without it a warning says that jumps are not followed.
+        sample: period of the system's pre-step function, s, as of a digital controller. Steps end
+            on its multiples, and the function is called once for each period, with its end; what it
+            sets is held. None: it is called before every try of a step, with the step's end, and a
+            warning says that jumps of what it sets are not followed.
         event: function (system, time in s) -> number; steps end where it changes its sign, within
             a millionth of the largest step. Not with fixed steps.
         bodies: node number -> name and mass (kg) of its body; nodes that are not named are
@@ -108,23 +104,19 @@ def solve_dynamic(
             asked for where this process cannot be copied; the system is left as it was.
         exudyn.ExudynError: a user function failed.
     """
-    refuse_unusable(settings, tolerance, sample, hold=hold)
-    if not 0.0 <= absolute < math.inf or (absolute and tolerance is None):
-        raise InputError(
-            f"absolute = {absolute!r}: allowed is a velocity in m/s, or 0.0; with fixed steps 0.0"
-        )
+    refuse_unusable(settings, tolerance, sample)
     if event is not None and tolerance is None:
         raise InputError("event: allowed with a tolerance, as fixed steps end on their grid")
     system = System.of_mbs(mbs, bodies)
     words = advice(system, tolerance is not None)
     if system.joints is not None:
         system.joints.refuse_start(words.joint)
-    messages = list(words.about_system(held=hold))
+    messages = list(words.about_system(held=bool(sample)))
 
     def run(
         tolerance: float | None, watch: Callable[[float], str], max_steps: int, quiet: bool
     ) -> tuple[Outcome, Task]:
-        task = Task(system, settings, tolerance, scales, tuning, absolute)
+        task = Task(system, settings, tolerance, scales, tuning)
         functions = UserFunctions(system, task.start, (sample or 0.0) * (not task.fixed))
         with Progress("run", task.end - task.start, quiet=quiet) as progress:
             monitor = Monitor(

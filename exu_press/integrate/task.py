@@ -153,7 +153,6 @@ class Task:
         tolerance: float | None,
         scales: ErrorScales,
         tuning: SolverTuning,
-        absolute: float = 0.0,
     ) -> None:
         """Take a system and what is asked of it."""
         integration = settings.timeIntegration
@@ -180,8 +179,7 @@ class Task:
         contacts = bool(system.contacts)
         self.switching_iterations = integration.discontinuous.maxIterations if contacts else 1
         rounding = tuning.rounding / (1.0 - min(self.spectral_radius, LARGEST_RADIUS)) ** 2
-        least_speed = absolute / self.tolerance
-        self.scales = RunningScales(scales, system, largest, self.first, rounding, least_speed)
+        self.scales = RunningScales(scales, system, largest, self.first, rounding)
 
 
 def inertia_factor(solver: Any) -> float:
@@ -194,8 +192,6 @@ def refuse_unusable(
     settings: exu.SimulationSettings,
     tolerance: float | None,
     sample: float | None = None,
-    *,
-    hold: bool = False,
 ) -> None:
     """Refuse what cannot be integrated.
 
@@ -220,10 +216,8 @@ def refuse_unusable(
             f"of {SHORTEST_RUN:g} s or more, as Exudyn may end it 1e-10 s early; count time in "
             "another unit"
         )
-    if sample is not None and not 0.0 <= sample < math.inf:
-        raise InputError(f"sample = {sample!r}: allowed is a period in seconds, or 0.0")
-    if hold and sample == 0.0:
-        raise InputError("hold = True: allowed with a period; sample = 0.0 has none")
+    if sample is not None and not 0.0 < sample < math.inf:
+        raise InputError(f"sample = {sample!r}: allowed is a period in seconds, or None")
     alpha, solver = integration.generalizedAlpha, str(integration.solverType).rsplit(".", 1)[-1]
     if solver != METHOD or alpha.useNewmark or alpha.useIndex2Constraints:
         raise InputError(

@@ -3,27 +3,19 @@
 Such a body has one coordinate (`exu_press.model.rigid_body`), so that no constraint has the force.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import numpy as np
 
 from exu_press.mechanism import Point
 from exu_press.mechanism.guide_motion import guide_direction
-from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result import ideal_joints
 from exu_press.result.channel import Channel, guide_channel
 from exu_press.result.guides import guide_channels
 from exu_press.result.recording import Record, Recording
 
-if TYPE_CHECKING:
-    from exu_press.joints.history import JointHistory
-
 __all__ = ["record"]
-
-JointOnBody = tuple[str, float, Point]
-"""Name of a joint on a body, sign of its force there, and its point in the body's frame."""
 
 
 def record(run: Recording) -> Record:
@@ -31,41 +23,72 @@ def record(run: Recording) -> Record:
 
     The loads and all joints that hold a coordinate or have clearance have their channels.
     """
-    model, motions, channels, histories = run.model, run.motions, run.so_far.channels, run.histories
+    model = run.model
     reactions: dict[str, Channel] = {}
-    masses = {body.name: body.mass for body in model.mechanism.bodies}
-
-    on_body: dict[str, list[JointOnBody]] = {name: [] for name in masses}
-    for joint in model.mechanism.joints:
-        for sign, (name, point) in zip((1.0, -1.0), model.mechanism.ends(joint), strict=True):
-            if name in on_body and f"{joint.name}_force" in channels:
-                on_body[name].append((joint.name, sign, point))
-
-    actions = {name: _guide_actions(run, name) for name in masses}
-
-    def constraint_force(name: str) -> Array:
-        """Return the reaction to all forces on a body, (n, 2)."""
-        reaction = _force(model, name, on_body[name], channels) + actions[name][:, :2]
-        for column, weight in enumerate((0.0, -masses[name] * model.scene.gravity)):
-            inertia = masses[name] * motions[name].acceleration[:, column]
-            reaction[:, column] = inertia - reaction[:, column] - weight
-        return reaction
-
     for name in sorted(model.constraints.sliding_bodies):
         guide = model.mechanism.frame_guide(name)
         assert guide is not None
-        across = constraint_force(name) @ np.array(guide.normal)
-        angle = motions[name].position[:, 2]
-        moment = -_moment(model, name, on_body[name], angle, channels, histories)
-        moment -= actions[name][:, 2]
+        reaction = _reaction(run, name)
+        across = reaction[:, :2] @ np.array(guide.normal)
+        moment = reaction[:, 2].copy()
         reactions |= guide_channels(model.mechanism, guide.name, force=across, moment=moment)
     for name, pivot in model.constraints.pivots.items():
         if name in model.rigid:
-            force = constraint_force(name) * (1.0 if pivot.journal == name else -1.0)
+            force = _reaction(run, name)[:, :2] * (1.0 if pivot.journal == name else -1.0)
             reactions |= ideal_joints.CHANNELS.record(
                 pivot.name, force=ideal_joints.vectors(force, pivot.spherical)
             )
     return Record(reactions)
+
+
+def _reaction(run: Recording, name: str) -> Array:
+    """Return what constraints exert on a body: force, and moment without inertia, (n, 3)."""
+    mass, gravity = run.model.mechanism.body(name).mass, run.model.scene.gravity
+    action = np.zeros((len(run.time), 3))
+    for force, moment in _actions(run, name):
+        action += np.column_stack([force, moment])
+    action += _guide_actions(run, name)
+    reaction = -action
+    for column, weight in enumerate((0.0, -mass * gravity)):
+        inertia = mass * run.motions[name].acceleration[:, column]
+        reaction[:, column] = inertia - action[:, column] - weight
+    return reaction
+
+
+def _actions(run: Recording, name: str) -> Iterator[tuple[Array, Array]]:
+    """Yield force, (n, 2), and moment about its centre, (n,), of all on a body but its guides."""
+    model, mechanism = run.model, run.model.mechanism
+    angle = run.motions[name].position[:, 2]
+    cos, sin = np.cos(angle), np.sin(angle)
+
+    def at(point: Point, force: Array) -> tuple[Array, Array]:
+        """Return a force at a point of the body's frame, and its moment."""
+        x, y = point
+        return force, (x * cos - y * sin) * force[:, 1] - (x * sin + y * cos) * force[:, 0]
+
+    for joint in mechanism.joints:
+        for sign, (body, point) in zip((1.0, -1.0), mechanism.ends(joint), strict=True):
+            if body == name and f"{joint.name}_force" in run:
+                force, moment = at(point, sign * run[f"{joint.name}_force"][:, :2])
+                if joint.name in run.histories:
+                    of_journal_and_bearing = run.histories[joint.name].moments_in_plane
+                    moment += of_journal_and_bearing[:, 0 if sign > 0.0 else 1]
+                yield force, moment
+    for key, acting in model.loads.items():
+        load = acting.applied
+        if load.body == name:
+            size = run[f"load_{key}_force"]
+            yield np.outer(size, load.direction), load.moment(size, angle)
+    if mechanism.springs:
+        from exu_press.mechanism.spring_motion import spring_ends
+        from exu_press.result.springs import force_on_second_end
+
+        for spring in mechanism.springs:
+            ends = spring_ends(mechanism, spring)
+            for sign, (body, point) in zip((-1.0, 1.0), ends, strict=True):
+                if body == name:
+                    pushed = force_on_second_end(model, spring.name, run.so_far.channels)
+                    yield at(point, sign * pushed)
 
 
 def _guide_actions(run: Recording, name: str) -> Array:
@@ -85,60 +108,3 @@ def _guide_actions(run: Recording, name: str) -> Array:
             moment += run[f"{channel}_moment"]
         action += (1.0 if name == guide.body else -1.0) * np.column_stack([force, moment])
     return action
-
-
-def _force(
-    model: Model, name: str, joints: Sequence[JointOnBody], channels: Mapping[str, Channel]
-) -> Array:
-    """Return the force of joints, loads and springs on a body, (n, 2)."""
-    force = np.zeros((len(channels["time"].values), 2))
-    for joint, sign, _ in joints:
-        force += sign * channels[f"{joint}_force"].values[:, :2]
-    for key, acting in model.loads.items():
-        load = acting.applied
-        if load.body == name:
-            force += np.outer(channels[f"load_{key}_force"].values, load.direction)
-    for spring_force, _ in _spring_forces(model, name, channels):
-        force += spring_force
-    return force
-
-
-def _moment(
-    model: Model,
-    name: str,
-    joints: Sequence[JointOnBody],
-    angle: Array,
-    channels: Mapping[str, Channel],
-    histories: "Mapping[str, JointHistory]",
-) -> Array:
-    """Return the moment of joints, loads and springs about a body's centre at angles (n,)."""
-    cos, sin = np.cos(angle), np.sin(angle)
-    moment = np.zeros(len(angle))
-    for joint, sign, (x, y) in joints:
-        on_body = sign * channels[f"{joint}_force"].values
-        moment += (x * cos - y * sin) * on_body[:, 1] - (x * sin + y * cos) * on_body[:, 0]
-        if joint in histories:
-            moment += histories[joint].moments_in_plane[:, 0 if sign > 0.0 else 1]
-    for key, acting in model.loads.items():
-        load = acting.applied
-        if load.body == name:
-            moment += load.moment(channels[f"load_{key}_force"].values, angle)
-    for force, (x, y) in _spring_forces(model, name, channels):
-        moment += (x * cos - y * sin) * force[:, 1] - (x * sin + y * cos) * force[:, 0]
-    return moment
-
-
-def _spring_forces(
-    model: Model, name: str, channels: Mapping[str, Channel]
-) -> Iterator[tuple[Array, Point]]:
-    """Yield the forces of springs on a body, (n, 2), and their points in its frame."""
-    if not model.mechanism.springs:
-        return
-    from exu_press.mechanism.spring_motion import spring_ends
-    from exu_press.result.springs import force_on_second_end
-
-    for spring in model.mechanism.springs:
-        ends = spring_ends(model.mechanism, spring)
-        for sign, (body, point) in zip((-1.0, 1.0), ends, strict=True):
-            if body == name:
-                yield sign * force_on_second_end(model, spring.name, channels), point

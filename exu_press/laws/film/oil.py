@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 
-__all__ = ["HOTTEST", "STEADY", "barus", "film_temperature", "roelands", "walther"]
+__all__ = ["HOTTEST", "STEADY", "film_temperature", "roelands", "walther"]
 
 SHIFT = 0.7
 """mm^2/s, of ASTM D341 for kinematic viscosities above 2 mm^2/s."""
@@ -63,40 +63,6 @@ def walther(
     return shifted - SHIFT, -shifted * math.log(10.0) * inner * b / kelvin
 
 
-def barus(viscosity: float, coefficient: float, pressure: float) -> tuple[float, float]:
-    r"""Return the viscosity under pressure, and its derivative.
-
-    .. math::
-        \eta = \eta_0 \, e^{\alpha p}
-
-    Parameters
-    ----------
-    viscosity : eta_0 without pressure [Pa s]
-    coefficient : alpha [1/Pa], of mineral oils 1e-8 to 3e-8
-    pressure : p [Pa]
-
-    Returns
-    -------
-    eta [Pa s] and d eta/d p [s].
-
-    Notes
-    -----
-    Range: up to some 0.1 GPa; above it gives far too much (`roelands`).
-
-    Examples
-    --------
-    >>> round(barus(0.1, 2e-8, 5e7)[0], 4)
-    0.2718
-
-    References
-    ----------
-    .. [1] Barus, C. Isothermals, isopiestics and isometrics relative to viscosity. Am. J. Sci. 45
-       (1893) 87-96.
-    """
-    viscosity_under_pressure = viscosity * math.exp(coefficient * pressure)
-    return viscosity_under_pressure, coefficient * viscosity_under_pressure
-
-
 def roelands(viscosity: float, coefficient: float, pressure: float) -> tuple[float, float]:
     r"""Return the viscosity under pressure, and its derivative.
 
@@ -105,7 +71,7 @@ def roelands(viscosity: float, coefficient: float, pressure: float) -> tuple[flo
         \left(\left(1 + p / p_0\right)^Z - 1\right)\right], \quad
         Z = \frac{\alpha p_0}{\ln \eta_0 + 9.67}
 
-    with p_0 = 0.196 GPa. Z is such that the derivative without pressure is that of `barus`.
+    with p_0 = 0.196 GPa. Z is such that the derivative without pressure is Barus', alpha eta_0.
 
     Parameters
     ----------
@@ -123,8 +89,8 @@ def roelands(viscosity: float, coefficient: float, pressure: float) -> tuple[flo
 
     Examples
     --------
-    >>> [round(law(0.1, 2e-8, 5e8)[0], 1) for law in (roelands, barus)]
-    [120.2, 2202.6]
+    >>> round(roelands(0.1, 2e-8, 5e8)[0], 1)  # Barus' law gives 2203
+    120.2
 
     References
     ----------

@@ -61,7 +61,7 @@ def _actions(run: Recording, name: str) -> Iterator[tuple[Array, Array]]:
     angle = run.motions[name].position[:, 2]
     cos, sin = np.cos(angle), np.sin(angle)
 
-    def at(point: Point, force: Array) -> tuple[Array, Array]:
+    def acting_at(point: Point, force: Array) -> tuple[Array, Array]:
         """Return a force at a point of the body's frame, and its moment."""
         x, y = point
         return force, (x * cos - y * sin) * force[:, 1] - (x * sin + y * cos) * force[:, 0]
@@ -69,7 +69,7 @@ def _actions(run: Recording, name: str) -> Iterator[tuple[Array, Array]]:
     for joint in mechanism.joints:
         for sign, (body, point) in zip((1.0, -1.0), mechanism.ends(joint), strict=True):
             if body == name and f"{joint.name}_force" in run:
-                force, moment = at(point, sign * run[f"{joint.name}_force"][:, :2])
+                force, moment = acting_at(point, sign * run[f"{joint.name}_force"][:, :2])
                 if joint.name in run.histories:
                     of_journal_and_bearing = run.histories[joint.name].moments_in_plane
                     moment += of_journal_and_bearing[:, 0 if sign > 0.0 else 1]
@@ -88,7 +88,7 @@ def _actions(run: Recording, name: str) -> Iterator[tuple[Array, Array]]:
             for sign, (body, point) in zip((-1.0, 1.0), ends, strict=True):
                 if body == name:
                     pushed = force_on_second_end(model, spring.name, run.so_far.channels)
-                    yield at(point, sign * pushed)
+                    yield acting_at(point, sign * pushed)
 
 
 def _guide_actions(run: Recording, name: str) -> Array:

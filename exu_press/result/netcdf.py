@@ -122,7 +122,7 @@ def read(path: Path, kind: type[Kind]) -> Kind:
         InputError: it cannot be read, is no result, is damaged, or a later version's.
     """
     try:
-        with _opened(path) as file:
+        with _open_checked(path) as file:
             scene = from_json(dict[str, Any], _text(file, "scene"), "scene")
             asked = from_json(list[str], _text(file, "asked"), "asked")
             return kind(
@@ -186,12 +186,12 @@ def _channel(name: str, variable: Any) -> Channel:
 
 def read_text(path: Path, name: str) -> str:
     """Return a text that a file has beside a result; raise InputError if it is damaged."""
-    with error_prefix(f"{path}: "), _opened(path) as file:
+    with error_prefix(f"{path}: "), _open_checked(path) as file:
         return _text(file, name)
 
 
 @contextmanager
-def _opened(path: Path) -> Iterator["netcdf_file"]:
+def _open_checked(path: Path) -> Iterator["netcdf_file"]:
     """Open the file of a result, whose header is checked; values are read when they are used.
 
     Raises:
@@ -228,7 +228,7 @@ def _opened(path: Path) -> Iterator["netcdf_file"]:
 def is_whole(path: Path) -> bool:
     """Return whether a file is there, as long as its header says, and the header undamaged."""
     try:
-        with _opened(path):
+        with _open_checked(path):
             return True
     except (OSError, InputError):
         return False

@@ -9,10 +9,9 @@ from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.decimate import decimate
-from exu_press.plots.format import picture_format
+from exu_press.plots.panels import Rows, figure_with_panels, lowest_panels
 from exu_press.plots.scales import crank_angle_axis
 from exu_press.plots.style import points
-from exu_press.plots.title import figure_with_title
 from exu_press.plots.words import describe, early_stops
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
@@ -24,42 +23,24 @@ __all__ = [
     "crank_degrees",
     "curve",
     "dead_centres",
-    "legend_above",
-    "lowest_panels",
-    "new_figure",
-    "panel_grid",
+    "run_figure",
 ]
 
+LETTERS = 162
+"""Of the scene in words, in a line of the heading."""
 
-def new_figure(
-    heading: str, results: Mapping[str, Result], size: tuple[float, float], *, stacked: bool = True
-) -> Figure:
-    """Return a figure without pyplot: heading, scene in words, and why a run stopped early.
 
-    Args:
-        heading: of the picture.
-        results: by label.
-        size: width and height on a screen, inch.
-        stacked: whether its two columns stand below each other in a narrow figure on paper.
+def run_figure(
+    heading: str, results: Mapping[str, Result], rows: Rows, *sizes: Any, **layout: Any
+) -> tuple[Figure, list[Axes]]:
+    """Return a figure of runs by label, 13 inch wide on a screen, and its panels.
+
+    Below the heading are the scene in words, and why a run stopped early. All other arguments are
+    those of `figure_with_panels`.
     """
-    letters = int(12.5 * size[0])
     scenes = [result.scene for result in results.values()]
-    lines = [describe(scenes, letters), early_stops(results, letters)]
-    return figure_with_title(heading, "\n".join(filter(None, lines)), size, stacked=stacked)
-
-
-def panel_grid(figure: Figure, count: int) -> list[Axes]:
-    """Return panels over one crank angle, in two columns row by row; in a narrow figure in one."""
-    width = 1 if picture_format().stacks else 2
-    grid = list(figure.subplots(-(-count // width), width, sharex=True, squeeze=False).flat)
-    for axes in grid[count:]:
-        axes.remove()
-    return grid[:count]
-
-
-def lowest_panels(panels: Sequence[Axes]) -> Sequence[Axes]:
-    """Return the panels of `panel_grid` below which none is."""
-    return panels[-1:] if picture_format().stacks else panels[-2:]
+    lines = [describe(scenes, LETTERS), early_stops(results, LETTERS)]
+    return figure_with_panels(heading, "\n".join(filter(None, lines)), rows, *sizes, **layout)
 
 
 def crank_degrees(result: Result) -> Array:
@@ -73,17 +54,14 @@ def angle_range(results: Mapping[str, Result]) -> tuple[float, float]:
     return min(angle.min() for angle in angles), max(angle.max() for angle in angles)
 
 
-def angle_axis(
-    panels: Iterable[Axes], results: Mapping[str, Result], named: Iterable[Axes]
-) -> None:
+def angle_axis(panels: Sequence[Axes], results: Mapping[str, Result]) -> None:
     """Give panels a common crank angle axis with the dead centres that all runs have.
 
-    It is named below some of them, with its numbers.
+    It is named below the lowest ones, with its numbers.
     """
-    panels = list(panels)
     crank_angle_axis(panels, *angle_range(results), dead_centres(results))
     _lighten_start(panels, results)
-    for axes in named:
+    for axes in lowest_panels(panels):
         axes.set_xlabel(angle_words(results))
         axes.tick_params(labelbottom=True)
 
@@ -134,16 +112,3 @@ def curve(axes: Axes, result: Result, values: Array, **line: Any) -> None:
             clip_on=False,
             zorder=5,
         )
-
-
-def legend_above(axes: Axes, columns: int = 4) -> None:
-    """Put a panel's legend over its right end, where no data is."""
-    columns = min(columns, 2) if picture_format().stacks and columns > 3 else columns
-    axes.legend(
-        loc="lower right",
-        bbox_to_anchor=(1.0, 1.0),
-        ncols=columns,
-        columnspacing=1.3,
-        handletextpad=0.5,
-        borderpad=0.0,
-    )

@@ -17,15 +17,18 @@ from exu_press.mechanism.shapes import shapes_of, slot_outlines, transform_point
 from exu_press.mechanism.stroke import units_of_output
 from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.numerics.arrays import Array
+from exu_press.plots.panels import figure_with_panels
 from exu_press.plots.scales import spread
 from exu_press.plots.style import GREY, RUN, colour_of, points, with_style
-from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain, shorten, wrap_text
 
 __all__ = ["drawing_figure"]
 
 WRONG = "#C00000"
 EDGE = "#333333"
+
+WITH_CURVES = [[0, 1], [0, 2], [0, 3], [0, 4]]
+"""Numbers of the drawing and of the panels beside it."""
 
 LEAST_ANGLE = 40.0
 """deg; transmission angles below it are shaded."""
@@ -55,14 +58,12 @@ def drawing_figure(examined: Examination, text: str, speed: float | None = None)
         text: about it, in lines.
         speed: of the crank, rad/s; velocities are per radian of the crank without it.
     """
-    figure = figure_with_title(f"Drawing of {plain(examined.mechanism.name)}", text, (14.0, 8.6))
-    if examined.stroke is None:
-        _draw(figure.subplots(), examined)
-        return figure
-    grid = figure.add_gridspec(4, 2, width_ratios=(1.35, 1.0))
-    _draw(figure.add_subplot(grid[:, 0]), examined)
-    panels = [figure.add_subplot(grid[row, 1]) for row in range(4)]
-    _curves(panels, examined, speed)
+    rows, widths = ([[0]], 14.0) if examined.stroke is None else (WITH_CURVES, (8.0, 6.0))
+    heading = f"Drawing of {plain(examined.mechanism.name)}"
+    figure, (drawing, *panels) = figure_with_panels(heading, text, rows, widths, 7.4 / len(rows))
+    _draw(drawing, examined)
+    if panels:
+        _curves(panels, examined, speed)
     return figure
 
 
@@ -229,7 +230,8 @@ def _curves(panels: Sequence[Axes], examined: Examination, speed: float | None) 
     advantage.plot(angle, stroke.mechanical_advantage, color=RUN)
     kind = units.ratio.partition(" ")[0]
     advantage.set(
-        title=f"Mechanical advantage: {kind} per torque of the crank", ylabel=units.advantage
+        title=wrap_text(f"Mechanical advantage: {kind} per torque of the crank"),
+        ylabel=units.advantage,
     )
     if np.isfinite(least):
         advantage.set(yscale="log", ylim=(0.7 * least, HIGHEST * least))

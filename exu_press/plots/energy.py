@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.plots.busiest import joint_titles
-from exu_press.plots.canvas import angle_axis, curve, legend_above, new_figure, panel_grid
-from exu_press.plots.format import picture_format
+from exu_press.plots.canvas import angle_axis, curve, run_figure
+from exu_press.plots.panels import legend_above
 from exu_press.plots.scales import note
 from exu_press.plots.style import COLOURS, GREY, colour_of, with_style
 from exu_press.plots.typesetting import shorten
@@ -43,27 +43,26 @@ def energy_figure(result: Result) -> Figure:
     Work of drive and loads, change of the stored energy and dissipated energy; the losses of each
     joint (not where none can dissipate); and the residual, the error of the integration.
     """
-    figure = new_figure("Energy balance since the start", {"": result}, (13.0, 6.4))
     dissipates = any(name.endswith("_loss") for name in result)
-    right = ["losses", "residual"] if dissipates else ["residual"]
-    if picture_format().stacks:
-        names = ["balance", *right]
-        panels = dict(zip(names, panel_grid(figure, len(names)), strict=True))
-        lowest = [panels["residual"]]
-    else:
-        rows: Any = [["balance", name] for name in right]
-        panels = figure.subplot_mosaic(rows, sharex=True, width_ratios=(1.25, 1.0))
-        lowest = [panels["balance"], panels["residual"]]
+    rows = [[0, 1], [0, 2]] if dissipates else [[0, 1]]
+    figure, panels = run_figure(
+        "Energy balance since the start",
+        {"": result},
+        rows,
+        (7.2, 5.8),
+        5.2 / len(rows),
+        sharex=True,
+    )
+    balance, *losses, residual = panels
     for name, line in BALANCE_LINES.items():
         if dissipates or name != "energy_dissipated":
-            curve(panels["balance"], result, result[name], **({"linewidth": 1.6} | line))
-    panels["balance"].set(title="Balance", ylabel="energy, J")
-    legend_above(panels["balance"])
-    _residual(panels["residual"], result)
-    if dissipates:
-        _losses(panels["losses"], result)
-        panels["losses"].tick_params(labelbottom=False)
-    angle_axis(panels.values(), {"": result}, lowest)
+            curve(balance, result, result[name], **({"linewidth": 1.6} | line))
+    balance.set(title="Balance", ylabel="energy, J")
+    legend_above(balance)
+    _residual(residual, result)
+    for axes in losses:
+        _losses(axes, result)
+    angle_axis(panels, {"": result})
     return figure
 
 

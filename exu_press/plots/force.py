@@ -12,10 +12,9 @@ from exu_press.plots.canvas import (
     angle_axis,
     crank_degrees,
     curve,
-    lowest_panels,
-    new_figure,
-    panel_grid,
+    run_figure,
 )
+from exu_press.plots.panels import grid_rows
 from exu_press.plots.peaks import mark_peak
 from exu_press.plots.scales import contain_bars, impact_scale, note
 from exu_press.plots.style import line_of, with_style
@@ -45,10 +44,10 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     drawn_channels = {f"{name}_force" for name in drawn}
     if any(not {channel, mirror(channel)} & drawn_channels for channel in loaded):
         heading += " (not all joints are drawn)"
-    figure = new_figure(heading, results, (13.0, 7.6))
     panel_of = {title: (f"{name}_force", "force, kN", 1e-3) for name, title in drawn.items()}
     panel_of["Drive torque"] = "drive_torque", "torque, N m", 1.0
-    panels = panel_grid(figure, len(panel_of))
+    rows = grid_rows(len(panel_of), 2)
+    figure, panels = run_figure(heading, results, rows, 6.5, 6.4 / len(rows), sharex=True)
     for axes, (title, (channel, unit, scale)) in zip(panels, panel_of.items(), strict=True):
         curves, peaks = [], []
         for index, (label, result) in enumerate(results.items()):
@@ -64,7 +63,7 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
         contain_bars(axes)
         note(axes, *(peaks if len(results) == 1 else ()), words)
         axes.set(title=title, ylabel=unit)
-    angle_axis(panels, results, lowest_panels(panels))
+    angle_axis(panels, results)
     if len(results) > 1:
         handles, labels = panels[-1].get_legend_handles_labels()
         for handle in handles:

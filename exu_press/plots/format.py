@@ -66,23 +66,6 @@ class PictureFormat:
         """Return whether panels stand below each other."""
         return self.width is not None and self.width < ONE_COLUMN
 
-    def size(self, width: float, height: float, *, stacked: bool = False) -> tuple[float, float]:
-        """Return the size of a figure, inch, from that on a screen.
-
-        Args:
-            width: on a screen.
-            height: on a screen.
-            stacked: whether two columns of it stand below each other here.
-        """
-        if self.width is None:
-            return width, height
-        scale = self.width / width
-        return self.width, height * scale * (STACKED if stacked else TALLER)
-
-
-STACKED, TALLER = 3.5, 1.2
-"""Factors on the height of a figure on paper, whose letters are large against its panels."""
-
 
 def _inches(text: str) -> float:
     unit = text[-2:]

@@ -6,13 +6,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+from exu_press.plots.format import picture_format
+
 __all__ = ["separate_headings"]
 
 GAP = 6.0
 """Least distance of a title from what is beside it, points."""
 
 GROWS = 1.18
-"""Width of a panel when it is laid out, over that before."""
+"""Width of a panel when it is laid out, over that before, unless panels stand below each other."""
 
 
 def separate_headings(figure: Figure) -> None:
@@ -60,8 +62,8 @@ def _write_below_title(axes: Axes, note: Text, text: str) -> None:
 
 def _width_of(axes: Axes) -> float:
     """Return the width that a panel will have, pixels; with equal scales its shorter side."""
-    box = axes.bbox
-    return float(GROWS * box.width if axes.get_aspect() == "auto" else min(box.width, box.height))
+    box, grows = axes.bbox, 1.0 if picture_format().stacks else GROWS
+    return float(grows * box.width if axes.get_aspect() == "auto" else min(box.width, box.height))
 
 
 def _title_at(axes: Axes, side: str) -> Text:

@@ -2,14 +2,13 @@
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from exu_press.errors import InputError
 from exu_press.plots.busiest import busiest, draw_rest
-from exu_press.plots.canvas import angle_axis, angle_range, curve, legend_above, new_figure
+from exu_press.plots.canvas import angle_axis, angle_range, curve, run_figure
 from exu_press.plots.clearance_circle import TOUCH_COLOUR, Path, draw_path
-from exu_press.plots.format import picture_format
+from exu_press.plots.panels import grid_rows, legend_above
 from exu_press.plots.scales import angle_ticks, note
 from exu_press.plots.style import GREY, RUN, SHADE, with_style
 from exu_press.result import Result
@@ -40,57 +39,21 @@ def orbit_figure(result: Result) -> Figure:
     paths = [Path(title, result, name) for name, title in drawn.items()]
     if not paths:
         raise InputError("orbit_figure: this scene has no joint with clearance; draw its forces")
-    lines_of_rest = LINE * (len(rest) + 2) if rest else 0.0
-    height = 1.3 + ROW * len(paths) + lines_of_rest
-    figure = new_figure("Journal and ball centres in their clearance", {"": result}, (13.0, height))
-    circles, colours, over_angle, table = _panels(figure, len(paths), lines_of_rest)
+    rows, count = [*grid_rows(2 * len(paths), 2)], 2 * len(paths)
+    heights = [ROW] * len(paths)
     if rest:
-        draw_rest(table[0], result, rest, 9.5)
-    for row, path in enumerate(paths):
-        lines = draw_path(circles[row], path)
-        _angle_colours(figure, colours[row], lines, result)
-        _over_angle(over_angle[row], result, path)
-    angle_axis(over_angle, {"": result}, over_angle[-1:])
+        rows, heights = [*rows, [count, count]], [*heights, LINE * (len(rest) + 2)]
+    heading = "Journal and ball centres in their clearance"
+    figure, panels = run_figure(heading, {"": result}, rows, (4.5, 8.5), heights)
+    for axes in panels[count:]:
+        draw_rest(axes, result, rest, 9.5)
+    for circle, over_angle, path in zip(panels[:count:2], panels[1:count:2], paths, strict=True):
+        if lines := draw_path(circle, path):
+            bar = figure.colorbar(lines, ax=circle, location="left", label="crank angle, deg")
+            bar.set_ticks(list(angle_ticks(*angle_range({"": result}))))
+        _over_angle(over_angle, result, path)
+    angle_axis(panels[1:count:2], {"": result})
     return figure
-
-
-def _panels(
-    figure: Figure, paths: int, lines_of_rest: float
-) -> tuple[list[Axes], list[Axes], list[Axes], list[Axes]]:
-    """Return panels of circles, their colours, curves over the angle, and the table of the rest.
-
-    A row has them beside each other; in a narrow figure curves stand below their circle.
-    """
-    rest = bool(lines_of_rest)
-    if picture_format().stacks:
-        heights = [1.6 * ROW, ROW] * paths + [lines_of_rest] * rest
-        grid = figure.add_gridspec(len(heights), 2, width_ratios=(0.03, 1.0), height_ratios=heights)
-        cells = [(grid[2 * row, 0], grid[2 * row, 1], grid[2 * row + 1, :]) for row in range(paths)]
-    else:
-        heights = [ROW] * paths + [lines_of_rest] * rest
-        grid = figure.add_gridspec(
-            len(heights), 3, width_ratios=(0.03, 1.0, 1.8), height_ratios=heights
-        )
-        cells = [(grid[row, 0], grid[row, 1], grid[row, 2]) for row in range(paths)]
-    rows = [[figure.add_subplot(cell) for cell in row] for row in cells]
-    colours, circles, curves = (list(column) for column in zip(*rows, strict=True))
-    table = [figure.add_subplot(grid[-1, -1 if picture_format().stacks else 1 :])]
-    if not lines_of_rest:
-        table.pop().remove()
-    return circles, colours, curves, table
-
-
-def _angle_colours(
-    figure: Figure, axes: Axes, lines: LineCollection | None, result: Result
-) -> None:
-    """Say which colour is which crank angle, if there are any."""
-    if lines is None:
-        axes.set_axis_off()
-        return
-    bar = figure.colorbar(lines, cax=axes, label="crank angle, deg")
-    bar.set_ticks(list(angle_ticks(*angle_range({"": result}))))
-    bar.ax.yaxis.set_ticks_position("left")
-    bar.ax.yaxis.set_label_position("left")
 
 
 def _over_angle(axes: Axes, result: Result, path: Path) -> None:

@@ -1,7 +1,8 @@
 """The press builder's picture: shaking force, drive, guides, bottom dead centres, tilt."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,10 +16,10 @@ from exu_press.plots.canvas import (
     crank_degrees,
     curve,
     dead_centres,
-    legend_above,
-    new_figure,
+    run_figure,
 )
 from exu_press.plots.format import picture_format
+from exu_press.plots.panels import grid_rows, legend_above
 from exu_press.plots.peaks import mark_peak, with_error
 from exu_press.plots.scales import contain_bars, note, widen
 from exu_press.plots.slider import sliding_mean
@@ -71,31 +72,21 @@ def press_figure(result: Result) -> Figure:
     elastic = guide is not None and not guide.holds_across
     loads = list(applied_loads(result.scene))
     motor = result.scene.drive is not None
-    rows = math.ceil((4 + bool(loads) + motor + 2 * elastic) / 2)
-    heading = "Frame, drive, guides, dead centres"
-    figure = new_figure(heading, {"": result}, (13.0, 3.6 * rows))
-    shape = (2 * rows, 1) if picture_format().stacks else (rows, 2)
-    shaking, drive, guides, strokes, *further_panels = figure.subplots(*shape).flat
-    _shaking(shaking, result)
-    _drive(drive, result)
-    _guides(guides, result)
-    over_angle, free = [shaking, drive, guides, *further_panels], iter(further_panels)
     centres = bottom_dead_centres(settled_part(result))
-    if centres and dead_centres({"": result}):
-        _strokes(strokes, result, centres)
-    else:
-        strokes.remove()
+    draws: list[Callable[..., None]] = [_shaking, _drive, _guides]
+    if has_strokes := bool(centres and dead_centres({"": result})):
+        draws.append(partial(_strokes, centres=centres))
     if elastic:
-        for name, words in BESIDE.items():
-            _at_dead_centres(next(free), result, name, centres, *words)
+        draws += [partial(_at_dead_centres, name=name, centres=centres) for name in BESIDE]
     if motor:
-        _speed(next(free), result)
+        draws.append(_speed)
     if loads:
-        _loads(next(free), result, loads)
-    for unused in free:
-        unused.remove()
-        over_angle.remove(unused)
-    angle_axis(over_angle, {"": result}, over_angle)
+        draws.append(partial(_loads, names=loads))
+    heading = "Frame, drive, guides, dead centres"
+    figure, panels = run_figure(heading, {"": result}, grid_rows(len(draws), 2), 6.5, 3.1)
+    for draw, axes in zip(draws, panels, strict=True):
+        draw(axes, result)
+    angle_axis(panels[:3] + panels[3 + has_strokes :], {"": result})
     return figure
 
 
@@ -233,16 +224,9 @@ def _scatter(result: Result, centres: list[DeadCentre]) -> str:
     return f", strokes differ by {scatter} n{output.unit}"
 
 
-def _at_dead_centres(
-    axes: Axes,
-    result: Result,
-    name: str,
-    centres: list[DeadCentre],
-    title: str,
-    sense: str,
-    unit: str,
-) -> None:
+def _at_dead_centres(axes: Axes, result: Result, name: str, centres: list[DeadCentre]) -> None:
     """Draw a channel (n,) in millionths, with a dot at every bottom dead centre."""
+    title, sense, unit = BESIDE[name]
     values = 1e6 * result[name]
     curve(axes, result, values, color=colour_of(0), linewidth=1.0)
     instants = np.array([centre.time for centre in centres])

@@ -14,11 +14,10 @@ from exu_press.plots.canvas import (
     angle_axis,
     crank_degrees,
     curve,
-    lowest_panels,
-    new_figure,
-    panel_grid,
+    run_figure,
 )
 from exu_press.plots.decimate import decimate
+from exu_press.plots.panels import grid_rows
 from exu_press.plots.peaks import mark_peaks
 from exu_press.plots.scales import contain_bars, impact_scale, note, widen
 from exu_press.plots.style import IDEAL, line_of, points, with_style
@@ -62,8 +61,8 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     On the left the motion (mm, m/s, m/s^2) with the ideal mechanism's; on the right
     its deviation from the ideal (um, mm/s) and the acceleration as resolved, impacts and all.
     """
-    figure = new_figure("Slider motion against the ideal mechanism", results, (13.0, 8.6))
-    grid = panel_grid(figure, 6)
+    heading = "Slider motion against the ideal mechanism"
+    figure, grid = run_figure(heading, results, grid_rows(6, 2), 6.5, 2.5, sharex=True)
     panels: Any = np.array(grid).reshape(3, 2)
     output = mechanism_of(next(iter(results.values())).scene).output
     ideals = {label: _ideal(result) for label, result in results.items()}
@@ -81,7 +80,7 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     words = mark_peaks(panels[2, 1], peaks, of_output(PEAK_ACCELERATION, output))
     contain_bars(panels[2, 1])
     note(panels[2, 1], words, scale)
-    angle_axis(grid, results, lowest_panels(grid))
+    angle_axis(grid, results)
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
     return figure

@@ -6,8 +6,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
+from exu_press.plots.panels import figure_with_panels, grid_rows, legend_above
 from exu_press.plots.style import GREY, line_of, with_style
-from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain, typeset
 from exu_press.studies.curve_comparison import CurveComparison
 from exu_press.studies.curve_file import OVER, CurveFile
@@ -18,9 +18,8 @@ __all__ = ["curve_panel", "measured_figure"]
 @with_style
 def measured_figure(comparisons: Mapping[str, Mapping[str, CurveComparison]]) -> Figure:
     """Return a panel for each curve, by its name, with the runs by label."""
-    size = 9.5, 1.2 + 2.9 * len(comparisons)
-    figure = figure_with_title("Measured and computed", "Runs at the measured places.", size)
-    panels = figure.subplots(len(comparisons), 1, squeeze=False).flat
+    text, rows = "Runs at the measured places.", grid_rows(len(comparisons), 1)
+    figure, panels = figure_with_panels("Measured and computed", text, rows, 9.5, 2.9)
     for panel, (name, runs) in zip(panels, comparisons.items(), strict=True):
         first = next(iter(runs.values()))
         computed = {label: comparison.values for label, comparison in runs.items()}
@@ -43,4 +42,4 @@ def curve_panel(
     axes.set_title(plain(f"Curve {name}"))
     axes.set_xlabel(f"{curve.over.replace('_', ' ')}, {OVER[curve.over]}")
     axes.set_ylabel(plain(typeset(f"{curve.name.replace('_', ' ')}, {unit}")))
-    axes.legend(loc="best")
+    legend_above(axes)

@@ -9,9 +9,9 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from exu_press.plots.file import save_figures
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.save import sources_of
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, with_style
-from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain, typeset
 from exu_press.plots.words import describe
 from exu_press.result import Result
@@ -50,8 +50,8 @@ def spectrum_figure(spectra: Spectra, scene: Scene, marks: Sequence[Mark] = ()) 
     text = f"{describe([scene], 110)}\n"
     text += f"{over.cells} cells, window {over.window}"
     heading = f"Spectrum of {plain(spectra.name.replace('_', ' '))}"
-    figure = figure_with_title(heading, text, (9.5, 9.0 if orders else 6.4))
-    panels = list(figure.subplots(3 if orders else 2, 1, squeeze=False).flat)
+    rows = grid_rows(3 if orders else 2, 1)
+    figure, panels = figure_with_panels(heading, text, rows, 9.5, 2.6)
     draw_spectrum(panels[0], over, spectra.unit)
     lowest = over.frequency[0]
     panels[0].set_xscale("log")

@@ -6,9 +6,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from exu_press.numerics.arrays import Array
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, with_style
 from exu_press.plots.sweep_words import words as in_words
-from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe
 from exu_press.studies.attractor.motion import Attractor
@@ -33,28 +33,27 @@ def attractor_figure(report: AttractorReport) -> Figure:
     exponent = exponent if np.isfinite(high) else "not known"
     text = f"{describe([motion.scene], 160)}\nperiod: {motion.period}; largest Lyapunov exponent "
     text += exponent
-    figure = figure_with_title("In the long run", text, (18.0, 8.6))
-    panels = figure.subplots(2, 4)
+    figure, panels = figure_with_panels("In the long run", text, grid_rows(8, 4), 4.5, 3.7)
     loose = next(iter(motion.scene.joints.with_clearance), None)
     if motion.points.shape[1] > 1:
         where = "guideway" if loose is None else loose.replace("_", " ")
         title = f"section at {motion.scene.start_angle_deg:g} deg: {where}"
-        _section(panels[0, 0], motion, 1, title, "y / clearance")
+        _section(panels[0], motion, 1, title, "y / clearance")
         title = "section: velocity over position"
-        _section(panels[0, 1], motion, 2, title, "its rate / largest speed")
+        _section(panels[1], motion, 2, title, "its rate / largest speed")
     else:  # a motor turns ideal joints
         label = "crank speed on the section / scene's"
-        _by_revolution(panels[0, 0], label, motion.points[:, 0], motion.skip)
-        panels[0, 1].set_axis_off()
-    _portrait(panels[0, 2], motion)
-    _transient(panels[0, 3], motion)
+        _by_revolution(panels[0], label, motion.points[:, 0], motion.skip)
+        panels[1].set_axis_off()
+    _portrait(panels[2], motion)
+    _transient(panels[3], motion)
     (slider,) = spectra(motion.last[-1])
-    _frequencies(panels[1, 0], slider)
-    _orders(panels[1, 1], slider)
+    _frequencies(panels[4], slider)
+    _orders(panels[5], slider)
     name, values = max(motion.figures.items(), key=lambda item: _scatter(item[1]))
     label = wrap_text(", ".join(filter(None, (in_words(name), motion.units[name]))))
-    _histogram(panels[1, 2], label, values)
-    _by_revolution(panels[1, 3], label, values, motion.skip)
+    _histogram(panels[6], label, values)
+    _by_revolution(panels[7], label, values, motion.skip)
     return figure
 
 

@@ -13,8 +13,8 @@ from exu_press.laws.film.grooves import GroovedFilmState
 from exu_press.laws.film.reynolds import solve_reynolds
 from exu_press.laws.film.tilted import TiltedFilm
 from exu_press.numerics.arrays import Array
+from exu_press.plots.panels import figure_with_panels, grid_rows, legend_above
 from exu_press.plots.style import COLOURS, GREY, RUN, colour_of, with_style
-from exu_press.plots.title import figure_with_title
 from exu_press.studies.bearing.coefficients import (
     BearingCoefficients,
     bearing_coefficients,
@@ -35,8 +35,8 @@ LOCUS = np.geomspace(0.02, 50.0, 25)
 def bearing_figure(report: BearingReport) -> Figure:
     """Return four panels; the locus is that of the first speed."""
     title = f"Bearing {report.study.joint.replace('_', ' ')}"
-    figure = figure_with_title(title, report.subtitle, (16.0, 4.6))
-    pressure, locus, stiffness, damping = figure.subplots(1, 4)
+    figure, panels = figure_with_panels(title, report.subtitle, grid_rows(4, 4), 4.0, 3.4)
+    pressure, locus, stiffness, damping = panels
     _pressure(pressure, report)
     _locus(locus, report)
     _matrix(stiffness, report, "stiffness", 1e-6, "MN/m")
@@ -96,17 +96,14 @@ def _locus(panel: Axes, report: BearingReport) -> None:
                 break
         else:
             path.append(bearing.eccentricity)
-    panel.plot(
-        *np.reshape(path, (-1, 2)).T / clearance, color=RUN, label=f"{first.speed_rpm:g} rpm"
-    )
+    panel.plot(*np.reshape(path, (-1, 2)).T / clearance, color=RUN)
     for row in report.rows:
         panel.plot(*(e / clearance for e in row.eccentricity), "o", color=COLOURS["vermilion"])
     turn = np.linspace(0.0, math.tau, 181)
     panel.plot(np.cos(turn), np.sin(turn), color=GREY)
-    panel.set_title("journal's centre / clearance")
+    panel.set_title(f"journal's centre / clearance,\n{first.speed_rpm:g} rpm")
     panel.set(xlabel="x", ylabel="y", aspect="equal")
     panel.margins(0.05)
-    panel.legend(loc="upper right")
 
 
 def _matrix(panel: Axes, report: BearingReport, name: str, scale: float, unit: str) -> None:
@@ -122,4 +119,4 @@ def _matrix(panel: Axes, report: BearingReport, name: str, scale: float, unit: s
     panel.set_title(name)
     panel.set(xlabel="load, N" if over_load else "speed, rpm", ylabel=unit)
     panel.margins(0.05)
-    panel.legend(loc="best")
+    legend_above(panel)

@@ -9,10 +9,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from exu_press.numerics.arrays import Array
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, SHADE, colour_of, with_style
 from exu_press.plots.sweep_words import in_unit, label_with_unit
-from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe
 from exu_press.studies.base import Row
@@ -32,8 +32,9 @@ def _diagram(report: BifurcationReport) -> Figure:
     own = study.bifurcation
     text = f"{describe([study.scene_at({study.name: v}) for v in values], 110)}\n"
     text += f"{own.revolutions} revolutions after {own.skip} at each of {len(values)} values"
-    figure = figure_with_title("Bifurcation diagram", text, (9.5, 9.0))
-    points, period, exponent = figure.subplots(3, 1, sharex=True, height_ratios=[3.0, 1.2, 1.5])
+    figure, (points, period, exponent) = figure_with_panels(
+        "Bifurcation diagram", text, grid_rows(3, 1), 9.5, (4.1, 1.7, 2.0), sharex=True
+    )
     handles = []
     positions, unit = in_unit(study.name, np.array(values))
     places = dict(zip(values, positions.tolist(), strict=True))
@@ -90,17 +91,17 @@ def period_map_figure(report: BifurcationReport) -> Figure:
     own = study.bifurcation
     text += f"{own.revolutions} revolutions after {own.skip} at each of {len(points)}"
     text += " points; the exponent is the upper end of its interval"
-    figure = figure_with_title("Map of periods", text, (11.5, 1.8 + 4.2 * len(report.ways)))
     ends = [row["exponent"][2] for branch in report.branches for row in branch.rows
             if row["status"] == "completed"]  # fmt: skip
     most = max(map(abs, ends), default=0.0) or 1.0
-    panels = figure.subplots(len(report.ways), 2, squeeze=False)
-    for row, direction in enumerate(report.ways):
+    figure, panels = figure_with_panels(
+        "Map of periods", text, grid_rows(2 * len(report.ways), 2), 5.75, 4.5
+    )
+    for direction, periods, exponents in zip(report.ways, panels[::2], panels[1::2], strict=True):
         rows = [branch for branch in report.branches if branch.name == direction]
         ordered = [
             [point for _, point in sorted(branch, key=lambda item: item[0])] for branch in rows
         ]
-        periods, exponents = panels[row]
         _periods(periods, ordered, study.bifurcation.longest)
         exponents_shown = _exponents(exponents, ordered, most)
         figure.colorbar(exponents_shown, ax=exponents, label="exponent per revolution")

@@ -4,10 +4,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.stats import chi2
 
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, SHADE, with_style
 from exu_press.plots.sweep_words import in_unit, words
-from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import plain, wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities.uncertain import significant
@@ -26,12 +26,12 @@ def fit_figure(report: FitReport) -> Figure:
     """Return the residuals of numbers in uncertainties, and each curve beside the computed one."""
     study = report.study
     number, curves = len(study.measured), len(study.curve)
-    panels = (number > 0) + curves
     heights = [0.8 + 0.32 * number] * (number > 0) + [2.8] * curves
     text = f"{describe([report.scene], 110)}\nchi-square {significant(report.chi_square, 3)} with "
     text += f"{report.freedom:g} degree{'s' * (report.freedom != 1)} of freedom"
-    figure = figure_with_title("Measured and computed", text, (9.5, 1.2 + sum(heights)))
-    axes = list(figure.subplots(panels, 1, squeeze=False, height_ratios=heights).flat)
+    figure, axes = figure_with_panels(
+        "Measured and computed", text, grid_rows(len(heights), 1), 9.5, heights
+    )
     if number:
         first = axes.pop(0)
         rows = np.arange(number)[::-1]
@@ -46,7 +46,7 @@ def fit_figure(report: FitReport) -> Figure:
         most = max(3.0, 1.15 * float(np.abs(report.residuals).max()))
         first.set_xlim(-most, most)
         first.set_title("Numbers")
-        first.set_xlabel("(computed - measured) / uncertainty; bars: error of the run")
+        first.set_xlabel("(computed - measured) / uncertainty;\nbars: error of the run")
     for panel, entry, (measured, model) in zip(axes, study.curve, report.curves, strict=True):
         computed = {"computed, through the sensor": model.values}
         curve_panel(panel, entry.name, entry.read, measured, computed, model.unit)
@@ -58,16 +58,16 @@ def profiles_figure(report: FitReport) -> Figure:
     """Return the rise of chi-square over each key, with the free keys fitted at each value."""
     names = list(report.values)
     across = min(MOST_ACROSS, len(names))
-    down = -(-len(names) // across)
     level = report.study.fit.level
     rise = float(chi2.ppf(level, 1))
-    figure = figure_with_title(
+    figure, panels = figure_with_panels(
         "How well the measurement determines each key",
         f"Between the dashed lines, the key agrees with the measurement ({100 * level:g} %).",
-        (4.0 * across + 0.5, 1.2 + 2.9 * down),
+        grid_rows(len(names), across),
+        4.2,
+        2.9,
     )
-    panels = figure.subplots(down, across, squeeze=False).flat
-    for name, panel in zip(names, panels, strict=False):
+    for name, panel in zip(names, panels, strict=True):
         points = report.profiles[name]
         values, unit = in_unit(name, points[:, 0])
         scale = values[-1] / points[-1, 0] if points[-1, 0] else 1.0
@@ -90,6 +90,4 @@ def profiles_figure(report: FitReport) -> Figure:
         panel.set_xlabel(plain(f"{name}{f', {unit}' if unit else ''}"))
         panel.set_title(wrap_text(words(name), 38))
         panel.set_ylabel("chi-square above its least")
-    for panel in list(panels):
-        panel.axis("off")
     return figure

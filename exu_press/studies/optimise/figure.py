@@ -8,10 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, with_style
 from exu_press.plots.sweep_words import axis_label, in_unit, label_with_unit
-from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
@@ -38,15 +38,13 @@ def front_figure(report: OptimiseReport) -> Figure:
     ranged = [name for name, study_key in study.keys.items() if isinstance(study_key, Range)]
     count = len(pairs) + len(ranged)
     across = min(ACROSS, count)
-    down = -(-count // across)
     heading = "Objectives against each other" if pairs else "The objective over each key"
     text = f"{describe([study.scene], 110)}\n{report.run_summary[0]}; {report.method}"
-    figure = figure_with_title(heading, text, (4.3 * across + 0.4, 1.3 + 3.3 * down))
-    panels = list(figure.subplots(down, across, squeeze=False).flat)
+    figure, panels = figure_with_panels(heading, text, grid_rows(count, across), 4.4, 3.3)
     for (first, second), panel in zip(pairs, panels, strict=False):
         _points(panel, report, _all(report, first), _all(report, second), (first, second))
         panel.set_xlabel(wrap_text(axis_label(first)))
-    for name, panel in zip(ranged, panels[len(pairs) :], strict=False):
+    for name, panel in zip(ranged, panels[len(pairs) :], strict=True):
         values = np.array([float(point[name]) for point in report.trials.points])
         values_in_unit, unit = in_unit(name, values)
         _points(panel, report, values_in_unit, _all(report, objectives[0]), ("", objectives[0]))
@@ -54,8 +52,6 @@ def front_figure(report: OptimiseReport) -> Figure:
         study_key = study.keys[name]
         if isinstance(study_key, Range) and study_key.log:
             log_axis(panel, "x", values_in_unit)
-    for panel in panels[count:]:
-        panel.axis("off")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper right", ncols=3)
     return figure

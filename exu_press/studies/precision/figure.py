@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, points, with_style
-from exu_press.plots.title import figure_with_title
 from exu_press.studies.precision.report import PrecisionReport
 from exu_press.studies.precision.rows import Row, series_of
 from exu_press.studies.precision.stated import StatedErrors
@@ -56,9 +56,9 @@ def precision_figure(report: PrecisionReport, name: str) -> Figure:
         panels["error_velocity"] = "angular velocity, rad/s" if case["scene"] is None else "m/s"
     stated = [entry for entry in report.stated if entry.case == name and entry.errors]
     heading = f"{case['title']}: error against run time"
-    figure = figure_with_title(heading, _words(report, case), (17.5 if stated else 13.0, 6.0))
-    widths = (*[1.0] * (len(panels) + bool(stated)), 0.34)
-    *axes, key = figure.subplots(1, len(widths), width_ratios=widths)
+    widths = (*[5.5] * (len(panels) + bool(stated)), 1.9)
+    rows = grid_rows(len(widths), len(widths))
+    figure, (*axes, key) = figure_with_panels(heading, _words(report, case), rows, widths, 4.8)
     if stated:
         _draw_stated(axes[-1], stated)
     for panel, (error, label) in zip(axes, panels.items(), strict=False):

@@ -6,9 +6,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from exu_press.numerics.arrays import Array
+from exu_press.plots.format import picture_format
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import COLOURS, GREY, with_style
 from exu_press.plots.sweep_words import axis_label, words
-from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
@@ -27,10 +28,10 @@ def sensitivity_figure(report: SensitivityReport) -> Figure:
     study = report.study
     names, keys = study.sensitivity.quantities, list(study.keys)
     lines = [describe([study.scene], 130), report.run_summary[0]]
-    height = 1.0 + len(names) * (1.6 + 0.32 * len(keys))
-    figure = figure_with_title("Effect of tolerances", "\n".join(lines), (11.5, height))
-    panels = figure.subplots(len(names), 3, squeeze=False, width_ratios=(1.0, 1.0, 1.0))
-    for number, (name, row) in enumerate(zip(names, panels, strict=True)):
+    rows, height = grid_rows(3 * len(names), 3), 1.6 + 0.32 * len(keys)
+    figure, panels = figure_with_panels("Effect of tolerances", "\n".join(lines), rows, 3.8, height)
+    for number, name in enumerate(names):
+        row = panels[3 * number : 3 * number + 3]
         quantity = quantity_of(study.scene, name).quantity
         unit = typeset(quantity.display_unit)
         indices = report.indices[number]
@@ -53,13 +54,14 @@ def sensitivity_figure(report: SensitivityReport) -> Figure:
         row[1].set_title("One key at its 5 % and 95 %")
         row[1].set_xlabel(f"change{f', {unit}' if unit else ''}")
         _indices(row[2], indices, order)
-        row[2].set_yticks(places, [])
+        row[2].set_yticks(places, key_labels if picture_format().stacks else [])
     ends = [
         Patch(color=colour, label=f"at its {end} %")
         for end, colour in zip((5, 95), BARS, strict=True)
     ]
-    panels[0, 1].legend(handles=ends, loc="lower right", bbox_to_anchor=(1.0, 1.1), ncols=2)
-    panels[0, 2].legend(loc="lower right", bbox_to_anchor=(1.0, 1.1), ncols=2)
+    handles = [*ends, *(line for line in panels[2].lines if line.get_marker() == "o")]
+    columns = 2 if picture_format().stacks else 4
+    figure.legend(handles=handles, loc="outside upper right", ncols=columns)
     return figure
 
 

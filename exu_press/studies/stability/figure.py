@@ -11,8 +11,9 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from exu_press.plots.format import picture_format
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, points, with_style
-from exu_press.plots.title import figure_with_title
 from exu_press.studies.stability.cases import PAIRS
 from exu_press.studies.stability.checks import RESIDUAL_LIMIT
 from exu_press.studies.stability.report import Row, StabilityReport
@@ -49,16 +50,16 @@ def stability_figure(report: StabilityReport) -> Figure:
     text = f"{sample}{len(report.rows)} cases: {report.subtitle}"
     height = 1.0 + 0.23 * max(len(lines), 20)
     heights = [height, SQUARE] if pairs else [height]
-    figure = figure_with_title("Stiff and extreme cases", text, (9.5, 1.6 + sum(heights)))
-    panels = figure.subplots(len(heights), 1, squeeze=False, height_ratios=heights).flat
+    rows = grid_rows(len(heights), 1)
+    figure, panels = figure_with_panels("Stiff and extreme cases", text, rows, 9.5, heights)
     upper, *lower = panels
     colours = ScalarMappable(LogNorm(*RESIDUALS, clip=True), PATH_COLOURS)
     if single:
         _draw_axes(upper, single, lines, colours)
     if pairs:
         _draw_pairs(lower[0], pairs, colours)
-    bar = figure.colorbar(colours, ax=[upper, *lower], location="bottom", shrink=0.5, aspect=40)
-    bar.set_label("energy residual, relative to the largest energy put in, stored or dissipated")
+    bar = figure.colorbar(colours, ax=panels, location="bottom", shrink=0.5, aspect=40)
+    bar.set_label("energy residual, relative to the\nlargest energy put in,\nstored or dissipated")
     handles: list[Artist] = [
         Line2D(
             [], [], linestyle="", label=IN_WORDS[verdict], marker=style["marker"], markersize=7.5,
@@ -67,7 +68,9 @@ def stability_figure(report: StabilityReport) -> Figure:
         )
         for verdict, style in MARKERS.items()
     ]  # fmt: skip
-    figure.legend(handles=handles, loc="outside upper right", ncols=3)
+    figure.legend(
+        handles=handles, loc="outside upper right", ncols=1 if picture_format().stacks else 3
+    )
     return figure
 
 

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import GREY, PATH_COLOURS, colour_of, points, with_style
 from exu_press.plots.sweep_words import in_unit, label_with_unit, setting, words
-from exu_press.plots.title import figure_with_title
-from exu_press.plots.typesetting import plain
+from exu_press.plots.typesetting import plain, wrap_text
 from exu_press.plots.words import describe
 from exu_press.studies.sweep.report import SweepReport
 
@@ -54,22 +54,18 @@ def sweep_figure(report: SweepReport, axes: Sequence[str], quantities: Sequence[
         quantities: numeric columns.
     """
     columns = min(2, len(quantities))
-    rows = -(-len(quantities) // columns)
     heading = f"{len(report)} runs over {' and '.join(map(words, axes))}"
     text = f"{describe(report.study.scenes, 80 * columns)}\n{report.ends}"
-    size = (6.4 * columns, 1.0 + 3.7 * rows)
-    figure = figure_with_title(heading, text, size)
-    panels = figure.subplots(rows, columns, squeeze=False)
+    rows = grid_rows(len(quantities), columns)
+    figure, panels = figure_with_panels(heading, text, rows, 6.4, 3.6)
     curves = _curves(report, axes)
-    for panel, quantity in zip(panels.flat, quantities, strict=False):
+    for panel, quantity in zip(panels, quantities, strict=True):
         if curves is None:
             _draw_map(figure, panel, report, axes, quantity)
         else:
             _draw_curves(panel, report, axes[0], quantity, curves)
     if curves is not None and len(curves) > 1:
-        panels.flat[0].legend(loc="best")
-    for panel in panels.flat[len(quantities) :]:
-        panel.axis("off")
+        panels[0].legend(loc="best")
     return figure
 
 
@@ -124,7 +120,7 @@ def _draw_curves(
     if x.min() > 0.0 and x.max() > LOGARITHMIC_FROM * x.min():
         panel.set_xscale("log")
     panel.margins(0.04, 0.08)
-    panel.set(xlabel=label_with_unit(axis, across), title=_title(quantity, up))
+    panel.set(xlabel=wrap_text(label_with_unit(axis, across)), title=_title(quantity, up))
 
 
 def _draw_errors(
@@ -174,7 +170,7 @@ def _draw_map(
 
 def _title(name: str, unit: str) -> str:
     text = label_with_unit(name, unit)
-    return text[0].upper() + text[1:]
+    return wrap_text(text[0].upper() + text[1:])
 
 
 def _count(panel: Axes, missing: "NDArray[np.bool_]") -> None:

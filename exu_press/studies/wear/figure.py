@@ -4,9 +4,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import colour_of, with_style
 from exu_press.plots.sweep_words import axis_label
-from exu_press.plots.title import figure_with_title
 from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe
 from exu_press.quantities import quantity_of
@@ -32,14 +32,12 @@ def wear_figure(report: WearReport) -> Figure:
     names, joints = study.names, study.joints
     text = f"{describe([study.scene], 130)}\n{significant(points[-1].strokes, 4)} strokes in "
     text += report.jumps
-    rows = 1 + (1 + len(names) + 1) // 2
-    figure = figure_with_title("Wear over strokes", text, (9.5, 1.2 + 2.6 * rows))
-    grid = figure.add_gridspec(rows, 2)
+    rows = [[0, 0], *grid_rows(1 + len(names), 2, first=1)]
+    figure, panels = figure_with_panels("Wear over strokes", text, rows, 4.75, 2.6)
     deepest = max(joints, key=lambda joint: report.clearances(joint)[-1])
-    _shapes(figure.add_subplot(grid[0, :]), report, deepest)
+    _shapes(panels[0], report, deepest)
     strokes = [point.strokes for point in points]
-    for number_of_panel, name in enumerate(["", *names]):
-        axes = figure.add_subplot(grid[1 + number_of_panel // 2, number_of_panel % 2])
+    for axes, name in zip(panels[1:], ["", *names], strict=True):
         if name:
             quantity = quantity_of(study.scene, name).quantity
             values = [np.nan if v is None else v * quantity.scale for v in report.values(name)]
@@ -73,7 +71,7 @@ def _shapes(axes: Axes, report: WearReport, joint: str) -> None:
         )  # fmt: skip
         if shape.journal.max() > 0.05 * shape.bearing.max():
             axes.plot(np.degrees(ANGLES), 1e6 * shape.journal, "--", color=colour_of(number))
-    axes.set_xlabel("angle from the x axis of the body, deg (solid: bearing, dashed: journal)")
+    axes.set_xlabel("angle from the x axis of the body, deg\n(solid: bearing, dashed: journal)")
     axes.set_ylabel(f"{joint.replace('_', ' ')}: worn off, {typeset('um')}")
     axes.set_xlim(0.0, 360.0)
     axes.set_xticks(range(0, 361, 45))

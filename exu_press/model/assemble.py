@@ -17,7 +17,6 @@ from exu_press.model.drive import (
     add_drive,
     add_gear,
     crank_angle_of,
-    turned_body,
 )
 from exu_press.model.guides import add_guide
 from exu_press.model.ideal_joints import add_ideal_joint
@@ -61,8 +60,8 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
         from exu_press.model.start import deformed_start
 
         ideal = System(_ideal_scene(scene), parts)
-        drive = _assemble(ideal, {}, {}).drive
-        start, frames = deformed_start(ideal, drive, scene.start_speed)
+        _assemble(ideal, {}, {})
+        start, frames = deformed_start(ideal, scene.start_speed)
     system = System(scene, parts)
     if scene.start == "loaded" and scene.joints.with_clearance:
         from exu_press.model.loaded_start import moved_start
@@ -119,7 +118,7 @@ def _assemble(
         from exu_press.model.start_stop import add_flywheel, add_start_stop
 
         add_flywheel(system)
-        start_stop = add_start_stop(system, turned_body(system), crank_angle)
+        start_stop = add_start_stop(system, crank_angle)
     add_drive(system)
     loads: dict[str, ActingLoad] = {}
     if system.loads:

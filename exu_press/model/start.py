@@ -45,13 +45,12 @@ iterations continue from the previous one and need half as many."""
 
 
 def deformed_start(
-    ideal: System, drive: int, speed: float
+    ideal: System, speed: float
 ) -> tuple[dict[str, Motion], dict[str, "FrameStart"]]:
     """Return the motion of the rigid bodies and the frames of the flexible ones at the start.
 
     Args:
         ideal: assembled, in the start of undeformed bodies; all joints are ideal.
-        drive: object number of the constraint that turns the crank.
         speed: of the crank, rad/s.
 
     Raises:
@@ -63,7 +62,7 @@ def deformed_start(
     turned = turned_body(ideal)
     coordinate = mbs.GetNodeODE2Index(ideal.nodes[turned])
     coordinate += ideal.rigid[turned].coordinates.index("angle")
-    state = quasi_static_motion(mbs, drive, coordinate, speed)
+    state = quasi_static_motion(mbs, ideal.forces["drive", "force"], coordinate, speed)
 
     def state_of(node: int) -> Iterator[Array]:
         indices = mbs.systemData.GetNodeLTGODE2(node)

@@ -12,7 +12,7 @@ from exu_press.laws.clutch import Coupling
 from exu_press.laws.schedule import Schedule
 from exu_press.mechanism import Body, Mechanism
 from exu_press.mechanism.parts import FLYWHEEL
-from exu_press.model.drive import CrankAngle
+from exu_press.model.drive import CrankAngle, turned_body
 from exu_press.model.rigid_body import PivotedBody
 from exu_press.model.system import System
 
@@ -224,14 +224,8 @@ def add_flywheel(system: System) -> None:
     system.add_rigid(FLYWHEEL, body)
 
 
-def add_start_stop(system: System, turned: str, crank: CrankAngle) -> StartStop:
-    """Add clutch and brake.
-
-    Args:
-        system: with crank and flywheel.
-        turned: name of the body that the clutch turns.
-        crank: its angle and angular velocity.
-    """
+def add_start_stop(system: System, crank: CrankAngle) -> StartStop:
+    """Add clutch and brake to a system with crank and flywheel."""
     motor = system.scene.drive
     assert motor is not None
     assert motor.clutch is not None
@@ -240,7 +234,10 @@ def add_start_stop(system: System, turned: str, crank: CrankAngle) -> StartStop:
     start_stop = StartStop(schedule, crank, system.scene.angular_speed, motor.ends_after)
     inertia = _crank_inertia(system.mechanism)
     reduced_inertia = 1.0 / (1.0 / inertia + 1.0 / motor.inertia)
-    wheel, shaft = system.coordinate(FLYWHEEL, "angle"), system.coordinate(turned, "angle")
+    wheel, shaft = (
+        system.coordinate(FLYWHEEL, "angle"),
+        system.coordinate(turned_body(system), "angle"),
+    )
     elements = {
         "clutch": (clutch.clutch_torque, reduced_inertia, schedule.clutch, [shaft, wheel]),
         "brake": (

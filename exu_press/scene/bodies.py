@@ -2,12 +2,13 @@
 
 import dataclasses
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
 from exu_press.errors import InputError, error_prefix, required_package
+from exu_press.mechanism import Mechanism
 from exu_press.schema.checks import demand_known, key, refuse_unknown
 from exu_press.schema.table import Table, changed_table, given_keys, plain, table_from
 
@@ -200,49 +201,63 @@ class Flexible(Table):
         return Path(self.source)
 
 
-def bodies_of(
-    tables: Any,
-    mechanism: str,
-    joints: Mapping[str, Sequence[str]],
-    patches: Mapping[str, Sequence[str]],
-) -> dict[str, Flexible]:
+def bodies_of(tables: Any, mechanism: Mechanism) -> dict[str, Flexible]:
     """Return the flexible bodies of a scene.
 
     Args:
         tables: body -> a shipped part's name or a STEP file's path, a mapping of keys or a
             `Flexible`.
-        mechanism: its name.
-        joints: body -> names of its joints and of slots with a pin of it; `DRIVE_FACE` among the
-            crank's.
-        patches: body -> names of its guides, and of the slots in it.
+        mechanism: that has the bodies.
 
     Raises:
         InputError: there is no such body or joint, or a key is not allowed.
     """
     if not isinstance(tables, Mapping):
         raise InputError(f"bodies = {tables!r}: allowed is a table for each flexible body")
-    bodies = {}
+    names, bodies = [body.name for body in mechanism.bodies], {}
     for name, value in tables.items():
         value_text = repr(value) if isinstance(value, str) else "..."
-        demand_known(f"bodies.{name} = {value_text}: {mechanism} has no such body", name, joints)
+        problem = f"bodies.{name} = {value_text}: {mechanism.name} has no such body"
+        demand_known(problem, name, names)
         if not isinstance(value, (str, Mapping, Flexible)):
             raise InputError(
                 f"bodies.{name} = {value!r}: allowed is a shipped part, a STEP file's path, or a "
                 "table of keys"
             )
         with error_prefix(f"bodies.{name}."):
-            body = bodies[name] = table_from(Flexible, "", _keys(value))
-        for held, faces in body.faces.items():
-            where = f"bodies.{name}.faces.{held}"
-            problem = f"{where}: {name} has no such joint"
-            demand_known(problem, held, [*joints[name], *patches[name]])
-            is_patch = held in patches[name]
-            for keys in (face_dict(face) for face in faces):
-                if isinstance(keys, dict):
-                    refuse_unknown(where, keys, OF_A_PATCH if is_patch else OF_A_JOINT)
-            if is_patch:
-                patch_given(where, faces)
+            bodies[name] = table_from(Flexible, "", _keys(value))
+        _check_faces(name, bodies[name], mechanism)
     return bodies
+
+
+def _check_faces(name: str, body: Flexible, mechanism: Mechanism) -> None:
+    """Raise InputError for faces that nothing holds, and for a guide or slot without them."""
+    guides = [guide for guide in mechanism.guides if name in guide.bodies]
+    joints = [joint.name for joint in mechanism.joints_of(name)]
+    joints += [guide.name for guide in guides if guide.is_slot and guide.body == name]
+    joints += [DRIVE_FACE] if name == mechanism.crank else []
+    patches = [
+        GUIDE_FACE if guide.is_rail else guide.name
+        for guide in guides
+        if not (guide.is_slot and guide.body == name)
+    ]
+    for held, faces in body.faces.items():
+        where = f"bodies.{name}.faces.{held}"
+        demand_known(f"{where}: {name} has no such joint", held, [*joints, *patches])
+        is_patch = held in patches
+        for keys in (face_dict(face) for face in faces):
+            if isinstance(keys, dict):
+                refuse_unknown(where, keys, OF_A_PATCH if is_patch else OF_A_JOINT)
+        if is_patch:
+            patch_given(where, faces)
+    for guide in guides:
+        if not guide.is_rail and guide.name in patches and guide.name not in body.faces:
+            raise InputError(
+                f"bodies.{name}.faces.{guide.name}: missing; allowed are the faces with whose mean "
+                f"motion {guide.key} moves as a whole. Along a line of the body that deforms "
+                "itself contact would run from face to face, and modes of fixed faces do not know "
+                "that: allowed there is a rigid body"
+            )
 
 
 def flexible_press(**keys: Any) -> dict[str, dict[str, Any]]:

@@ -111,13 +111,18 @@ class IdealJoint(Joint):
     registered_name: ClassVar[str] = "ideal"
 
 
+@dataclass(frozen=True)
 class TouchingJoint(Joint):
     """A journal or ball, loose in its bearing or socket.
 
     Keys that are not given are None until the scene fills them in.
     """
 
-    radius: float
+    clearance: float = key(None, "radial clearance", "m", above=0, example=5e-5)
+    radius: float = key(None, "of the journal or ball", "m", above=0, example=0.03)
+    contact: "JournalContact | BallContact | None" = None
+    friction: "Friction | None" = None
+    worn: "WornDepths | None" = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -155,24 +160,11 @@ class TouchingJoint(Joint):
         return self.contact.normal_contact(elastic, self.clearance, crank_speed)
 
 
-def _clearance() -> Any:
-    return key(None, "radial clearance", "m", above=0, example=5e-5)
-
-
-def _radius() -> Any:
-    return key(None, "of the journal or ball", "m", above=0, example=0.03)
-
-
 @dataclass(frozen=True)
 class DryJoint(TouchingJoint):
     """A joint without oil."""
 
     registered_name: ClassVar[str] = "dry"
-    clearance: float = _clearance()
-    radius: float = _radius()
-    contact: "JournalContact | BallContact | None" = None
-    friction: "Friction | None" = None
-    worn: "WornDepths | None" = None
     onset: ClassVar[float] = 0.0  # type: ignore[misc]
 
 
@@ -184,12 +176,7 @@ class LubricatedJoint(TouchingJoint):
     """
 
     registered_name: ClassVar[str] = "lubricated"
-    clearance: float = _clearance()
-    radius: float = _radius()
     film: "JournalFilm | BallFilm" = dataclasses.field(default=cast(Any, None))
-    contact: "JournalContact | BallContact | None" = None
-    friction: "Friction | None" = None
-    worn: "WornDepths | None" = None
 
     @property
     def onset(self) -> float | None:  # type: ignore[override]

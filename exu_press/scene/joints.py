@@ -1,12 +1,13 @@
 """Every joint of a mechanism: ideal, dry or lubricated, from a scene's table of some of them."""
 
 import dataclasses
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from exu_press.errors import InputError, UnusedKeyError, error_prefix
+from exu_press.mechanism import Mechanism
 from exu_press.scene.custom import CustomJoint
-from exu_press.scene.joint import JOINT_KINDS, IdealJoint, Joint
+from exu_press.scene.joint import JOINT_KINDS, SIZES, IdealJoint, Joint
 from exu_press.scene.law_keys import LawKeys
 from exu_press.scene.usage import LAWS, law_kind
 from exu_press.schema.checks import nearest, refuse_unknown
@@ -31,43 +32,25 @@ TOUCHING = ("contact", "friction")
 """Laws of a lubricated joint with a mixed film alone."""
 
 
-class Joints(Mapping[str, Joint]):
+class Joints(dict[str, Joint]):
     """Every joint of a mechanism by its name, in the mechanism's order.
 
     Attributes:
-        mechanism: its name, for messages.
         spherical: names of the balls in their sockets.
         groups: names for several joints at once -> these joints.
     """
 
-    def __init__(
-        self,
-        joints: Mapping[str, Joint],
-        mechanism: str,
-        groups: Mapping[str, tuple[str, ...]],
-        spherical: Iterable[str] = (),
-    ) -> None:
-        self.spherical = frozenset(spherical)
-        self._joints = dict(joints)
-        self.mechanism = mechanism
-        self.groups = dict(groups)
+    def __init__(self, joints: Mapping[str, Joint], mechanism: Mechanism) -> None:
+        super().__init__(joints)
+        self.spherical = frozenset(joint.name for joint in mechanism.joints if joint.spherical)
+        self.groups = dict(mechanism.groups)
+        self._mechanism = mechanism.name
 
-    def __getitem__(self, name: str) -> Joint:
-        if name not in self._joints:
-            raise InputError(_unknown(name, self.mechanism, self._joints, {}))
-        return self._joints[name]
+    def __missing__(self, name: str) -> Joint:
+        raise InputError(_unknown(name, self._mechanism, self, {}))
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._joints)
-
-    def __len__(self) -> int:
-        return len(self._joints)
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._joints
-
-    def __hash__(self) -> int:
-        return hash(tuple(self._joints.items()))
+    def __hash__(self) -> int:  # type: ignore[override]  # it is not changed
+        return hash(tuple(self.items()))
 
     def __repr__(self) -> str:
         return f"Joints({self.with_clearance!r})"
@@ -75,12 +58,12 @@ class Joints(Mapping[str, Joint]):
     @property
     def ideal(self) -> frozenset[str]:
         """Names of the joints without clearance."""
-        return frozenset(n for n, joint in self._joints.items() if isinstance(joint, IdealJoint))
+        return frozenset(n for n, joint in self.items() if isinstance(joint, IdealJoint))
 
     @property
     def with_clearance(self) -> dict[str, Joint]:
         """The joints with clearance."""
-        return {n: j for n, j in self._joints.items() if not isinstance(j, IdealJoint)}
+        return {n: j for n, j in self.items() if not isinstance(j, IdealJoint)}
 
     @property
     def by_group(self) -> dict[str, Joint]:
@@ -111,7 +94,7 @@ class Joints(Mapping[str, Joint]):
         """Return which of the scene's laws no joint has, and of its start -> the reason."""
         touching = "no joint is 'dry' or has a mixed film"
         reasons = {"contact": touching, "friction": touching, "film": "no joint is 'lubricated'"}
-        joints = self._joints.values()
+        joints = self.values()
         unused = {
             law: reason
             for law, reason in reasons.items()
@@ -128,7 +111,7 @@ class Joints(Mapping[str, Joint]):
             law: "contact", "friction" or "film".
             names: of the joints; all unless given.
         """
-        tables = (getattr(self._joints[n], law) for n in (self if names is None else names))
+        tables = (getattr(self[n], law) for n in (self if names is None else names))
         keys: dict[str, dataclasses.Field[Any]] = {}
         for table in filter(None, tables):
             for name, _, field in key_values(table):
@@ -146,7 +129,7 @@ class Joints(Mapping[str, Joint]):
             shared: the scene's keys; where a joint's own decides, the reason says so.
             names: of the joints.
         """
-        name, table = next((n, t) for n in names if (t := getattr(self._joints[n], law)))
+        name, table = next((n, t) for n in names if (t := getattr(self[n], law)))
         own = {k: value for k, value, field in key_values(table)
                if value != shared.get(k, field.default)}  # fmt: skip
 
@@ -161,25 +144,15 @@ class Joints(Mapping[str, Joint]):
         return self.groups.get(name, (name,))
 
 
-def joints_of(
-    tables: Any,
-    mechanism: str,
-    spherical: Mapping[str, bool],
-    groups: Mapping[str, tuple[str, ...]],
-    laws: LawKeys,
-    sizes: Mapping[str, float],
-) -> Joints:
+def joints_of(tables: Any, mechanism: Mechanism, laws: LawKeys) -> Joints:
     """Return every joint of a mechanism from a scene's table.
 
     A joint's own keys go before those of its group; a joint that is not named is ideal.
 
     Args:
         tables: joint or group -> its kind, a mapping of its keys or the joint itself.
-        mechanism: its name.
-        spherical: every joint of it -> whether it is a ball in a socket.
-        groups: names for several joints at once -> these joints.
-        laws: the scene's own, for keys that a joint does not give.
-        sizes: the mechanism's clearance and radius, likewise, where it has them.
+        mechanism: with clearance and radius among its defaults, for joints that do not give them.
+        laws: the scene's own, likewise.
 
     Raises:
         InputError: there is no such joint or group, a joint lies in two groups that are given, a
@@ -188,6 +161,8 @@ def joints_of(
     """
     if not isinstance(tables, Mapping):
         raise InputError(f"joints = {tables!r}: allowed is a table of joints")
+    groups, names = mechanism.groups, [joint.name for joint in mechanism.joints]
+    sizes = {name: mechanism.defaults[name] for name in SIZES if name in mechanism.defaults}
     own: dict[str, dict[str, Any]] = {}
     by_group: dict[str, str] = {}
     for group, members in groups.items():
@@ -200,17 +175,16 @@ def joints_of(
             by_group[member] = group
             own[member] = joint_keys(group, tables[group])
     for name, table in tables.items():
-        if name in spherical:
+        if name in names:
             own[name] = {**own.get(name, {}), **joint_keys(name, table)}
         elif name not in groups:
-            raise InputError(_unknown(name, mechanism, spherical, groups, table))
+            raise InputError(_unknown(name, mechanism.name, names, groups, table))
     complete = {}
-    for name, is_ball in spherical.items():
-        shown_name, keys = by_group.get(name, name), own.get(name, {"kind": "ideal"})
-        shown_name = name if name in tables else shown_name
-        complete[name] = _joint(shown_name, keys, laws, sizes, spherical=is_ball)
-    balls = [name for name, is_ball in spherical.items() if is_ball]
-    joints = Joints(complete, mechanism, groups, balls)
+    for joint in mechanism.joints:
+        shown_name = joint.name if joint.name in tables else by_group.get(joint.name, joint.name)
+        keys = own.get(joint.name, {"kind": "ideal"})
+        complete[joint.name] = _joint(shown_name, keys, laws, sizes, spherical=joint.spherical)
+    joints = Joints(complete, mechanism)
     for name, table in tables.items():
         _refuse_unused(name, joint_keys(name, table), joints, laws)
     return joints

@@ -23,9 +23,9 @@ from exu_press.mechanism import Joint as Drawn
 from exu_press.mechanism.kinematics import MotionError
 from exu_press.mechanism.spring_motion import joint_at
 from exu_press.mechanism.turning import require_turning
-from exu_press.scene.bodies import DRIVE_FACE, GUIDE_FACE, Flexible, bodies_of
+from exu_press.scene.bodies import Flexible, bodies_of
 from exu_press.scene.changes import asked_mechanism, by_group, changed_keys, drop, gives_key
-from exu_press.scene.joint import SIZES, oil_of
+from exu_press.scene.joint import oil_of
 from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.law_keys import LawKeys
 from exu_press.scene.solver import RPM, Solver
@@ -221,9 +221,7 @@ class Scene(Table):
         object.__setattr__(self, "joints", None)
         _require_turning(mechanism)
         laws = LawKeys(self.laws, usual, self._law_tables(tables))
-        sizes = {name: usual[name] for name in SIZES if name in usual}
-        spherical = {joint.name: joint.spherical for joint in mechanism.joints}
-        joints = joints_of(tables, mechanism.name, spherical, mechanism.groups, laws, sizes)
+        joints = joints_of(tables, mechanism, laws)
         object.__setattr__(self, "joints", joints)
         unused = joints.unused_laws()
         self._refuse(unused, "start", self.start)
@@ -338,26 +336,7 @@ class Scene(Table):
     def _settle_bodies(self) -> None:
         """Complete the flexible bodies."""
         mechanism = mechanism_of(self)
-        joints = {b.name: [j.name for j in mechanism.joints_of(b.name)] for b in mechanism.bodies}
-        joints[mechanism.crank].append(DRIVE_FACE)
-        patches: dict[str, list[str]] = {body.name: [] for body in mechanism.bodies}
-        for guide in mechanism.guides:
-            if guide.is_rail:
-                patches[guide.body].append(GUIDE_FACE)
-                continue
-            (joints if guide.is_slot else patches)[guide.body].append(guide.name)
-            if not guide.on_frame:
-                patches[guide.on].append(guide.name)
-        bodies = bodies_of(self.bodies, mechanism.name, joints, patches)
-        for guide in mechanism.guides:
-            for name in sorted(guide.bodies & bodies.keys()) if not guide.is_rail else ():
-                if guide.name in patches[name] and guide.name not in bodies[name].faces:
-                    raise InputError(
-                        f"bodies.{name}.faces.{guide.name}: missing; allowed are the faces with "
-                        f"whose mean motion {guide.key} moves as a whole. Along a line of the body "
-                        "that deforms itself contact would run from face to face, and modes of "
-                        "fixed faces do not know that: allowed there is a rigid body"
-                    )
+        bodies = bodies_of(self.bodies, mechanism)
         motor = self.drive
         if mechanism.crank in bodies and motor is not None and motor.on_crank == 0.0:
             raise InputError(

@@ -1,5 +1,7 @@
 """[joints.NAME]: every joint of the mechanism, by its name or its group's."""
 
+from dataclasses import replace
+
 import pytest
 
 from exu_press import InputError, Scene
@@ -88,13 +90,10 @@ def test_contact_and_friction_of_a_film_only_where_it_is_mixed():
 
 def test_a_joint_in_two_groups_is_refused():
     """The press has no such groups; a mechanism may."""
-    from exu_press.scene.joints import joints_of
-    from exu_press.scene.law_keys import LawKeys
-
-    laws = LawKeys(Scene().laws, {})
-    pins, groups = {"a": False, "b": False}, {"all": ("a", "b"), "some": ("b",)}
-    with pytest.raises(InputError, match="b lies in both"):
-        joints_of({"all": "dry", "some": "ideal"}, "mine", pins, groups, laws, {})
+    groups = {"both": ("shaft", "crank_pin"), "some": ("shaft",)}
+    mechanism = replace(mechanism_of(Scene()), groups=groups)
+    with pytest.raises(InputError, match="shaft lies in both"):
+        Scene(mechanism=mechanism, joints={"both": "dry", "some": "ideal"})
 
 
 def test_an_unknown_joint_is_named():

@@ -1,14 +1,13 @@
 """A planar mechanism as plain data: bodies, joints and guides in one assembled drawing."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from exu_press.mechanism.checks import check_defaults, check_drawing, require_kind
+from exu_press.mechanism.drawing import Drawing, require_kind
 from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.kinematics import kinematics_of
 from exu_press.mechanism.motion import Motion
@@ -19,8 +18,6 @@ from exu_press.mechanism.parts import (
     Joint,
     Output,
     Point,
-    distinct_points,
-    drawing_size,
 )
 from exu_press.mechanism.planar_constraints import PlanarConstraints, planar_constraints
 from exu_press.mechanism.springs import SpringBetween
@@ -30,43 +27,13 @@ __all__ = ["Mechanism"]
 
 
 @dataclass(frozen=True)
-class Mechanism:
-    """Bodies, joints and guides in the coordinates of one assembled drawing, y upwards.
-
-    A joint has one position, common to both of its bodies, so that the drawing closes by itself.
-    Crank angles count from the crank's angle in the drawing, counter-clockwise.
-
-    Attributes:
-        name: for messages and pictures.
-        bodies: in the order of the result's body channels.
-        joints: ideal or with clearance, as a scene says.
-        guides: in the frame, or between moving bodies.
-        gears: between two bodies' rotations.
-        springs: between points of two bodies, or of a body and the frame.
-        crank: name of the driven body.
-        output: whose motion the result's slider channels record.
-        groups: name -> joints that a scene can address together.
-        counterweight: names of balancing bodies; the shaking force is recorded without them, too.
-        defaults: keys of its scenes: "start", "settle", "clearance" and "radius" of a joint,
-            "joints" with their kinds where a scene names none, "contact", "friction" and "film";
-            "bodies" with their shipped parts or STEP files, which comparisons take as flexible.
+class Mechanism(Drawing):
+    """A drawing whose crank turns, with the motion of its bodies; attributes as of `Drawing`.
 
     Raises:
         InputError: names are used twice or unknown, a body has no mass, or the like.
             `exu_press.mechanism.turning` checks whether the crank turns.
     """
-
-    name: str
-    bodies: tuple[Body, ...]
-    joints: tuple[Joint, ...]
-    guides: tuple[Guide, ...]
-    crank: str
-    output: Output
-    groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict, hash=False)
-    counterweight: tuple[str, ...] = ()
-    defaults: Mapping[str, Any] = field(default_factory=dict, hash=False)
-    gears: tuple[Gear, ...] = ()
-    springs: tuple[SpringBetween, ...] = ()
 
     def __post_init__(self) -> None:
         """Check the drawing, fill in the inertia of uniform rods, make directions unit vectors."""
@@ -81,19 +48,7 @@ class Mechanism:
             ),
             springs=require_kind(SpringBetween, "springs", self.springs),
         )
-        check_drawing(
-            self.name,
-            self.bodies,
-            self.joints,
-            self.guides,
-            self.crank,
-            self.output,
-            self.groups,
-            self.counterweight,
-            self.gears,
-            self.springs,
-        )
-        check_defaults(self.defaults)
+        self.check()
         self._assign(
             counterweight=tuple(self.counterweight),
             bodies=tuple(
@@ -116,21 +71,13 @@ class Mechanism:
 
     def rod_inertia(self, body: Body) -> float:
         """Return m l^2 / 12 of a uniform rod between a body's joints; nan unless at two points."""
-        pins = [guide.at for guide in self.guides if guide.body == body.name and guide.at]
-        ends = distinct_points(
-            [*(joint.at for joint in self.joints_of(body.name)), *pins], self.size
-        )
+        ends = self.held_points(body.name)
         return body.mass * math.dist(*ends) ** 2 / 12 if len(ends) == 2 else math.nan
 
     @property
     def slider(self) -> str:
         """Name of the output's body."""
         return self.output.body
-
-    @property
-    def size(self) -> float:
-        """Largest distance of two joints along x or y in the drawing, m."""
-        return drawing_size(self.joints, self.guides)
 
     @property
     def shaft(self) -> Joint:
@@ -161,10 +108,6 @@ class Mechanism:
     def frame_guide(self, body: str) -> Guide | None:
         """Return the guide of the frame that holds a body, or None."""
         return next((g for g in self.guides if g.body == body and g.is_rail), None)
-
-    def joints_of(self, body: str) -> list[Joint]:
-        """Return the joints of a body."""
-        return [joint for joint in self.joints if body in (joint.journal, joint.bearing)]
 
     def ends(self, joint: Joint) -> tuple[tuple[str, Point], tuple[str, Point]]:
         """Return (body, point in its frame) of a joint's journal and of its bearing."""
@@ -197,7 +140,7 @@ class Mechanism:
         """
         bodies = sorted(self.bodies, key=lambda body: body.name == self.crank)
         joints = [joint for joint in self.joints if joint != self.shaft]
-        constraints = planar_constraints(bodies, joints, self.guides, self.size, self.gears)
+        constraints = planar_constraints(self, bodies, joints)
         motions = kinematics_of(self.name, constraints, self.shaft.at).motion(angle, speed)
         return {body.name: motions[body.name] for body in self.bodies}
 
@@ -275,7 +218,7 @@ class Mechanism:
     @cached_property
     def constraints(self) -> PlanarConstraints:
         """Constraints of all joints and guides as ideal ones, and of gears."""
-        return planar_constraints(self.bodies, self.joints, self.guides, self.size, self.gears)
+        return planar_constraints(self, self.bodies, self.joints)
 
 
 def _direction(guide: Guide) -> Point:

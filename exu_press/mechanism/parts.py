@@ -1,7 +1,7 @@
 """Bodies, joints, guides and output of a mechanism, in the coordinates of one assembled drawing."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 __all__ = [
@@ -18,7 +18,6 @@ __all__ = [
     "Point",
     "Spring",
     "distinct_points",
-    "drawing_size",
     "steel_cube",
 ]
 
@@ -240,12 +239,6 @@ class Output:
     def normal(self) -> Point:
         """Unit vector to the right of the direction."""
         return self.direction[1], -self.direction[0]
-
-
-def drawing_size(joints: Sequence[Joint], guides: Sequence[Guide]) -> float:
-    """Return the largest distance of two joints or pins along x or y in the drawing, m."""
-    points = [joint.at for joint in joints] + [guide.at for guide in guides if guide.at is not None]
-    return max((max(values) - min(values) for values in zip(*points, strict=True)), default=0.0)
 
 
 def distinct_points(points: Iterable[Point], size: float) -> list[Point]:

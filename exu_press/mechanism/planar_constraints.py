@@ -23,9 +23,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from exu_press.mechanism.gears import Gear
+from exu_press.mechanism.drawing import Drawing
 from exu_press.mechanism.motion import Motion
-from exu_press.mechanism.parts import GROUND, PRECISION, Body, Guide, Joint, Point
+from exu_press.mechanism.parts import GROUND, PRECISION, Body, Joint, Point
 from exu_press.numerics.arrays import Array
 
 __all__ = [
@@ -306,13 +306,10 @@ class PlanarConstraints:
 
 
 def planar_constraints(
-    bodies: Sequence[Body],
-    joints: Sequence[Joint],
-    guides: Sequence[Guide],
-    size: float,
-    gears: Sequence[Gear] = (),
+    drawing: Drawing, bodies: Sequence[Body], joints: Sequence[Joint]
 ) -> PlanarConstraints:
-    """Return the constraints of ideal joints, guides and gears, in a drawing of some size, m."""
+    """Return the constraints of some ideal joints, and of a drawing's guides and gears."""
+    size = drawing.size
     index = {body.name: number for number, body in enumerate(bodies)} | {GROUND: len(bodies)}
     drawn = {body.name: body for body in bodies} | {GROUND: Body(GROUND, 0.0)}
 
@@ -323,7 +320,7 @@ def planar_constraints(
         for joint in joints:
             ends = *end(joint.journal, joint.at), *end(joint.bearing, joint.at)
             yield f"joints.{joint.name}", Coincidence(*ends)
-        for guide in guides:
+        for guide in drawing.guides:
             body, base = drawn[guide.body], drawn[guide.on]
             at = guide.at or body.centre_of_mass
             ends = *end(guide.body, at), *end(guide.on, guide.centre or at)
@@ -335,7 +332,7 @@ def planar_constraints(
             if not guide.is_slot:
                 offset = body.angle - base.angle
                 yield guide.key, RotationRatio(index[guide.body], index[guide.on], 1.0, offset)
-        for gear in gears:
+        for gear in drawing.gears:
             offset = drawn[gear.body].angle - gear.ratio * drawn[gear.to].angle
             pair = index[gear.body], index[gear.to]
             yield f"gears.{gear.name}", RotationRatio(*pair, gear.ratio, offset)

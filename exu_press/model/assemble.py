@@ -21,7 +21,7 @@ from exu_press.model.drive import (
 from exu_press.model.guides import add_guide
 from exu_press.model.ideal_joints import add_ideal_joint
 from exu_press.model.model import Model, count_items
-from exu_press.model.stall import Stall
+from exu_press.model.stall import stall_of
 from exu_press.model.system import System
 from exu_press.scene import IdealJoint, Scene
 from exu_press.scene.applied import holding_torque
@@ -145,16 +145,16 @@ def _assemble(
         drive=system.forces["drive", "force"],
         crank_angle=crank_angle,
         start_stop=start_stop,
-        stall=_stall(system.scene),
         loads=loads,
         clocks=system.clocks,
         ahead=system.ahead,
         guideways=guideways,
         guide_friction=friction,
-        states=_states(system.scene, clearance, guideways),
         sensors=system.sensors,
         parts=system.parts,
         warm=_warm_films(system, clearance),
+        states=_states(system.scene, clearance, guideways),
+        stall=stall_of(system.scene),
         scene_items=count_items(system.mbs),
     )
 
@@ -234,13 +234,6 @@ def _states(
         wearing += [end for name in wearing_guides(scene) for end in guideways[name]]
     ends = [end for contacts in guideways.values() for end in contacts]
     return States([*clearance.values(), *ends], wearing)
-
-
-def _stall(scene: Scene) -> Stall:
-    """Return the detection of a press that stalls."""
-    motor, speed = scene.drive, scene.angular_speed
-    slower = speed if motor is None else min(speed, motor.torque.fastest(scene.speed_rpm))
-    return Stall(slower, 60.0 / scene.speed_rpm)
 
 
 def _record_bodies(system: System) -> None:

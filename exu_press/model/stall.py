@@ -2,7 +2,9 @@
 
 import math
 
-__all__ = ["Stall", "stall_message"]
+from exu_press.scene import Scene
+
+__all__ = ["Stall", "stall_message", "stall_of"]
 
 SLOW = 0.01
 """Speed over that in operation, or without load, below which a running crank has stalled: under a
@@ -51,6 +53,13 @@ class Stall:
         elif speed > self._fastest + FASTER * self._slow:
             self._fastest, self._since = speed, time
         return driven and self._starts and time - self._since > self._patience
+
+
+def stall_of(scene: Scene) -> Stall:
+    """Return the detection of a press that stalls."""
+    motor, speed = scene.drive, scene.angular_speed
+    slower = speed if motor is None else min(speed, motor.torque.fastest(scene.speed_rpm))
+    return Stall(slower, 60.0 / scene.speed_rpm)
 
 
 def stall_message(

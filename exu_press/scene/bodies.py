@@ -1,7 +1,6 @@
 """Flexible bodies of a mechanism, and their solids."""
 
 import dataclasses
-from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +19,7 @@ __all__ = [
     "Face",
     "Flexible",
     "bodies_of",
-    "changed_bodies",
+    "changed_body",
     "face_dict",
     "faces_given",
     "patch_given",
@@ -272,28 +271,11 @@ def flexible_press(**keys: Any) -> dict[str, dict[str, Any]]:
     return {name: {"flexible": name, **keys} for name in ("crank", "linkage")}
 
 
-def changed_bodies(
-    bodies: Mapping[str, Mapping[str, Any]], changes: Mapping[str, Any]
-) -> dict[str, Any]:
-    """Return flexible bodies with other keys.
-
-    Args:
-        bodies: as `Flexible.to_dict` has them.
-        changes: "NAME" -> a part, a file, or all keys; "NAME.key" -> a value.
-    """
-    changed: dict[str, Any] = dict(bodies)
-    inner: defaultdict[str, dict[str, Any]] = defaultdict(dict)
-    for path, value in changes.items():
-        name, dot, key = path.partition(".")
-        if dot:
-            inner[name][key] = value
-        else:
-            changed[name] = value
-    for name, keys in inner.items():
-        unused = OF_SOLIDS if keys.get("matrices") is not None else ()
-        body = {k: v for k, v in given_keys(_keys(changed.get(name))).items() if k not in unused}
-        changed[name] = changed_table(Flexible, body, keys)
-    return changed
+def changed_body(_: str, body: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the keys of a flexible body with others."""
+    unused = OF_SOLIDS if changes.get("matrices") is not None else ()
+    keys = {k: value for k, value in given_keys(_keys(body)).items() if k not in unused}
+    return changed_table(Flexible, keys, changes)
 
 
 def require_rainflow() -> Any:

@@ -14,11 +14,11 @@ from exu_press.mechanism import (
     mechanism_to_dict,
     shipped_mechanism,
 )
-from exu_press.scene.bodies import changed_bodies
+from exu_press.scene.bodies import changed_body
 from exu_press.scene.joints import joint_keys
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import nearest
-from exu_press.schema.table import RENAMED, changed_table, given_keys
+from exu_press.schema.table import RENAMED, changed_table, changed_tables, given_keys
 
 __all__ = ["asked_mechanism", "by_group", "changed_keys", "drop", "gives_key"]
 
@@ -68,11 +68,11 @@ def changed_keys(
             raise InputError(f"{table}.{key} = {value!r}: {why}")
         data[table] = changed_table(TABLES[table], current, keys)
     if bodies and isinstance(data.get("bodies", {}), Mapping):
-        data["bodies"] = changed_bodies(data.get("bodies", {}), bodies)
+        data["bodies"] = changed_tables(data.get("bodies", {}), bodies, changed_body)
     if loads:
-        from exu_press.scene.loads import changed_loads
+        from exu_press.scene.loads import changed_load
 
-        data["load"] = changed_loads(data.get("load", {}), loads)
+        data["load"] = changed_tables(data.get("load", {}), loads, changed_load)
     if "joints" not in changes:
         data["joints"] = _changed_joints(data["joints"], groups, joints)
     elif joints:
@@ -85,36 +85,37 @@ def changed_keys(
 
 
 def _changed_joints(
-    joints: Mapping[str, Mapping[str, Any]],
-    groups: Mapping[str, tuple[str, ...]],
-    changes: Mapping[str, Any],
-) -> dict[str, dict[str, Any]]:
-    """Return joints with other kinds or keys.
-
-    Args:
-        joints: as `Joints.to_dict` has them.
-        groups: names for several joints at once -> these joints.
-        changes: "NAME" -> a kind, or all keys; "NAME.key" or "NAME.law.key" -> a value.
-    """
-    changed = {name: dict(keys) for name, keys in joints.items()}
+    joints: Mapping[str, Any], groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return joints with other kinds or keys: "NAME" -> a kind, or all keys; "NAME.key", ..."""
+    by_member = {}
     for path, value in changes.items():
-        name, _, inner = path.partition(".")
-        key, _, last = inner.partition(".")
+        name, dot, key = path.partition(".")
+        is_whole = not dot and not isinstance(value, str)
+        keys = joint_keys(name, value) if is_whole and value is not None else value
         for member in groups.get(name, (name,)):
-            keys = changed.setdefault(member, {})
-            if not inner and not isinstance(value, str):
-                changed[member] = {} if value is None else joint_keys(name, value)
-            elif not last:
-                keys[key or "kind"] = value
-            elif key in TABLES_OF_JOINTS and isinstance(keys.setdefault(key, {}), dict):
-                kind = load_object("scene.worn:WornDepths") if key == "worn" else TABLES[key]
-                keys[key] = changed_table(kind, keys[key], {last: value})
-            else:
-                raise InputError(
-                    f"joints.{path} = {value!r}: {key} is no table of a joint"
-                    f"{nearest(key, TABLES_OF_JOINTS)}; allowed are {', '.join(TABLES_OF_JOINTS)}"
-                )
-    return changed
+            by_member[member if is_whole else f"{member}.{key or 'kind'}"] = keys
+    return changed_tables(joints, by_member, _changed_joint)
+
+
+def _changed_joint(
+    name: str, joint: Mapping[str, Any] | None, changes: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return the keys of a joint with others, also with those of its laws."""
+    keys = dict(joint or {})
+    for path, value in changes.items():
+        key, dot, inner = path.partition(".")
+        if not dot:
+            keys[key] = value
+        elif key in TABLES_OF_JOINTS and isinstance(keys.setdefault(key, {}), dict):
+            kind = load_object("scene.worn:WornDepths") if key == "worn" else TABLES[key]
+            keys[key] = changed_table(kind, keys[key], {inner: value})
+        else:
+            raise InputError(
+                f"joints.{name}.{path} = {value!r}: {key} is no table of a joint"
+                f"{nearest(key, TABLES_OF_JOINTS)}; allowed are {', '.join(TABLES_OF_JOINTS)}"
+            )
+    return keys
 
 
 def asked_mechanism(mechanism: Any) -> Any:

@@ -12,7 +12,7 @@ from exu_press.scene.solver import RPM
 from exu_press.schema.checks import demand_known, demand_name
 from exu_press.schema.table import declared_keys
 
-__all__ = ["changed_loads", "loads_of", "with_files_beside"]
+__all__ = ["changed_load", "loads_of", "with_files_beside"]
 
 
 INSTEAD = {
@@ -58,33 +58,17 @@ def loads_of(
     return loads
 
 
-def changed_loads(loads: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return loads as mappings with other keys.
-
-    Args:
-        loads: as `Scene.to_dict` has them.
-        changes: "NAME.key" -> a value, or "NAME" -> all keys; None leaves the load out.
-    """
-    changed = {
-        name: dict(keys) if isinstance(keys, Mapping) else keys.to_dict()
-        for name, keys in loads.items()
-    }
-    for path in sorted(changes, key=lambda path: not path.endswith(".kind")):
-        (name, _, inner), value = path.partition("."), changes[path]
-        if not inner:
-            if value is None:
-                changed.pop(name, None)
-            else:
-                changed[name] = value
-            continue
-        keys = changed.setdefault(name, {})
-        if inner == "kind" and keys.get("kind") != value:
-            changed[name] = keys = {k: v for k, v in keys.items() if k in ATTACHMENT}
-        for key in INSTEAD.get(inner, ()):
-            if f"{name}.{key}" not in changes:
+def changed_load(_: str, load: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the keys of a load with others; one of another kind keeps where it acts."""
+    keys = load.to_dict() if isinstance(load, Load) else dict(load or {})
+    if "kind" in changes and keys.get("kind") != changes["kind"]:
+        keys = {key: value for key, value in keys.items() if key in ATTACHMENT}
+    for name, value in changes.items():
+        for key in INSTEAD.get(name, ()):
+            if key not in changes:
                 keys.pop(key, None)
-        keys[inner] = value
-    return changed
+        keys[name] = value
+    return keys
 
 
 def with_files_beside(tables: Any, folder: Path) -> Any:

@@ -16,6 +16,7 @@ __all__ = [
     "RENAMED",
     "Table",
     "changed_table",
+    "changed_tables",
     "check_keys",
     "declared_keys",
     "demand_keys",
@@ -428,6 +429,30 @@ def changed_table(
     for key in _replaced_keys(kind, names):
         changed.pop(key, None)
     return changed
+
+
+def changed_tables(
+    tables: Mapping[str, Any],
+    changes: Mapping[str, Any],
+    change: Callable[[str, Any, Mapping[str, Any]], Any],
+) -> dict[str, Any]:
+    """Return tables by name with others, or with other keys.
+
+    Args:
+        tables: name -> its keys.
+        changes: "NAME" -> all keys, None leaves the table out; "NAME.key" -> a value.
+        change: function of a name, the keys or None, and other keys that returns the new ones.
+    """
+    changed, inner = dict(tables), dict[str, dict[str, Any]]()
+    for path, value in changes.items():
+        name, dot, key = path.partition(".")
+        if dot:
+            inner.setdefault(name, {})[key] = value
+        elif value is None and name in changed:
+            del changed[name]
+        else:
+            changed[name] = value
+    return changed | {name: change(name, changed.get(name), keys) for name, keys in inner.items()}
 
 
 def _replaced_keys(kind: type[Table], names: set[str]) -> set[str]:

@@ -23,7 +23,7 @@ from fe_models.array_file import cache_folder, load_arrays, save_arrays
 from fe_models.errors import InputError
 from fe_models.reduced import ReducedInterface, ReducedPart
 from fe_models.reduction import Reduction, Report, Solid, reduce_part
-from fe_models.temporary import TemporaryFolder, remove_partial_files
+from fe_models.temporary import TemporaryFolder, remove_abandoned
 
 __all__ = ["cache_file", "default_folder", "load", "reduced_part", "save"]
 
@@ -70,7 +70,7 @@ def reduced_part(
     """
     reduction = reduction or Reduction()
     file = cache_file(solid, reduction, default_folder() if folder is None else Path(folder))
-    remove_partial_files(file.parent)
+    remove_abandoned(file.parent)
     stored = load(file)
     if stored is not None:
         return stored

@@ -32,14 +32,9 @@ from scipy.spatial.transform import Rotation
 from fe_models.errors import InputError
 from fe_models.reduced import ReducedPart
 
-__all__ = ["ROTATIONS", "FlexibleBody", "add_flexible_body"]
+__all__ = ["FlexibleBody", "add_flexible_body"]
 
-# Tait-Bryan angles (RotationRxyz) are left out: ObjectFFRFreducedOrder of Exudyn 1.13.6 takes them,
-# but a free spinning body then loses 4 % of its energy and nearly all its momentum.
-ROTATIONS = {
-    "euler_parameters": exu.NodeType.RotationEulerParameters,  # 4 coordinates, no singularity
-    "rotation_vector": exu.NodeType.RotationRotationVector,  # 3
-}
+COLOUR = (0.45, 0.55, 0.65, 1.0)
 VIRTUAL = 3
 
 
@@ -115,11 +110,9 @@ def add_flexible_body(
     angular_velocity: Sequence[float] = (0.0, 0.0, 0.0),
     gravity: Sequence[float] = (0.0, 0.0, 0.0),
     damping_ratio: float = 0.02,
-    rotation_parameters: str = "euler_parameters",
     initial_modes: ArrayLike | None = None,
     initial_modes_t: ArrayLike | None = None,
     points: Mapping[str, tuple[str, Sequence[float]]] | None = None,
-    color: Sequence[float] = (0.45, 0.55, 0.65, 1.0),
     name: str = "",
 ) -> FlexibleBody:
     """Add a reduced part to an Exudyn MainSystem.
@@ -133,35 +126,29 @@ def add_flexible_body(
         angular_velocity: global components, (3,), rad/s.
         gravity: (3,), m/s^2; zero adds no load.
         damping_ratio: of critical, the same for every mode.
-        rotation_parameters: "euler_parameters" or "rotation_vector".
         initial_modes: (n,) modal coordinates at the start, sqrt(kg) m.
         initial_modes_t: (n,) their rates.
         points: name -> (face, position (3,) in the body frame, m): points that move with the mean
             motion of a face, for `add_point_marker`.
-        color: red, green, blue, opacity, 0 to 1.
         name: of the object; its nodes become "<name> frame" and "<name> modes".
 
     Raises:
-        InputError: unknown rotation parameters, a damping ratio outside 0 to 1, a face that the
-            part does not have, or initial values of a wrong shape.
+        InputError: a damping ratio outside 0 to 1, a face that the part does not have, or initial
+            values of a wrong shape.
     """
-    if rotation_parameters not in ROTATIONS:
-        raise InputError(
-            f"rotation_parameters = {rotation_parameters!r}: must be one of {', '.join(ROTATIONS)}"
-        )
     damping = reduced.damping_matrix(damping_ratio)
     start, start_t = _start(reduced, initial_modes), _start(reduced, initial_modes_t)
     node_item = GetRigidBodyNode(
-        nodeType=ROTATIONS[rotation_parameters],
+        nodeType=exu.NodeType.RotationEulerParameters,
         position=list(position),
         velocity=list(velocity),
-        rotationParameters=_parameters(rotation, rotation_parameters),
+        rotationParameters=_euler_parameters(rotation),
         angularVelocity=list(angular_velocity),
     )
     node_item.name = f"{name} frame" if name else ""
     node = int(mbs.AddNode(node_item))
     if reduced.mode_count == 0:
-        rigid = _add_rigid(mbs, reduced, node, color, name)
+        rigid = _add_rigid(mbs, reduced, node, name)
         positions = {point: position for point, (_, position) in (points or {}).items()}
         body = FlexibleBody(reduced, rigid, node, None, {}, {}, positions)
     else:
@@ -176,26 +163,27 @@ def add_flexible_body(
                 )
             )
         )
-        body = _add_flexible(mbs, reduced, (node, modes_node), damping, points or {}, color, name)
+        body = _add_flexible(mbs, reduced, (node, modes_node), damping, points or {}, name)
     if any(gravity):
         carrier = mbs.AddMarker(MarkerBodyMass(bodyNumber=body.object_number))
         mbs.AddLoad(LoadMassProportional(markerNumber=carrier, loadVector=list(gravity)))
     return body
 
 
-def _parameters(rotation: ArrayLike | None, kind: str) -> list[float]:
-    """Return the rotation parameters; Exudyn's own are 1e-8 off within 1e-8 of half a turn."""
+def _euler_parameters(rotation: ArrayLike | None) -> list[float]:
+    """Return Euler parameters; Exudyn's own are 1e-8 off within 1e-8 of half a turn.
+
+    With Tait-Bryan angles, which Exudyn 1.13.6 takes, a free spinning body loses 4 % of its energy.
+    """
     turned = Rotation.from_matrix(np.eye(3) if rotation is None else np.asarray(rotation))
-    if kind == "rotation_vector":
-        return [float(value) for value in turned.as_rotvec()]
     x, y, z, e = (float(value) for value in turned.as_quat())
     return [e, x, y, z]
 
 
-def _add_rigid(mbs: Any, reduced: ReducedPart, node: int, color: Sequence[float], name: str) -> int:
+def _add_rigid(mbs: Any, reduced: ReducedPart, node: int, name: str) -> int:
     """Add the part as a rigid body, its reference point the frame's origin."""
     j = reduced.inertia
-    graphics = FromPointsAndTrigs(reduced.nodes, reduced.triangles, color=list(color))
+    graphics = FromPointsAndTrigs(reduced.nodes, reduced.triangles, color=list(COLOUR))
     item = ObjectRigidBody(
         name=name,
         nodeNumber=node,
@@ -213,7 +201,6 @@ def _add_flexible(
     nodes: tuple[int, int],
     damping: NDArray[np.float64],
     points: Mapping[str, tuple[str, Sequence[float]]],
-    color: Sequence[float],
     name: str,
 ) -> FlexibleBody:
     """Add the part with its modes; mesh nodes: the surface, then three for each interface."""
@@ -248,7 +235,7 @@ def _add_flexible(
         centerOfMass=list(reduced.centre_of_mass),
         computeFFRFterms=True,
         visualization=VObjectFFRFreducedOrder(
-            triangleMesh=reduced.triangles, color=list(color), showNodes=False
+            triangleMesh=reduced.triangles, color=list(COLOUR), showNodes=False
         ),
         **terms,
     )

@@ -9,13 +9,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import IO
 
-__all__ = ["TemporaryFolder", "remove_abandoned", "remove_partial_files", "replacing"]
+__all__ = ["TemporaryFolder", "remove_abandoned", "replacing"]
 
 BEGINNING = "exu_press_temporary_"
 """Of the folders' names."""
-
-PARTIAL = ".part"
-"""Ending of files that are being written; their process keeps them locked."""
 
 LOCK = ".lock"
 """File in a folder that its process keeps locked; the system frees it, however the process ends."""
@@ -26,14 +23,16 @@ class TemporaryFolder:
 
     _lock: int
 
-    def __init__(self) -> None:
-        """Create it, and remove the folders of killed processes.
+    def __init__(self, parent: Path | None = None) -> None:
+        """Create it in a folder, that of temporary ones by default; remove what was left there.
 
         Raises:
             OSError: it cannot be created.
         """
-        remove_abandoned()
-        self._folder = tempfile.TemporaryDirectory(prefix=BEGINNING, ignore_cleanup_errors=True)
+        remove_abandoned(parent)
+        self._folder = tempfile.TemporaryDirectory(
+            prefix=BEGINNING, dir=parent, ignore_cleanup_errors=True
+        )
         self.path = Path(self._folder.name)
         if sys.platform == "win32":
             return
@@ -59,10 +58,10 @@ class TemporaryFolder:
             os.close(self._lock)
 
 
-def remove_abandoned() -> None:
-    """Remove the folders of killed processes."""
+def remove_abandoned(parent: Path | None = None) -> None:
+    """Remove what killed processes have left in a folder, that of temporary ones by default."""
     with contextlib.suppress(OSError):  # no folder for temporary ones, or none that can be read
-        for folder in Path(tempfile.gettempdir()).glob(f"{BEGINNING}*"):
+        for folder in (parent or Path(tempfile.gettempdir())).glob(f"{BEGINNING}*"):
             _remove_abandoned(folder)
 
 
@@ -84,29 +83,11 @@ def replacing(file: Path) -> Iterator[IO[bytes]]:
     Raises:
         OSError: it cannot be written.
     """
-    handle, name = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=f"{PARTIAL}.new")
-    partial = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            _lock(handle)
-            partial = partial.rename(partial.with_suffix(""))  # locked when others see it
+    with TemporaryFolder(file.parent) as folder:
+        partial = folder / file.name
+        with partial.open("wb") as stream:
             yield stream
         partial.replace(file)
-    except BaseException:
-        partial.unlink(missing_ok=True)
-        raise
-
-
-def remove_partial_files(folder: Path) -> None:
-    """Remove the files of a folder that killed processes have left half written."""
-    for file in folder.glob(f".*{PARTIAL}"):
-        with contextlib.suppress(OSError):  # a link, or a file of another user
-            lock = os.open(file, os.O_RDWR | getattr(os, "O_NOFOLLOW", 0))
-            try:
-                if _lock(lock):
-                    file.unlink()
-            finally:
-                os.close(lock)
 
 
 def _lock(file: int) -> bool:

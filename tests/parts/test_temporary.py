@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from exu_press.cli import main
-from fe_models.temporary import TemporaryFolder, remove_partial_files, replacing
+from fe_models.temporary import TemporaryFolder, remove_abandoned, replacing
 
 
 @pytest.fixture(autouse=True)
@@ -86,14 +86,13 @@ def test_a_half_written_file_goes_at_the_next_write_and_one_in_writing_stays(bas
         [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )
     process.stdout.readline()
-    remove_partial_files(base)
-    (partial,) = base.glob(".*.part")  # its process lives
+    remove_abandoned(base)
+    (partial,) = base.glob("*/part.npz")  # its process lives
     process.send_signal(signal.SIGKILL)
     process.communicate()
     assert partial.read_bytes() == b"half"
-    (base / ".mine.part").symlink_to(base / "precious")
-    remove_partial_files(base)
-    assert [file.name for file in base.iterdir()] == [".mine.part"]
+    remove_abandoned(base)
+    assert not list(base.iterdir())
 
 
 def test_a_file_replaces_another_one_whole_or_not_at_all(base):

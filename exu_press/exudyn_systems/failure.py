@@ -7,6 +7,7 @@ import numpy as np
 
 from exu_press.exudyn_systems.difference import STEPS_IN_PERIOD, common
 from exu_press.exudyn_systems.refine import Refinement
+from exu_press.numerics.arrays import Array
 from exu_press.numerics.convergence import ORDER, PLAUSIBLE
 from exu_press.verification.growth import growth
 
@@ -20,12 +21,16 @@ GROWN = 1e3  # growth of differences in a run from which on the motion amplifies
 
 def agreed_until(refinement: Refinement) -> float:
     """Return the time up to which the last two levels agree within the tolerance, s."""
-    coarser, finer = refinement.levels[-2:]
-    above = np.flatnonzero(
-        refinement.differences(coarser, finer).max(axis=1) > refinement.tolerance
-    )
-    times = coarser.samples.times[common(coarser.samples, finer.samples)[0]]
+    times, apart = _distance(refinement)
+    above = np.flatnonzero(apart > refinement.tolerance)
     return float(times[max(above[0] - 1, 0)] if len(above) else times[-1])
+
+
+def _distance(refinement: Refinement) -> tuple[Array, Array]:
+    """Return instants, s, and the largest difference of the last two levels there."""
+    coarser, finer = refinement.levels[-2:]
+    times = coarser.samples.times[common(coarser.samples, finer.samples)[0]]
+    return times, refinement.differences(coarser, finer).max(axis=1)
 
 
 def why_not_converged(refinement: Refinement) -> str:
@@ -39,11 +44,7 @@ def why_not_converged(refinement: Refinement) -> str:
             f"steps), at the latest at {latest.end:.4g} s: {latest.failure}"
         )
     if len(levels) < 2:
-        latest = refinement.failures[-1]
-        return (
-            f"the level of {latest.steps} steps got to {latest.end:.4g} s; "
-            f"{_small_budget(refinement, LEVELS, 4 * latest.steps)}"
-        )
+        return _small_budget(refinement, LEVELS, 4 * refinement.failures[-1].steps)
     worst = int(refinement.differences(*levels[-2:]).max(axis=0).argmax())
     pairs = [(refinement.differences(*pair), *pair) for pair in itertools.pairwise(levels[-3:])]
     last = [f"{d[:, worst].max():.2g} from {a.steps} to {b.steps} steps" for d, a, b in pairs]
@@ -57,7 +58,7 @@ def why_not_converged(refinement: Refinement) -> str:
 
 def _cause(refinement: Refinement) -> str:
     """Return why differences are above the tolerance, and what would do."""
-    (coarser, finest), judgement = refinement.levels[-2:], refinement.judgement
+    finest, judgement = refinement.levels[-1], refinement.judgement
     too_long = refinement.excess(finest)
     if refinement.remembers:
         return (
@@ -65,8 +66,7 @@ def _cause(refinement: Refinement) -> str:
             "draws numbers; pass a function that builds the system"
         )
     if judgement is not None and not judgement.decided and judgement.order < PLAUSIBLE[0]:
-        times = coarser.samples.times[common(coarser.samples, finest.samples)[0]]
-        apart = refinement.differences(coarser, finest).max(axis=1)
+        times, apart = _distance(refinement)
         rate = growth(times, apart, APART).rate or 0.0
         logs = np.log(np.maximum.accumulate(np.clip(apart, SMALL, APART)))
         window = max(len(logs) // 20, 1)  # a switch makes differences within it

@@ -3,8 +3,8 @@
 import sys
 import threading
 import time as clock
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.exudyn_systems.samples import MOST_SAMPLES, Samples, Variables
+from exu_press.integrate.task import set_meanwhile
 from fe_models.processes import Child, ChildError, may_copy
 
 __all__ = ["OUT_OF_TIME", "Level", "Levels"]
@@ -49,7 +50,6 @@ class Levels:
     samples: int  # the least number of them, of which each number of steps is a multiple
     max_time: float  # of all levels together, s
     build: Callable[[], exu.MainSystem] | None  # for each level; None: copies of the process
-    update: bool  # whether the next run starts where the last level ends
     begun: float = field(default_factory=clock.monotonic)
     touched: bool = False  # whether the system has been run
     spares: list[Child] = field(default_factory=list)  # from before that, if the last level misses
@@ -103,7 +103,7 @@ class Levels:
         with _constant_steps(self.settings, steps, alone=alone):
             system.SetPostStepUserFunction(sample)
             try:
-                system.SolveDynamic(self.settings, updateInitialValues=self.update and not alone)
+                system.SolveDynamic(self.settings)
             except exu.SolverError:
                 text = str(system.sys["dynamicSolver"].GetErrorString()).strip()
                 failure = failure or (text or "Newton's method did not converge").splitlines()[0]
@@ -138,8 +138,9 @@ class Levels:
                 )
 
 
-@contextmanager
-def _constant_steps(settings: exu.SimulationSettings, steps: int, *, alone: bool) -> Iterator[None]:
+def _constant_steps(
+    settings: exu.SimulationSettings, steps: int, *, alone: bool
+) -> AbstractContextManager[None]:
     """Set what a level needs in Exudyn's settings, and put everything back."""
     integration, output = settings.timeIntegration, settings.solution
     values: list[tuple[Any, str, Any]] = [(integration, "numberOfSteps", steps)]
@@ -149,11 +150,4 @@ def _constant_steps(settings: exu.SimulationSettings, steps: int, *, alone: bool
         values += [(owner, "write", False) for owner in (output.file, output.restart)]
         values += [(owner, "active", False) for owner in (output.sensors, integration.realtime)]
         values += [(output, "recordImagesInterval", -1.0), (exu.config, "printToConsole", False)]
-    original = [(owner, name, getattr(owner, name)) for owner, name, _ in values]
-    try:
-        for owner, name, value in values:
-            setattr(owner, name, value)
-        yield
-    finally:
-        for owner, name, value in original:
-            setattr(owner, name, value)
+    return set_meanwhile(values)

@@ -17,12 +17,12 @@ from exu_press.exudyn_systems.refine import Refinement, grid
 from exu_press.exudyn_systems.samples import Variables
 from exu_press.integrate import Outcome, RunError, SolverStatus
 from exu_press.integrate import solve_dynamic as solve_adaptively
+from exu_press.integrate.task import TOLERANCES
 from exu_press.joints import holds_joints
 
 __all__ = ["RefinedOutcome", "solve_dynamic"]
 
 BUDGET = 40, 1_000_000  # steps of all levels: over the user's own number, and at least
-TOLERANCES = 1e-8, 0.1  # between these a tolerance means something
 IMPLICIT = "GeneralizedAlpha", "TrapezoidalIndex2"  # exudyn's implicit solvers
 
 
@@ -43,7 +43,6 @@ def solve_dynamic(
     method: Literal["refine", "adaptive"] | None = None,
     max_steps: int | None = None,
     max_time: float = math.inf,
-    update_initial_values: bool = False,
     **adaptive: Any,
 ) -> Outcome:
     """Do what `mbs.SolveDynamic(settings)` does, with a tolerance instead of a step.
@@ -78,7 +77,6 @@ def solve_dynamic(
         max_steps: of all levels together; None: 1e6, and in a refinement at least 40 times the
             settings' `numberOfSteps`.
         max_time: elapsed time of a refinement, s.
-        update_initial_values: whether the next run starts where this one ends.
         adaptive: what else error-controlled steps take.
 
     Returns:
@@ -98,9 +96,8 @@ def solve_dynamic(
     if method == "adaptive" or (method is None and holds_joints(mbs)):
         if max_time < math.inf:
             raise InputError("max_time: allowed with refinement")
-        adaptive |= {"errors": errors, "update_initial_values": update_initial_values}
         adaptive |= {} if max_steps is None else {"max_steps": max_steps}
-        return solve_adaptively(mbs, settings, tolerance=tolerance, **adaptive)
+        return solve_adaptively(mbs, settings, tolerance=tolerance, errors=errors, **adaptive)
     if adaptive:
         raise InputError(
             f"{', '.join(adaptive)}: allowed with error-controlled steps, which a system with "
@@ -111,7 +108,7 @@ def solve_dynamic(
     users, duration = int(integration.numberOfSteps), integration.endTime - integration.startTime
     rows = max(1, round(duration / (settings.solution.sensors.writePeriod or math.inf)))
     coarsest, count = grid(users, rows)
-    runs = Levels(mbs, settings, count, max_time, build, update_initial_values)
+    runs = Levels(mbs, settings, count, max_time, build)
     if build is None:
         runs.refuse_copy()
     budget = max(BUDGET[0] * users, BUDGET[1]) if max_steps is None else max_steps

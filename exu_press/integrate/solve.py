@@ -3,9 +3,8 @@
 import math
 import time as clock
 import warnings
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, nullcontext
-from typing import Any
+from collections.abc import Callable, Mapping
+from contextlib import nullcontext
 
 import exudyn as exu
 
@@ -47,7 +46,6 @@ def solve_dynamic(
     bodies: Mapping[int, tuple[str, float]] | None = None,
     advice: Callable[[System, bool], Advice] = Advice,
     max_steps: int = 1_000_000,
-    update_initial_values: bool = False,
     errors: bool = False,
     quiet: bool = True,
 ) -> Outcome:
@@ -86,8 +84,6 @@ def solve_dynamic(
             excluded from errors. None: none is.
         advice: makes the words for early stops.
         max_steps: a run that would need more, repeated ones too, stops.
-        update_initial_values: whether the next run starts where this one ends, as Exudyn's
-            `updateInitialValues`.
         errors: whether the outcome has the run's error: its difference from a run with a quarter of
             the tolerance, which a copy of this process does meanwhile (on Linux). A warning tells
             of errors above ten tolerances. Files that user functions write are written twice.
@@ -141,8 +137,6 @@ def solve_dynamic(
         outcome = with_error(run, system, settings, tolerance, watch, max_steps, quiet)
     else:
         outcome, _ = run(tolerance, watch, max_steps, quiet)
-    if update_initial_values:
-        _update_initial_values(mbs)
     messages.extend(words.about_outcome(outcome))
     for message in messages:
         warnings.warn(f"solve_dynamic: {message}", stacklevel=2)
@@ -170,7 +164,6 @@ def _run(
     with (
         monitor.attach(),
         prepared_settings(settings, task),
-        _silent_console(),
         one_thread() if system.equations > FEW else nullcontext(),
     ):
         try:
@@ -196,22 +189,3 @@ def _run(
         newton_iterations=solver.it.newtonStepsCount,
         law_evaluations=system.joints.evaluations if system.joints else 0,
     )
-
-
-def _update_initial_values(mbs: exu.MainSystem) -> None:
-    """Make the current state the one from which the next run starts."""
-    data: Any = mbs.systemData
-    initial = exu.ConfigurationType.Initial
-    data.SetSystemState(systemStateList=data.GetSystemState(), configuration=initial)
-    data.SetODE2Coordinates_tt(coordinates=data.GetODE2Coordinates_tt(), configuration=initial)
-
-
-@contextmanager
-def _silent_console() -> Iterator[None]:
-    """Keep Exudyn's own messages off the console; the outcome says what happened."""
-    printed = exu.config.printToConsole
-    exu.config.printToConsole = False
-    try:
-        yield
-    finally:
-        exu.config.printToConsole = printed

@@ -5,8 +5,8 @@ what each of them buys in error and run time. Exudyn's settings are put back aft
 """
 
 import math
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +16,16 @@ from exu_press.errors import InputError
 from exu_press.integrate.scales import ErrorScales, RunningScales
 from exu_press.integrate.system import System
 
-__all__ = ["SAME", "SolverTuning", "Task", "inertia_factor", "prepared_settings", "refuse_unusable"]
+__all__ = [
+    "SAME",
+    "TOLERANCES",
+    "SolverTuning",
+    "Task",
+    "inertia_factor",
+    "prepared_settings",
+    "refuse_unusable",
+    "set_meanwhile",
+]
 
 SAME = 1e-6
 """Steps that differ by less, relative, are one size: the clock's last digits."""
@@ -235,8 +244,20 @@ def refuse_unusable(
 
 
 @contextmanager
-def prepared_settings(settings: exu.SimulationSettings, task: Task) -> Iterator[None]:
-    """Set what step control needs in Exudyn's settings, and put everything back.
+def set_meanwhile(values: Sequence[tuple[Any, str, Any]]) -> Iterator[None]:
+    """Give attributes of objects other values, as (owner, name, value), and put them back."""
+    original = [(owner, name, getattr(owner, name)) for owner, name, _ in values]
+    try:
+        for owner, name, value in values:
+            setattr(owner, name, value)
+        yield
+    finally:
+        for owner, name, value in original:
+            setattr(owner, name, value)
+
+
+def prepared_settings(settings: exu.SimulationSettings, task: Task) -> AbstractContextManager[None]:
+    """Set what step control needs in Exudyn's settings; the outcome has its messages.
 
     One Jacobian a step: with Exudyn's default (one as long as it seems to converge) dry contact
     drifts by 4 % at 1e-4 s; one an iteration costs more than the iterations it saves. A contact of
@@ -262,14 +283,8 @@ def prepared_settings(settings: exu.SimulationSettings, task: Task) -> Iterator[
         (integration, "minimumStepSize", task.smallest),
         (integration, "adaptiveStepRecoverySteps", 2**30),  # growth is decided in `stepping`
         (integration, "verboseMode", 0),
+        (exu.config, "printToConsole", False),
     ]
     if linear.solverType == exu.LinearSolverType.EXUdense:
         needed.append((linear, "solverType", exu.LinearSolverType.EigenDense))
-    original = [(owner, name, getattr(owner, name)) for owner, name, _ in needed]
-    try:
-        for owner, name, value in needed:
-            setattr(owner, name, value)
-        yield
-    finally:
-        for owner, name, value in original:
-            setattr(owner, name, value)
+    return set_meanwhile(needed)

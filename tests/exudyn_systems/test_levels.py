@@ -88,15 +88,6 @@ def test_settings_and_functions_are_put_back():
     assert calls[-1] == 7.0
 
 
-def test_the_next_run_starts_where_this_one_ends():
-    mbs, _, _ = oscillator()
-    for _ in range(2):
-        outcome = solve_dynamic(mbs, settings(1.0, 100), update_initial_values=True)
-        assert outcome.status is SolverStatus.COMPLETED
-    (place,) = mbs.systemData.GetODE2Coordinates()
-    assert place == pytest.approx(np.cos(20.0), abs=2e-3)
-
-
 def test_an_error_in_a_function_is_raised():
     mbs, _, _ = oscillator()
     mbs.SetPreStepUserFunction(lambda mbs, time: 1 / 0)

@@ -4,15 +4,12 @@ import gc
 import os
 import queue
 import shlex
-import threading
-import time
 import warnings
-from collections import deque
 from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from functools import partial
-from heapq import heapify, heapreplace
 from itertools import zip_longest
 
 from exu_press.files.command import command_line, executing
@@ -81,16 +78,26 @@ def simulate_side_by_side(
         return
     results: dict[str, dict[float, Result | ChildError]] = {label: {} for label in scenes}
     expected = {label: sum(run.label == label for run in runs) for label in scenes}
+    total = sum(run.cost for run in runs)
     with (
-        _Cores(runs, min(os.cpu_count() or 1, len(runs))) as cores,
+        _Cores(min(os.cpu_count() or 1, len(runs))) as cores,
         Progress("compare", len(runs), "runs", quiet=quiet) as progress,
     ):
-        for _ in runs:
-            run, outcome = cores.next_outcome(lambda: _show(progress, cores, len(runs)))
-            _show(progress, cores, len(runs))
-            results[run.label][run.ratio] = outcome
-            if len(results[run.label]) == expected[run.label]:
-                yield run.label, _result_with_errors(results.pop(run.label), errors)
+        waiting = {cores.submit(run): run for run in runs}
+        while waiting:
+            ended, _ = wait(waiting, SECONDS_BETWEEN_UPDATES, return_when=FIRST_COMPLETED)
+            labels = dict.fromkeys(run.label for run, _ in list(cores.under_way.values()))
+            progress.label = ", ".join(labels) or progress.label
+            progress.update(len(runs) * cores.cost_done() / total)
+            for future in ended:
+                run, error = waiting.pop(future), future.exception()
+                if error is not None and not (
+                    isinstance(error, ChildError) and run.ratio != ITSELF
+                ):
+                    raise error
+                results[run.label][run.ratio] = future.result() if error is None else error
+                if len(results[run.label]) == expected[run.label]:
+                    yield run.label, _result_with_errors(results.pop(run.label), errors)
 
 
 def perform_run(
@@ -115,97 +122,56 @@ class _Cores(AbstractContextManager["_Cores", None]):
     """Processes that do runs, each looked after by a thread; a context manager that ends them.
 
     Attributes:
-        under_way: core -> its run, the share of it that is done, and when it began, s.
-        done: expected time of the runs that are done.
-        spent: time of the cores on them, s.
+        under_way: core -> its run, and the share of it that is done.
     """
 
-    def __init__(self, runs: list[Run], count: int) -> None:
-        self.under_way: dict[int, tuple[Run, float, float]] = {}
-        self.done = self.spent = self._largest_share = 0.0
-        self._begin = time.monotonic()
+    def __init__(self, count: int) -> None:
+        self.under_way: dict[int, tuple[Run, float]] = {}
+        self._done = 0.0
         self._command = command_line()
-        self._waiting = deque(runs)
-        self._outcomes: queue.SimpleQueue[tuple[Run, Result | Exception, float]] = (
-            queue.SimpleQueue()
-        )
+        self._idle: queue.SimpleQueue[int] = queue.SimpleQueue()
         self._children: list[Child] = []
-        self._threads: list[threading.Thread] = []
+        self._threads = ThreadPoolExecutor(count)
         function = perform_run if may_copy() else f"{__name__}:{perform_run.__name__}"
         try:
             for core in range(count):  # before any thread: copies have none
                 progress = partial(self._report, core)
                 self._children.append(Child(function, one_thread=True, progress=progress))
+                self._idle.put(core)
         except BaseException:
             self.__exit__()
             raise
-        for core, child in enumerate(self._children):
-            thread = threading.Thread(target=self._work, args=(core, child), daemon=True)
-            self._threads.append(thread)
-            thread.start()
 
     def __exit__(self, *_: object) -> None:
         for child in self._children:
             child.kill()
-        for thread in self._threads:
-            thread.join()
+        self._threads.shutdown(cancel_futures=True)
         for child in self._children:
             child.end()
         remove_abandoned()  # of children that were killed as they wrote
 
-    def next_outcome(self, show: Callable[[], None]) -> tuple[Run, Result | ChildError]:
-        """Return the next run that is done; `show` is called while none is."""
-        while True:
-            try:
-                run, outcome, spent = self._outcomes.get(timeout=SECONDS_BETWEEN_UPDATES)
-            except queue.Empty:
-                show()
-                continue
-            self.done, self.spent = self.done + run.cost, self.spent + spent
-            if isinstance(outcome, Result) or (
-                isinstance(outcome, ChildError) and run.ratio != ITSELF
-            ):
-                return run, outcome
-            raise outcome
+    def submit(self, run: Run) -> "Future[Result]":
+        """Return the future result of a run; runs begin in the order in which they come."""
+        return self._threads.submit(self._perform, run)
 
-    def share_passed(self) -> float:
-        """Return the share of the time until all runs are done that has passed; it never falls.
-
-        Runs that wait go to the core that is free first: at the end one core may work alone.
-        """
-        now, running = time.monotonic(), list(self.under_way.values())
-        done = self.done + sum(run.cost * share for run, share, _ in running)
-        if done > 0.0:
-            spent = self.spent + sum(now - begin for *_, begin in running)
-            busy = [run.cost * (1.0 - share) for run, share, _ in running] or [0.0]
-            heapify(busy)
-            for run in list(self._waiting):
-                heapreplace(busy, busy[0] + run.cost)
-            passed, to_come = now - self._begin, max(busy) * spent / done
-            self._largest_share = max(self._largest_share, passed / (passed + to_come))
-        return self._largest_share
+    def cost_done(self) -> float:
+        """Return the cost of what is done of all runs."""
+        return self._done + sum(run.cost * share for run, share in list(self.under_way.values()))
 
     def _report(self, core: int, share: float) -> None:
-        if core in self.under_way:
-            run, _, begin = self.under_way[core]
-            self.under_way[core] = run, share, begin
+        self.under_way[core] = self.under_way[core][0], share
 
-    def _work(self, core: int, child: Child) -> None:
-        """Do runs until none waits."""
-        while True:
-            try:
-                run = self._waiting.popleft()
-            except IndexError:
-                return
-            begin = time.monotonic()
-            self.under_way[core] = run, 0.0, begin
-            try:
-                child.request(run.scene, run.with_errors, self._command)
-                outcome: Result | Exception = child.answer()
-            except Exception as error:
-                outcome = error
+    def _perform(self, run: Run) -> Result:
+        core = self._idle.get()
+        self.under_way[core] = run, 0.0
+        try:
+            self._children[core].request(run.scene, run.with_errors, self._command)
+            result: Result = self._children[core].answer()
+            return result
+        finally:
             del self.under_way[core]
-            self._outcomes.put((run, outcome, time.monotonic() - begin))
+            self._done += run.cost
+            self._idle.put(core)
 
 
 def _runs(label: str, scene: Scene, errors: bool) -> Iterator[Run]:
@@ -234,12 +200,6 @@ def _in_order_of_time(runs: list[Run]) -> list[Run]:
     rigid = [run for run in longest if not run.scene.bodies]
     pairs = zip_longest(flexible, rigid)
     return [run for pair in pairs for run in pair if run is not None]
-
-
-def _show(progress: Progress, cores: _Cores, count: int) -> None:
-    labels = dict.fromkeys(run.label for run, *_ in list(cores.under_way.values()))
-    progress.label = ", ".join(labels) or progress.label
-    progress.update(count * cores.share_passed())
 
 
 def _result_with_errors(outcomes: dict[float, Result | ChildError], errors: bool) -> Result:

@@ -123,7 +123,7 @@ class Curves {
 
   // Make the panels as high as the window has room for.
   fit() {
-    const room = (innerHeight - 190) / Math.max(this.shown.length, 1) - 36;
+    const room = (innerHeight - 230) / Math.max(this.shown.length, 1) - 36;
     const height = Math.round(Math.min(Math.max(room, 100), 190));
     for (const panel of this.panels) if (!panel.strip) panel.figure.height = height;
   }

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from exu_press.laws.film import grooved_table, grooves
+from exu_press.laws.film import cavitation, grooved_table, grooves
 from exu_press.laws.film.grooves import Groove, GroovedBearing
 from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import COMPLETED, task_of
@@ -103,7 +103,7 @@ def _made_table(bearing: GroovedBearing, module: ModuleType) -> Array:
 def _digest(bearing: GroovedBearing, module: ModuleType) -> str:
     """Return a digest of all that determines a table."""
     digest = hashlib.sha256()
-    for source in dict.fromkeys((grooves, grooved_table, module)):
+    for source in dict.fromkeys((cavitation, grooves, grooved_table, module)):
         digest.update(Path(str(source.__file__)).with_suffix(".py").read_bytes())
     versions = {package: version(package) for package in ("numpy", "scipy")}
     digest.update(json.dumps([asdict(bearing), versions], sort_keys=True).encode())

@@ -132,9 +132,9 @@ def _responses(
 ) -> list[tuple[float, float, float]]:
     """Return ln E, m and the side flow's share at a place, for each pair of speeds."""
     s = math.sqrt((1.0 - eps) * (1.0 + eps))
-    state, wet, responses = GroovedFilmState(bearing, eps, angle, cells), None, []
+    state, guess, responses = GroovedFilmState(bearing, eps, angle, cells), None, []
     for u, v in speeds:
-        f_r, f_t, flow, _, wet = state.solve(v, u, wet)
+        f_r, f_t, flow, _, guess = state.solve(v, u, guess=guess)
         power, b = f_t * u - f_r * v, s * u
         ln_e, m = math.log(power / (v * v + b * b)), (-f_r * b - f_t * v / s) / power
         responses.append((ln_e, m, 0.5 * flow))

@@ -2,14 +2,14 @@
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.linalg import solveh_banded  # type: ignore[import-untyped,unused-ignore]
 
 from exu_press.errors import InputError
+from exu_press.laws.film.cavitation import FilmMatrix, Pressures
 from exu_press.numerics.arrays import Array
 
 __all__ = ["FilmFlow", "Groove", "GroovedBearing", "GroovedFilmState", "solve_grooved"]
@@ -22,15 +22,11 @@ MOST_ALIKE = 12
 NARROWEST = math.radians(1.0)
 """Least bearing between two grooves, rad: less is not resolved."""
 
-Mask = NDArray[np.bool_]
-
 ROUNDING = 1e-9
 """Part of a cell's source by which its flow may be short before the cell counts as wet."""
 
 FAINT = 1e-3
 """Part of the supply pressure whose flow through a cell counts like its source for `ROUNDING`."""
-
-ITERATIONS = 100
 
 
 class FilmFlow(NamedTuple):
@@ -41,14 +37,14 @@ class FilmFlow(NamedTuple):
         side_flow: out of both ends, over L R c, 1/s.
         feed: out of the grooves, each by its pressure over the largest, over L R c, 1/s. Times the
             largest pressure it is the power of the pump.
-        unbroken: where the film is, (n, m).
+        pressures: of each speed and the supply alone, where the film is unbroken.
     """
 
     f_r: float
     f_t: float
     side_flow: float
     feed: float
-    unbroken: Mask
+    pressures: Pressures
 
 
 @dataclass(frozen=True)
@@ -124,8 +120,8 @@ class GroovedBearing:
 
     @property
     def mirror_axis(self) -> float | None:
-        """Angle of an axis about which grooves under pressure are symmetric, rad, or None."""
-        if not self.is_pressurized or not self.period:
+        """Angle of an axis about which the grooves are symmetric, rad, or None."""
+        if not self.period:
             return None
         middles = (0.5 * (a.angle + b.angle) for a in self.grooves for b in self.grooves)
         mirrored = (
@@ -214,83 +210,59 @@ class GroovedFilmState:
         gap_face = 1.0 - eps * np.cos(self._local + 0.5 * d_theta)
         gap = 1.0 - eps * np.cos(self._local)
         ratio = bearing.length_to_diameter
-        self._around = np.outer(gap_face**3 / d_theta, self._w_zeta)  # to the next one around
-        self._along = np.outer(gap**3 * self._w_theta, 1.0 / (ratio**2 * d_zeta))
-        self._diagonal = self._around + np.roll(self._around, 1, axis=0) + self._along
-        self._diagonal[:, 1:] += self._along[:, :-1]
-        self._share = _groove_pressures(bearing, theta, zeta[:-1])
-        self._groove = ~np.isnan(self._share)
-        self._share[~self._groove] = 0.0
-        self._into = -self._net(self._share)  # of the lands' cells, from the grooves
-        self._is_pressurized = bearing.is_pressurized
-        self._number_unknowns()
-
-    def _number_unknowns(self) -> None:
-        """Order the unknowns so that the matrix is a narrow band.
-
-        The circle is cut at a groove that is as long as the bearing, else folded.
-        """
-        n, m = self._around.shape
-        whole = np.flatnonzero(self._groove.all(axis=1))
-        column = np.empty(n, dtype=int)
-        if len(whole):
-            column[np.roll(np.arange(n), -whole[0])] = np.arange(n)
-        else:
-            column[np.arange((n + 1) // 2)] = np.arange(0, n, 2)
-            column[np.arange(n - 1, (n + 1) // 2 - 1, -1)] = np.arange(1, n, 2)
-        self._number = column[:, None] * m + np.arange(m)
-        following = np.roll(self._number, -1, axis=0)
-        apart = np.abs(self._number - following)
-        linked = ~(self._groove | np.roll(self._groove, -1, axis=0))
-        self._width = int(apart[linked].max(initial=1))
-        apart[~linked] = 0  # no link: of grooves
-        self._linked = linked
-        self._band_index = apart * (n * m) + np.minimum(self._number, following)
+        around = np.outer(gap_face**3 / d_theta, self._w_zeta)  # to the next one around
+        along = np.outer(gap**3 * self._w_theta, 1.0 / (ratio**2 * d_zeta))
+        diagonal = around + np.roll(around, 1, axis=0) + along
+        diagonal[:, 1:] += along[:, :-1]
+        self._matrix, self._to_end = FilmMatrix(around, along[:, :-1], diagonal), along[:, -1]
+        share = _groove_pressures(bearing, theta, zeta[:-1]).ravel()
+        self._land = np.isnan(share)
+        self._share = np.where(self._land, 0.0, share)
+        shapes = np.stack([np.cos(self._local), -np.sin(self._local)]) * self._w_theta
+        self._sources = (shapes[:, :, None] * self._w_zeta).reshape(2, -1)
+        if bearing.is_pressurized:
+            self._sources = np.stack([*self._sources, -self._matrix.net(self._share)])
 
     def solve(
-        self, eps_dot: float, half_w: float, wet: Mask | None = None, supply: float = 0.0
+        self,
+        eps_dot: float,
+        half_w: float,
+        supply: float = 0.0,
+        guess: Pressures | None = None,
     ) -> FilmFlow:
         """Return force and flows of a velocity, and where the film is unbroken.
 
         Args:
             eps_dot: d eps/dt, 1/s.
             half_w: eps W / 2, 1/s.
-            wet: (n, m), a guess of where the film is unbroken.
             supply: largest pressure of the grooves, over 12 mu R^2 / c^2, 1/s.
+            guess: pressures of another velocity.
         """
-        source = self._source(eps_dot, half_w)
-        driven = source + supply * self._into
-        if wet is None:  # a pressure fills the film; cell by cell that would take long
-            wet = source > 0.0 if supply == 0.0 else np.ones_like(self._groove)
-        unbroken = wet & ~self._groove
-        rounding = ROUNDING * (np.abs(source) + supply * FAINT * self._diagonal)
-        for _ in range(ITERATIONS):
-            p = self._pressure(driven, unbroken) + supply * self._share
-            short = self._net(p) - source
-            now = np.where(unbroken, p > 0.0, short < -rounding) & ~self._groove
-            if np.array_equal(now, unbroken):
-                return FilmFlow(*self._loads(p), float((self._share * short).sum()), unbroken)
-            unbroken = now
-        raise RuntimeError(f"the cavitated set did not settle in {ITERATIONS} iterations")
+        speeds = np.array([eps_dot, half_w, supply])[: len(self._sources)]
+        source = speeds[:2] @ self._sources[:2]
+        if guess is None:  # a pressure fills the film; cell by cell that would take long
+            wet = self._land & ((source > 0.0) | (supply > 0.0))
+            guess = self._matrix.pressures(self._sources, wet)
+        rounding = ROUNDING * (np.abs(source) + supply * FAINT * self._matrix.diagonal)
+        pressures = self._matrix.solve(self._sources, speeds, rounding, self._land, guess)
+        p = speeds @ pressures.by_speed + supply * self._share
+        feed = float(self._share @ (self._matrix.net(p) - source)) if supply else 0.0
+        return FilmFlow(*self._loads(p), feed, pressures)
 
     def unbroken_loads(self, eps_dot: float, half_w: float) -> tuple[float, float, float]:
         """Return f_r, f_t and side flow of a film that bears negative pressures too, as `solve`."""
-        return self._loads(self._pressure(self._source(eps_dot, half_w), ~self._groove))
+        return self._loads(np.array([eps_dot, half_w]) @ self._unbroken)
+
+    @cached_property
+    def _unbroken(self) -> Array:
+        return self._matrix.pressures(self._sources[:2], self._land).by_speed
 
     def _loads(self, p: Array) -> tuple[float, float, float]:
-        load = (p @ self._w_zeta) * self._w_theta
+        around = p.reshape(len(self._local), -1)
+        load = (around @ self._w_zeta) * self._w_theta
         f_r = float(-12.0 * load @ np.cos(self._local))
         f_t = float(-12.0 * load @ np.sin(self._local))
-        return f_r, f_t, float(self._along[:, -1] @ p[:, -1])
-
-    def _net(self, p: Array) -> Array:
-        """Return what flows out of each cell by a pressure, (n, m)."""
-        net = self._diagonal * p
-        net -= self._around * np.roll(p, -1, axis=0)
-        net -= np.roll(self._around * p, 1, axis=0)
-        net[:, 1:] -= self._along[:, :-1] * p[:, :-1]
-        net[:, :-1] -= self._along[:, :-1] * p[:, 1:]
-        return net
+        return f_r, f_t, float(self._to_end @ around[:, -1])
 
     def largest_pressure(
         self, eps_dot: float, half_w: float, supply: float = 0.0
@@ -299,51 +271,10 @@ class GroovedFilmState:
 
         Arguments as of `solve`; the pressure is over 12 mu R^2 / c^2, 1/s.
         """
-        wet = self.solve(eps_dot, half_w, None, supply).unbroken
-        driven = self._source(eps_dot, half_w) + supply * self._into
-        pressure = self._pressure(driven, wet) + supply * self._share
-        return self._local, pressure.max(axis=1)
-
-    def _source(self, eps_dot: float, half_w: float) -> Array:
-        shape = (eps_dot * np.cos(self._local) - half_w * np.sin(self._local)) * self._w_theta
-        return np.outer(shape, self._w_zeta)
-
-    def _pressure(self, source: Array, wet: Mask) -> Array:
-        """Return the pressure (n, m) with that of broken places and grooves 0."""
-        n, m = source.shape
-        dry = np.flatnonzero(~wet.any(axis=1))
-        if self._is_pressurized and len(dry):
-            return self._cut_pressure(source, wet, int(dry[0]))
-        band = np.zeros((self._width + 1) * n * m)
-        links = self._linked & wet & np.roll(wet, -1, axis=0)
-        band[self._band_index[links]] = -self._around[links]
-        band = band.reshape(self._width + 1, n * m)
-        band[0, self._number.ravel()] = np.where(wet, self._diagonal, 1.0).ravel()
-        beside = wet[:, 1:] & wet[:, :-1]
-        band[1, self._number[:, :-1][beside]] = -self._along[:, :-1][beside]
-        right = np.empty(n * m)
-        right[self._number.ravel()] = np.where(wet, source, 0.0).ravel()
-        solved = solveh_banded(
-            band, right, lower=True, check_finite=False, overwrite_ab=True, overwrite_b=True
-        )
-        p: Array = solved[self._number]
-        return p
-
-    def _cut_pressure(self, source: Array, wet: Mask, first: int) -> Array:
-        """Return the pressure of a film that is broken over all of the length at a line."""
-        n, m = source.shape
-        around, along, diagonal, right = (
-            np.roll(values, -first, axis=0)
-            for values in (self._around, self._along, self._diagonal, source)
-        )
-        wet = np.roll(wet, -first, axis=0)
-        band = np.zeros((m + 1, n, m))
-        band[0] = np.where(wet, diagonal, 1.0)
-        band[1, :, :-1] = np.where(wet[:, 1:] & wet[:, :-1], -along[:, :-1], 0.0)
-        band[m, :-1] += np.where(wet[1:] & wet[:-1], -around[:-1], 0.0)
-        right = np.where(wet, right, 0.0).ravel()
-        solved = solveh_banded(band.reshape(m + 1, -1), right, lower=True, check_finite=False)
-        return np.roll(solved.reshape(n, m), first, axis=0)
+        by_speed = self.solve(eps_dot, half_w, supply).pressures.by_speed
+        speeds = np.array([eps_dot, half_w, supply])[: len(by_speed)]
+        p = speeds @ by_speed + supply * self._share
+        return self._local, p.reshape(len(self._local), -1).max(axis=1)
 
 
 def solve_grooved(
@@ -384,7 +315,7 @@ def solve_grooved(
     .. [1] Someya, T. (ed.) Journal-Bearing Databook. Springer, 1989.
     """
     state = GroovedFilmState(bearing, eps, angle, cells)
-    return state.solve(eps_dot, 0.5 * eps_w, None, supply)[:3]
+    return state.solve(eps_dot, 0.5 * eps_w, supply)[:3]
 
 
 def _angles(bearing: GroovedBearing, eps: float, angle: float, cells: int) -> Array:

@@ -103,7 +103,7 @@ def _at_rest(bearing: GroovedBearing, eps: float, angle: float) -> list[float]:
     The flows are extrapolated as is due to the corners of grooves: errors go with h^(4/3) there.
     """
     fine, coarse = (
-        np.array(GroovedFilmState(bearing, eps, angle, cells).solve(0.0, 0.0, None, 1.0)[:4])
+        np.array(GroovedFilmState(bearing, eps, angle, cells).solve(0.0, 0.0, 1.0)[:4])
         for cells in (FINE_CELLS, CELLS)
     )
     orders = np.array([2.0, 2.0, CORNER, CORNER])
@@ -114,28 +114,27 @@ def _at_rest(bearing: GroovedBearing, eps: float, angle: float) -> list[float]:
 def _responses(bearing: GroovedBearing, eps: float, angle: float, cells: tuple[int, int]) -> Array:
     """Return the channels at a place, (directions, psi, channels)."""
     s = math.sqrt((1.0 - eps) * (1.0 + eps))
-    psi = np.linspace(0.0, 0.5 * math.pi, INTERVALS + 1)[1:-1]
-    ratios = (np.tan(psi) ** 2 / RATIO).tolist()
+    psi = np.linspace(0.0, 0.5 * math.pi, INTERVALS + 1)
     state = GroovedFilmState(bearing, eps, angle, cells)
-    hydrostatic = state.solve(0.0, 0.0, None, 1.0)
+    hydrostatic = state.solve(0.0, 0.0, 1.0)
     conductance = hydrostatic.feed
     rows = np.empty((DIRECTIONS, INTERVALS + 1, CHANNELS))
     rows[...] = 0.0
-    wet = None
+    guess = None
     for row, (u, v) in zip(rows, speeds_of(knots_of(bearing).direction, s), strict=True):
-        ambient = state.solve(v, u, wet)
-        wet = now = ambient.unbroken
+        ambient = state.solve(v, u, guess=guess)
+        guess = ambient.pressures
         lost = ambient.f_t * u - ambient.f_r * v
         speed = math.hypot(v, s * u) / _stiffness(bearing, eps)
-        for k, ratio in enumerate(ratios, 1):
-            supply = ratio * speed
-            film = state.solve(v, u, now, supply)
-            now = film.unbroken
+        row[-1, :3] = np.subtract(state.unbroken_loads(v, u), ambient[:3]) / speed
+        film = hydrostatic
+        for k in range(INTERVALS - 1, 0, -1):  # from the unbroken film on: it breaks quickly
+            supply = math.tan(psi[k]) ** 2 / RATIO * speed
+            film = state.solve(v, u, supply, film.pressures)
             added = np.subtract(film[:3], ambient[:3]) - supply * np.array(hydrostatic[:3])
             row[k, :3] = added / speed
             power = film.f_t * u - film.f_r * v + 12.0 * supply * film.feed
             row[k, 3] = math.log(power / (lost + 12.0 * conductance * supply**2))
-        row[-1, :3] = np.subtract(state.unbroken_loads(v, u), ambient[:3]) / speed
     return rows
 
 

@@ -26,12 +26,11 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.linalg.lapack import dpbsv  # type: ignore[import-untyped,unused-ignore]
 
 from exu_press.errors import InputError
+from exu_press.laws.film.cavitation import FilmMatrix, Mask
 from exu_press.laws.film.contract import AT_REST, FilmForce
-from exu_press.laws.film.grooves import ITERATIONS, ROUNDING, TURN, GroovedBearing
+from exu_press.laws.film.grooves import ROUNDING, TURN, GroovedBearing
 from exu_press.numerics.arrays import Array
 
 __all__ = ["CELLS", "TiltedFilm"]
@@ -49,8 +48,6 @@ DENSER = 0.6
 """Share of the grid that is dense at the ends, for each part of the clearance that they tilt."""
 
 Response = tuple[float, ...]
-
-Mask = NDArray[np.bool_]
 
 OUTSIDE: Response = (math.nan,) * 19
 
@@ -103,7 +100,6 @@ class TiltedFilm:
         self._factor = 6.0 * self._quadrature()
         self._per_along = 1.0 / (bearing.length_to_diameter**2 * self._d_zeta)
         self._order_angles(cells[0])
-        self._number_unknowns()
         self._wet: Mask | None = None
 
     def largest_ratio(self, angle: float) -> float:
@@ -189,20 +185,6 @@ class TiltedFilm:
             around = np.arange(begin, end + 1) % n
             self._groove[np.ix_(around, covered)] = True
             self._land[np.ix_(around[:-1], cells_covered)] = 0.0
-
-    def _number_unknowns(self) -> None:
-        """Order the unknowns, folding the circle, so that the matrix is a narrow band."""
-        n, m = self._groove.shape
-        column = np.empty(n, dtype=int)
-        column[np.arange((n + 1) // 2)] = np.arange(0, n, 2)
-        column[np.arange(n - 1, (n + 1) // 2 - 1, -1)] = np.arange(1, n, 2)
-        number = column[:, None] * m + np.arange(m)
-        following = number[self._next]
-        self._column, self._width = column, 2 * m + 1
-        lower = np.minimum(number, following)
-        self._around_at = lower * self._width + np.abs(number - following)
-        self._along_at = number[:, :-1] * self._width + 1
-        self._diagonal_at = number * self._width
 
     def _quadrature(self) -> float:
         """Return by how much the grid's flow along the axis alone has too little pressure."""
@@ -291,36 +273,16 @@ class TiltedFilm:
 
     def _pressures(self, film: "_Film", speeds: Array) -> Array:
         """Return the pressures of each speed alone, (n m, 3), where that of all is positive."""
-        n, m = self._groove.shape
-        following, preceding = self._next, self._previous
         around, along = film.square_around * film.around, film.square_along * film.along
-        diagonal = around + around[preceding] + along[:, 1:] + along[:, :-1]
-        source = (speeds @ film.sources.reshape(3, -1)).reshape(n, m)
-        slack, land, inner = ROUNDING * np.abs(source), ~self._groove, along[:, 1:-1]
+        diagonal = around + around[self._previous] + along[:, 1:] + along[:, :-1]
+        matrix = FilmMatrix(around, along[:, 1:-1], diagonal)
+        sources, land = film.sources.reshape(3, -1), ~self._groove.ravel()
+        source = speeds @ sources
         wet = (source > 0.0 if self._wet is None else self._wet) & land
-        for _ in range(ITERATIONS):
-            band = np.zeros(n * m * self._width)
-            band[self._around_at] = around * (wet & wet[following])
-            band[self._along_at] = inner * (wet[:, 1:] & wet[:, :-1])
-            np.negative(band, out=band)
-            band[self._diagonal_at] = np.where(wet, diagonal, 1.0)
-            right = np.empty((3, n, m))
-            right[:, self._column] = film.sources * wet
-            solved = dpbsv(
-                band.reshape(n * m, self._width).T, right.reshape(3, n * m).T,
-                lower=1, overwrite_ab=1, overwrite_b=1,
-            )[1]  # fmt: skip
-            parts = solved.T.reshape(3, n, m)[:, self._column].reshape(3, n * m)
-            p = (speeds @ parts).reshape(n, m)
-            short = diagonal * p - source - around * p[following] - (around * p)[preceding]
-            short[:, 1:] -= inner * p[:, :-1]
-            short[:, :-1] -= inner * p[:, 1:]
-            now = np.where(wet, p > 0.0, short < -slack) & land
-            if (now == wet).all():
-                self._wet = wet
-                return np.asarray(parts.T)
-            wet = now
-        raise RuntimeError(f"the cavitated set did not settle in {ITERATIONS} iterations")
+        guess = matrix.pressures(sources, wet)
+        solved = matrix.solve(sources, speeds, ROUNDING * np.abs(source), land, guess)
+        self._wet = solved.unbroken
+        return np.asarray(solved.by_speed.T)
 
     def _flow_out(self, film: "_Film", pressure: Array, speeds: Array) -> float:
         """Return what leaves both ends: by the pressure, and displaced at the ends themselves."""

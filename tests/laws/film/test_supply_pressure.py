@@ -29,7 +29,7 @@ TWO = GroovedBearing(
 @pytest.mark.parametrize("eps", [0.0, 0.3, 0.8])
 def test_flow_of_a_groove_around(eps):
     """Two lands of length L_l, of which each passes pi D c^3 p (1 + 1.5 eps^2) / (12 mu L_l)."""
-    film = GroovedFilmState(RING, eps, 0.0, (72, 8)).solve(0.0, 0.0, None, 2.0)
+    film = GroovedFilmState(RING, eps, 0.0, (72, 8)).solve(0.0, 0.0, 2.0)
     land = 0.45 * RING.length_to_diameter  # over D; the pressure is in 12 mu R^2 / c^2
     expected = AROUND / RING.length_to_diameter * 2.0 / land * 0.5 * (1.0 + 1.5 * eps**2)
     assert film.side_flow == pytest.approx(expected, rel=2e-3)
@@ -40,7 +40,7 @@ def feed_flow(ratio, width, share):
     """Return the flow of an axial groove over c^3 p / (12 mu), of a concentric journal."""
     bearing = GroovedBearing(ratio, (Groove(0.0, width, share, 1.0),))
     fine, coarse = (
-        GroovedFilmState(bearing, 0.0, 0.0, cells).solve(0.0, 0.0, None, 1.0).feed
+        GroovedFilmState(bearing, 0.0, 0.0, cells).solve(0.0, 0.0, 1.0).feed
         for cells in ((144, 16), (72, 8))
     )
     return 2.0 * ratio * (2.0 * fine - coarse)  # of first order, by the ends of a slit
@@ -72,10 +72,10 @@ def test_what_the_pump_and_the_journal_put_in_is_lost():
         eps, angle, supply = rng.uniform(0.0, 0.95), rng.uniform(-3, 3), 10.0 ** rng.uniform(-2, 2)
         turn = rng.uniform(-math.pi, math.pi)
         state = GroovedFilmState(POCKETS, eps, angle, (48, 6))
-        film = state.solve(math.sin(turn), math.cos(turn), None, supply)
+        film = state.solve(math.sin(turn), math.cos(turn), supply)
         journal = -film.f_r * math.sin(turn) + film.f_t * math.cos(turn)
         assert journal + 12.0 * supply * film.feed > 0.0
-        twice = state.solve(2.0 * math.sin(turn), 2.0 * math.cos(turn), None, 2.0 * supply)
+        twice = state.solve(2.0 * math.sin(turn), 2.0 * math.cos(turn), 2.0 * supply)
         assert twice[:4] == pytest.approx([2.0 * value for value in film[:4]], rel=1e-9)
 
 
@@ -156,7 +156,7 @@ def assert_near_twice_the_grid(law, seed, count):
         law.angle, law.supply = angle, speed * 10.0 ** (2.0 * math.sin(angle) - 1.0)
         force = law(eps, eps_dot, eps_w)
         state = GroovedFilmState(law.bearing, eps, angle, (288, 20))
-        film = state.solve(eps_dot, 0.5 * eps_w, None, law.supply)
+        film = state.solve(eps_dot, 0.5 * eps_w, law.supply)
         ambient = state.solve(eps_dot, 0.5 * eps_w)
         largest = max(math.hypot(*film[:2]), math.hypot(*ambient[:2]))
         (flow,) = law.side_flow(*map(np.atleast_1d, (eps, eps_dot, eps_w, angle)))

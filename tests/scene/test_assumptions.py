@@ -3,7 +3,6 @@ import re
 import pytest
 
 from exu_press import Result, Scene, simulate
-from exu_press.mechanism import shipped_mechanism
 from exu_press.scene import BlankingLoad
 from exu_press.scene.assumptions import ASSUMPTIONS, assumed_line, keys_of, used_assumptions
 from exu_press.scene.usage import TABLES, table_keys
@@ -31,13 +30,6 @@ def test_every_listed_key_exists():
             table, _, name = key.partition(".")
             keys = declared_keys(BlankingLoad) if table == "load" else table_keys(table)
             assert not name or name.removeprefix("*.") in keys
-
-
-def test_what_is_given_is_not_assumed():
-    assert "film.viscosity = 0.4 Pa s (A-11)" in assumed_line(Scene())
-    given = Scene(film={"viscosity": 0.1})
-    assert numbers(Scene()) - numbers(given) == {11}
-    assert "A-11" not in assumed_line(given)
 
 
 @pytest.mark.parametrize(
@@ -72,6 +64,7 @@ def test_a_default_that_a_file_or_the_command_line_gives_is_not_assumed(tmp_path
         ({"guide": {"lateral_stiffness": 1e9}}, {9}),
         ({"press": {"counterweight": False}}, {3}),
         ({"film": {"at_contact": "mixed"}}, {13}),
+        ({"film": {"viscosity": 0.1}}, {11}),
     ],
 )
 def test_a_scene_rests_on_what_it_uses_alone(scene, unused):
@@ -141,12 +134,3 @@ def test_only_what_differs_counts_as_given(scene, changed):
     assert {name for name, key in keys.items() if key.is_changed} == changed
     sampled = keys_of(Scene(output={"samples": [90.0]}))
     assert sampled["output.every"].is_assumed and not sampled["output.samples"].is_assumed
-
-
-def test_nothing_to_assume_is_no_line():
-    assert assumed_line(Scene(joints={"crank_pin": "ideal", "balls": "ideal"})) == ""
-
-
-def test_a_mechanism_of_ones_own_is_named_in_the_keys():
-    scene = Scene(mechanism=shipped_mechanism("four_bar"), joints={})
-    assert keys_of(scene)["mechanism"].value == "four_bar, the scene's own"

@@ -55,13 +55,6 @@ def test_an_inertia_left_out_is_that_of_a_rod():
     assert inertia == pytest.approx(14.0 * length**2 / 12, rel=1e-12)
 
 
-def test_keys_of_a_shipped_drawing():
-    at_first = {body.name: body for body in mechanism_of(Scene(mechanism="drag_link")).bodies}
-    found = bodies({"bodies.ram.mass": 300.0}, "drag_link")
-    assert found.pop("ram").mass == 300.0
-    assert found == {name: body for name, body in at_first.items() if name != "ram"}
-
-
 def test_a_file_and_its_keys_change_at_once(tmp_path):
     file = tmp_path / "link.toml"
     file.write_text("\n".join(mechanism_lines(mechanism_from_dict(LINK))), encoding="utf-8")

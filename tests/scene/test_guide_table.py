@@ -111,42 +111,11 @@ def test_own_tables_are_changed_as_other_keys(tmp_path):
     assert without == Scene(guide={k: v for k, v in MIXED.items() if k != "plunger_left"})
     frictionless = scene.replace({"guide.plunger_left.friction": None})
     assert not frictionless.guides["plunger_left"].rubs
+    own = {"lateral_stiffness": 1e9, "yoke_slot": {"kind": "ideal"}}
+    assert Scene(mechanism="scotch_yoke", guide=own).guides.keys() == {"yoke"}
     alone = Scene(guide={"plunger_left": {"clearance": 3e-5}})
     assert alone.guides.keys() == {"plunger_left"}
     assert alone.replace({"mechanism": "slider_crank"}).guide is None
     scene.save(tmp_path / "scene.toml")
     loaded = Scene.load(tmp_path / "scene.toml", ["guide.counterweight.length=0.9"])
     assert loaded.guides["counterweight"].support.length == 0.9
-
-
-@pytest.mark.parametrize(
-    ("guide", "message"),
-    [
-        ({"ram": {"clearance": 1e-5}}, "guide.ram: press has no such guide; allowed are slide,"),
-        ({"length": {"clearance": 1e-5}}, "guide.length: is a key of [guide], so that"),
-        ({"slide": {"clearance": -1.0}}, "guide.slide.clearance = -1.0: allowed is a number > 0"),
-        ({"slide": {"clearence": 1.0}}, "guide.slide.clearence = 1.0: unknown key (did you mean"),
-        ({"slide": {"kind": "soft"}}, "guide.slide.kind = 'soft': unknown; allowed are ideal,"),
-        ({"slide": {"kind": "dry"}}, "guide.slide.kind = 'dry': allowed is a guide with clearance"),
-        (
-            {"slide": {"width": 0.1}},
-            "guide.slide.width = 0.1: not used by this scene (guide.slide.",
-        ),
-        (
-            {"slide": {"clearance": 1e-5, "viscosity": 0.1}},
-            "guide.slide.viscosity needs guide.slide.face_width",
-        ),
-        ({}, "[guide]: not used by this scene (it has neither lateral_stiffness nor clearance"),
-    ],
-)
-def test_what_is_wrong_with_a_guides_own_table_is_named(guide, message):
-    with pytest.raises(InputError) as refusal:
-        Scene(guide=guide)
-    assert str(refusal.value).startswith(message)
-
-
-def test_a_slot_has_clearance_or_is_ideal():
-    with pytest.raises(InputError, match=r"slots.yoke_slot holds a pin; .* guide.yoke_slot = "):
-        Scene(mechanism="scotch_yoke", guide={"lateral_stiffness": 1e9})
-    own = {"lateral_stiffness": 1e9, "yoke_slot": {"kind": "ideal"}}
-    assert Scene(mechanism="scotch_yoke", guide=own).guides.keys() == {"yoke"}

@@ -94,8 +94,3 @@ def test_a_joint_in_two_groups_is_refused():
     mechanism = replace(mechanism_of(Scene()), groups=groups)
     with pytest.raises(InputError, match="shaft lies in both"):
         Scene(mechanism=mechanism, joints={"both": "dry", "some": "ideal"})
-
-
-def test_an_unknown_joint_is_named():
-    with pytest.raises(InputError, match=r"press has no such joint \(did you mean 'crank_pin'"):
-        Scene().joints["crankpin"]

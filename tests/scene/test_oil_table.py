@@ -2,8 +2,7 @@
 
 import pytest
 
-from exu_press import InputError, Scene
-from exu_press.quantities.units import unit_of
+from exu_press import Scene
 from exu_press.scene.assumptions import assumed_values
 from exu_press.scene.oil import Oil
 from exu_press.scene.warnings import scene_warnings
@@ -53,6 +52,9 @@ def test_joints_have_oils_of_their_own():
     assert only_there.film["viscosity"] == 0.4
     assert film_of(only_there).oil == Oil(**OIL)
     assert Scene.from_dict(only_there.to_dict()) == only_there
+    balls = scene_of(mechanism="press", joints={"crank_pin": "lubricated", "balls": constant})
+    assert balls.joints["ball_left"].film.cold_viscosity == 0.2
+    assert scene_warnings(balls) == []
 
 
 def test_defaults_that_decide_are_told():
@@ -67,20 +69,3 @@ def test_an_oil_that_is_hardly_meant_is_warned_of():
     thick = scene_of(film={"oil": OIL | {"viscosity_cst": [68000.0, 8700.0]}})
     (told,) = [text for text in scene_warnings(thick) if "oil" in text and "above 2 Pa s" in text]
     assert "59.16" in told
-
-
-def test_its_keys_have_units_in_studies():
-    assert unit_of("film.oil.supply_celsius") == "deg C"
-    assert unit_of("joints.crank_pin.film.oil.density") == "kg/m^3"
-
-
-def test_the_film_of_a_ball_does_not_warm():
-    joints = {"crank_pin": "lubricated", "balls": "lubricated"}
-    message = r"film.oil: the film of a ball does not warm; allowed is film.viscosity of its own"
-    with pytest.raises(InputError, match=message + r" \(joints.balls\)"):
-        scene_of(mechanism="press", joints=joints)
-    own = {"kind": "lubricated", "film": {"viscosity": 0.2}}
-    scene = scene_of(mechanism="press", joints=joints | {"balls": own})
-    assert scene.joints["ball_left"].film.cold_viscosity == 0.2
-    assert scene.joints["crank_pin"].film.oil == Oil(**OIL)
-    assert scene_warnings(scene) == []

@@ -14,7 +14,6 @@ from exu_press.scene import mechanism_of
 FOUR_BAR = shipped_mechanism("four_bar")
 LENGTH = {"length": 0.02}
 JOINTS = {"knuckle": {"kind": "dry", "radius": 0.02, "clearance": 2e-5, "contact": LENGTH}}
-SHORT = {"revolutions": 0.01, "solver": {"step": 1e-5}}
 
 
 @pytest.fixture
@@ -36,19 +35,6 @@ def test_a_path_is_relative_to_the_scene_file(folder, monkeypatch):
     assert scene.joints["pivot"].kind == "ideal"
 
 
-def test_the_same_from_an_object_or_data():
-    scene = Scene(mechanism=FOUR_BAR, joints=JOINTS)
-    assert Scene.from_dict(scene.to_dict()) == scene
-    assert isinstance(scene.to_dict()["mechanism"], dict)
-
-
-def test_a_saved_scene_is_complete_without_the_mechanism_file(folder):
-    scene = Scene.load(folder / "scene.toml")
-    scene.save(folder / "saved.toml", comments=True)
-    (folder / "my_press.toml").unlink()
-    assert Scene.load(folder / "saved.toml") == scene
-
-
 def test_a_changed_scene_keeps_its_mechanism():
     scene = Scene(mechanism=FOUR_BAR, joints=JOINTS)
     pivot = {"kind": "lubricated", "radius": 0.02, "clearance": 2e-5}
@@ -59,10 +45,13 @@ def test_a_changed_scene_keeps_its_mechanism():
     assert faster.joints["knuckle"] == scene.joints["knuckle"]
 
 
-def test_a_result_file_needs_no_mechanism_file(folder):
-    result = simulate(Scene.load(folder / "scene.toml"))
+def test_a_saved_scene_and_a_result_are_complete_without_the_mechanism_file(folder):
+    scene = Scene.load(folder / "scene.toml")
+    scene.save(folder / "saved.toml", comments=True)
+    result = simulate(scene)
     result.save(folder / "run.nc")
     (folder / "my_press.toml").unlink()
+    assert Scene.load(folder / "saved.toml") == scene
     again = Result.load(folder / "run.nc")
     assert mechanism_of(again.scene) == FOUR_BAR
     assert np.array_equal(again["slider_position"], result["slider_position"])
@@ -83,28 +72,12 @@ def test_a_file_that_is_not_there(tmp_path):
         Scene.load(tmp_path / "scene.toml")
 
 
-def test_what_is_wrong_with_it_is_said_by_name():
-    data = Scene(mechanism=FOUR_BAR).to_dict()["mechanism"]
-    del data["bodies"]["rocker"]["mass"]
-    assert refusal(mechanism=data) == "mechanism.bodies.rocker.mass: missing"
-    assert refusal(mechanism="four_bra").startswith("mechanism = 'four_bra': allowed is one of")
-    assert "or the path of a mechanism file, .toml" in refusal(mechanism="four_bra")
-    assert refusal(mechanism=3).startswith("mechanism = 3: allowed is one of")
-    shown = refusal(mechanism=FOUR_BAR, joints={"crankpin": "dry"})
-    assert shown.startswith("joints.crankpin = 'dry': four_bar has no such joint")
-    assert "did you mean 'crank_pin'" in shown
-
-
 def test_a_crank_that_locks_is_refused_with_the_scene():
     joints = {joint.name: joint for joint in FOUR_BAR.joints}
     joints["crank_pin"] = replace(joints["crank_pin"], at=(0.0, 0.3))  # as long as the rocker
     locking = replace(FOUR_BAR, joints=tuple(joints.values()))
     shown = refusal(mechanism=locking)
     assert "rocker" in shown and "lock" in shown and "at crank angle" in shown
-
-
-def test_tables_of_other_mechanisms_are_not_used():
-    assert refusal(mechanism=FOUR_BAR, press={}).startswith("[press]: not used by this scene")
 
 
 def test_guides_in_any_direction_may_be_elastic():

@@ -48,6 +48,10 @@ clearance.crank_pin = 1e-4 -> clearance = {'crank_pin': 0.0001}: is joints.NAME.
 flexible.modes = 4 -> flexible = {'modes': 4}: is bodies.NAME now
 blanking.force = 1 -> blanking = {'force': 1}: is load.NAME with kind = 'blanking' now
 contact.radius = 0.1 -> contact.radius = 0.1: is joints.NAME.radius now
+mechanism = 'four_bra' -> mechanism = 'four_bra': allowed is one of .. the path of a mechanism file
+= mechanism = 'four_bar'
+press = {} -> [press]: not used by this scene
+joints.crankpin = 'dry' -> joints.crankpin = 'dry': four_bar has no such joint .. mean 'crank_pin'
 = mechanism = 'slider_crank'
 press = {} -> [press]: not used .. mechanism is 'slider_crank'
 contact = {} -> [contact]: not used .. no joint is 'dry'
@@ -150,7 +154,19 @@ guide = {viscosity = 0.1, face_width = 0.1} -> guide.viscosity needs guide.conta
 guide.face_width = 0.1 -> guide.face_width = 0.1: not used .. viscosity is not
 guide = {viscosity = 0.1, face_width = 0.1, contact_gap = 3e-5} -> gap = 3e-05: allowed is .. < guid
 guide = {viscosity = 0.1, face_width = 1e-3, contact_gap = 2e-6} -> face_width = 0.001: allowed are
+=
+guide = {} -> [guide]: not used by this scene (it has neither lateral_stiffness nor clearance
+guide.ram.clearance = 1e-5 -> guide.ram: press has no such guide; allowed are slide,
+guide.length.clearance = 1e-5 -> guide.length: is a key of [guide], so that
+guide.slide.clearance = -1 -> guide.slide.clearance = -1.0: allowed is a number > 0
+guide.slide.clearence = 1 -> guide.slide.clearence = 1: unknown key (did you mean
+guide.slide.kind = 'soft' -> guide.slide.kind = 'soft': unknown; allowed are ideal,
+guide.slide.kind = 'dry' -> guide.slide.kind = 'dry': allowed is a guide with clearance
+guide.slide.width = 0.1 -> guide.slide.width = 0.1: not used by this scene (guide.slide.
+guide.slide = {clearance = 1e-5, viscosity = 0.1} -> slide.viscosity needs guide.slide.face_width
 
+= mechanism = 'scotch_yoke'
+guide.lateral_stiffness = 1e9 -> slots.yoke_slot holds a pin; .. guide.yoke_slot =
 = mechanism = 'scotch_yoke'; wear = {coefficient = 1e-4, hardness = 2e9, length = 0.1}
 guide.yoke_slot.clearance = 2e-5 -> and no guide has clearance, nor a slot clearance and its pin's
 guide = {clearance = 2e-5, yoke_slot.width = 0}; wear.guides.yoke_slot.length = 0.2 -> guide.yoke_s\
@@ -185,6 +201,29 @@ mechanism = 'press'; joints.balls = 'lubricated' -> the film of a ball does not 
 = mechanism = 'slider_crank'; joints.crank_pin = 'lubricated'
 film.oil = {density = 870.0, supply_celsius = 40.0} -> needs film.oil.viscosity_cst
 film.oil = {viscosity_cst = [68.0, 8.7]} -> needs film.oil.density .. density = 870
+
+= mechanism = 'slider_crank'; joints.crank_pin = {kind = 'lubricated', clearance = 1e-4, \
+radius = 0.05}; film = {law = 'grooved', length = 0.05, viscosity = 0.05}
+speed_rpm = 10 -> film.grooves: missing; allowed is one .. or film.tilt > 0
+film.grooves = [] -> film.grooves = .. allowed is a list of tables
+film.grooves = [{}] -> film.grooves.width_deg: missing
+film.grooves = [{width_deg = 1e-20}] -> film.grooves.width_deg = 1e-20
+film.grooves = [{width_deg = 5.0, angle_deg = 1e30}] -> film.grooves.angle_deg = 1e
+film.grooves = [{width_deg = 9, angle_deg = 90}, {width_deg = 9, angle_deg = 90}] -> at 90 and 90 de
+film.grooves = [{width_deg = 9, angle_deg = 90}, {width_deg = 9, angle_deg = 98}] -> at 90 and 98
+film.grooves = [{width_deg = 359.9999}] -> 1 deg of bearing between them
+film.grooves = [{width_deg = 361.0}] -> film.grooves.width_deg = 361.0
+film.grooves = [{width_deg = 10.0, length = 0.051}] -> film.grooves.0.length = 0.051
+film.grooves = [{width_deg = 360, length = 5e-3, pressure = -1}] -> film.grooves.pressure = -1.0
+film.grooves = [{width_deg = 9, pressure = 1e5}] -> film.grooves.0.pressure = 100000.0: .. length <
+film.grooves = [{width_deg = 360.0}] -> film.grooves: .. shorter than the bearing
+film.grooves = [{width_deg = 10.0, angel = 1.0}] -> film.grooves.0.angel = 1.0: unknown key
+film.tilt = -1e-3 -> film.tilt = -0.001: allowed
+film.tilt = 4e-3 -> film.tilt = 0.004: allowed is a number < 2 * clearance .. = 0.004
+film = {tilt = 1e-3, tilt_direction_deg = 361} -> film.tilt_direction_deg = 361
+film = {tilt = 1e-3, at_contact = 'mixed'} -> 'mixed' with film.tilt: allowed is 'stop'
+film.grooves = [{width_deg = 360, length = 5e-3, pressure = 1e5}]; film.tilt = 1e-3 -> with pressure
+film = {tilt = 1e-3, law = 'finite'} -> film.law is 'finite'; it belongs to 'grooved'
 
 # flexible bodies
 =

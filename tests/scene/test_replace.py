@@ -150,11 +150,6 @@ def test_what_is_none_is_left_out(change, remaining):
     assert Scene(**tables).replace({change: None}) == Scene(**{**tables, **remaining})
 
 
-def test_a_body_that_is_not_there_cannot_be_left_out():
-    with pytest.raises(InputError, match=r"bodies.cranc .*allowed are crank"):
-        Scene().replace({"bodies.cranc": None})
-
-
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

@@ -2,7 +2,6 @@
 
 import json
 import tomllib
-from pathlib import Path
 
 import pytest
 from schedules import SCHEDULE
@@ -130,24 +129,3 @@ def test_a_file_that_is_there_is_kept(tmp_path):
     assert path.read_text() == "# mine\n"
     Scene().save(path, overwrite=True)
     assert Scene.load(path) == Scene()
-
-
-def test_a_directory_that_is_not_there(tmp_path):
-    with pytest.raises(InputError, match="cannot be written"):
-        Scene().save(tmp_path / "nowhere" / "scene.toml")
-
-
-def test_comments_of_a_file_are_no_part_of_the_scene(tmp_path):
-    path = tmp_path / "scene.toml"
-    path.write_text('# why\njoints.crank_pin = "dry"  # because\n\n[contact]  # all\n')
-    assert Scene.load(path) == Scene(joints={"crank_pin": "dry"})
-
-
-EARLIER = json.loads(Path(__file__).with_name("earlier_scenes.json").read_text(encoding="utf-8"))
-
-
-@pytest.mark.parametrize("stored", EARLIER, ids=range(len(EARLIER)))
-def test_a_scene_that_an_earlier_version_stored_is_read_and_stays_as_it_is(stored):
-    """As summary.json and run.nc have it; written before a table's keys were chosen by variants."""
-    scene = Scene.from_dict(stored)
-    assert json.loads(json.dumps(scene.to_dict())) == stored

@@ -57,16 +57,6 @@ def test_tables_may_be_dataclasses_or_mappings():
     assert Scene(film={"viscosity": 0.1}, solver=solver) == by_mapping
 
 
-def test_a_whole_number_is_taken_for_a_number():
-    scene = Scene.from_dict({"speed_rpm": 300})
-    assert type(scene.speed_rpm) is float
-
-
-def test_a_scene_is_frozen():
-    with pytest.raises(AttributeError):
-        Scene().speed_rpm = 3.0
-
-
 def test_derived_quantities():
     scene = Scene.from_dict({"speed_rpm": 120, "revolutions": 3, "start_angle_deg": 90})
     assert scene.angular_speed == pytest.approx(4 * math.pi)

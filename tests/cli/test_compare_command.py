@@ -9,7 +9,6 @@ import pytest
 from exu_press import InputError, Result, Scene
 from exu_press.cli import compare, main
 from exu_press.files.output_directory import folder_name
-from exu_press.plots import save
 from exu_press.report.comparison import comparison_report
 
 QUICK = ["--set", "revolutions=0.01", "--no-pictures", "--no-error"]
@@ -158,23 +157,6 @@ def test_a_measurement_beside_runs(mine, tmp_path, capsys, monkeypatch):
     assert list(json.loads((out / "measured.json").read_text())["press_a"]) == ["first"]
 
 
-def test_stored_runs_are_compared_and_drawn_once(mine, tmp_path, monkeypatch):
-    first, measured = tmp_path / "first", tmp_path / "measured.csv"
-    assert main(["run", str(mine), *QUICK, "--out", str(first)]) == 0
-    measured.write_text("time (s),slider_velocity (m/s)\n0,0\n1e-6,1\n2e-6,2\n3e-6,3\n")
-    calls = []
-
-    def counted(whose, name):
-        done = getattr(whose, name)
-        monkeypatch.setattr(whose, name, lambda *given: (calls.append(name), done(*given))[1])
-
-    counted(compare, "compare_curve")
-    counted(save, "slider_figure")
-    given = [str(first), str(measured), "--quiet", "--out", str(tmp_path / "out")]
-    assert main(["compare", *given]) == 0
-    assert calls == ["slider_figure", "compare_curve"]
-
-
 @pytest.mark.parametrize(
     ("head", "last", "said"),
     [
@@ -195,14 +177,6 @@ def test_a_measurement_that_fits_no_run_is_refused_before_others(
     assert main(["compare", *given, *QUICK, "--out", str(tmp_path / "out")]) == 2
     assert said in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.long
-def test_pictures_of_two_mechanisms(mine, tmp_path):
-    arguments = ["compare", str(mine), "press", "--set", "revolutions=0.01", "--quiet"]
-    assert main([*arguments, "--no-error", "--out", str(tmp_path)]) == 0
-    for name in ("compare_slider.png", "compare_force.png"):
-        assert (tmp_path / name).stat().st_size > 10_000
 
 
 def test_a_result_without_the_channels_of_pictures_is_refused_before_runs(mine, tmp_path, capsys):

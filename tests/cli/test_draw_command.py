@@ -37,17 +37,6 @@ def test_a_picture_is_written(drawn, kind, capsys):
     assert target.read_bytes().startswith(begins)
 
 
-def test_a_scene_has_its_speed_and_its_dimensions(tmp_path, capsys):
-    scene = tmp_path / "scene.toml"
-    scene.write_text(
-        'mechanism = "slider_crank"\nspeed_rpm = 60\n[slider_crank]\ncrank_radius = 0.05\n'
-    )
-    assert main(["draw", str(scene)]) == 0
-    out = capsys.readouterr().out
-    assert "100.000 mm" in out
-    assert "m/s" in out
-
-
 def test_single_keys_are_changed(drawn, tmp_path, capsys):
     scene = tmp_path / "scene.toml"
     scene.write_text('mechanism = "slider_crank"\n')
@@ -96,18 +85,6 @@ def test_a_drawing_that_is_refused_is_drawn_and_told(drawn, capsys):
     assert "rod" in err
     assert "slider" in err
     assert target.stat().st_size > 10000
-
-
-def test_wrong_input_is_told_in_one_line(drawn, capsys):
-    for words, part in (
-        (["pres"], "press"),
-        (["missing.toml"], "missing.toml"),
-        ([str(drawn), "--save", "a.gif"], ".svg"),
-    ):
-        assert main(["draw", *words]) == 2
-        err = capsys.readouterr().err
-        assert part in err
-        assert err.count("\n") == 1
 
 
 @pytest.mark.parametrize(

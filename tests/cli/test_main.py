@@ -143,13 +143,6 @@ def printed_help(capsys, *words):
     return " ".join(capsys.readouterr().out.split())
 
 
-def test_help_names_every_command(capsys):
-    text = printed_help(capsys)
-    assert "example: exu-press" in text
-    for name, verb in zip(("run", "sweep", "fit"), ("Run one", "Run many", "Find"), strict=True):
-        assert f"{name} {verb}" in text
-
-
 @pytest.mark.parametrize("name", COMMANDS)
 def test_example(name, capsys, monkeypatch):
     command = load_command(name)

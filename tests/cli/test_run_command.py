@@ -145,9 +145,3 @@ def test_a_result_is_no_scene(size, tmp_path, capsys):
     for command in ("run", "draw"):
         assert main([command, str(tmp_path / "run.nc")]) == 2
         assert f"a stored result, which `exu-press report {tmp_path}" in capsys.readouterr().err
-
-
-def test_a_wrong_format_is_refused_without_pictures_too(tmp_path, capsys):
-    out = ["--no-pictures", "--format", "gif", "--out", str(tmp_path / "o")]
-    assert main(["run", "slider_crank", *out]) == 2
-    assert "--format gif: allowed are png, svg, pdf" in capsys.readouterr().err

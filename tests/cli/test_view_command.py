@@ -23,6 +23,7 @@ def test_an_animation_and_a_picture_from_the_file_alone(run, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
+        (["--slow", "5"], "--slow 5.0: allowed with --save"),
         (["--save", "x.avi"], "--save x.avi: allowed is a name ending in .mp4"),
         (["--save", "x.gif", "--from", "7"], "--from 7: the record goes from 0"),
         (["--save", "x.gif", "--at", "0.01"], "--at 0.01: allowed with --save FILE.png alone"),
@@ -41,13 +42,6 @@ def test_wrong_options_are_status_2_in_one_line(
     assert not list(tmp_path.iterdir())
 
 
-def test_a_directory_of_many_runs(tmp_path, capsys):
-    (tmp_path / "comparison.json").write_text("{}")
-    assert main(["view", str(tmp_path), "--save", str(tmp_path / "x.gif")]) == 2
-    told = capsys.readouterr().err
-    assert "holds comparison.json; allowed is a run.nc" in told
-
-
 def test_without_save_the_page_opens_in_the_browser(run, monkeypatch, capsys):
     opened = []
     monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) or True)
@@ -64,8 +58,3 @@ def test_without_a_browser_the_page_is_named(run, monkeypatch, capsys):
     monkeypatch.setattr("exu_press.cli.view.report_of", lambda *_: "a page")
     assert main(["view", str(run), "--quiet"]) == 2
     assert f"no browser can be opened here; open {run.parent}" in capsys.readouterr().err
-
-
-def test_options_of_animations_without_save(run, capsys):
-    assert main(["view", str(run), "--slow", "5"]) == 2
-    assert "--slow 5.0: allowed with --save" in capsys.readouterr().err

@@ -9,7 +9,6 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from exu_press.cli import main
-from exu_press.errors import InputError
 from exu_press.plots import force_figure, orbit_figure, slider_figure
 from exu_press.plots.file import save_figure
 from exu_press.plots.format import PictureFormat, drawn_as
@@ -125,9 +124,3 @@ def test_what_is_no_format_is_refused_before_anything_runs(
     (tmp_path / "huge.mplstyle").write_text("font.size: 1e9\n")
     assert main(["run", "press", *words, "--out", "o"]) == 2
     assert said in capsys.readouterr().err and not (tmp_path / "o").exists()
-
-
-def test_formats_in_python():
-    assert PictureFormat.from_texts("png", "6.5in", None, "default").width == 6.5
-    with pytest.raises(InputError, match="--format gif"):
-        PictureFormat.from_texts("gif", None, None, "default")

@@ -20,10 +20,6 @@ def titled(figure):
     return {axes.get_title("left"): axes for axes in figure.axes if axes.get_title("left")}
 
 
-def legend(axes):
-    return [text.get_text() for text in axes.get_legend().get_texts()]
-
-
 @pytest.mark.parametrize(
     ("draw", "label", "titles", "unit"),
     [
@@ -49,12 +45,6 @@ def test_forces_of_joints_and_the_drive(results, label, titles):
     assert list(titled(figure)) == [*titles, "Drive torque"]
     assert [axes.get_ylabel() for axes in figure.axes] == ["force, kN"] * 3 + ["torque, N m"]
     assert not figure.legends
-
-
-def test_runs_beside_each_other_have_a_legend(results):
-    figure = force_figure({name: results[name] for name in ("ideal", "dry", "lubricated")})
-    (names,) = figure.legends
-    assert [text.get_text() for text in names.get_texts()] == ["ideal", "dry", "lubricated"]
 
 
 def test_sides_that_differ_are_both_shown(results):
@@ -114,13 +104,6 @@ def test_a_small_path_is_magnified_beside_the_whole_circle(results):
 def test_ideal_joints_have_no_paths(results):
     with pytest.raises(InputError, match="no joint with clearance"):
         orbit_figure(results["ideal"])
-
-
-def test_what_dissipates_is_named(results):
-    assert legend(titled(energy_figure(results["dry"]))["Dissipated in"]) == [
-        "crank pin",
-        "ball, each side",
-    ]
 
 
 def test_shaking_force_is_drawn_as_its_mean_over_a_millisecond(results):

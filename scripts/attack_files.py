@@ -123,7 +123,7 @@ def attack_results(folder: Path, seeds: Sequence[int]) -> int:
     """Damage a rigid and a flexible run's file in turn."""
     scenes = (
         Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.02),
-        Scene(bodies=flexible_press(modes=4), revolutions=0.002),
+        Scene(bodies=flexible_press(modes=4, mesh_size=0.1), revolutions=0.002),
     )
     files = [folder / f"{number}.nc" for number in range(len(scenes))] if seeds else []
     for file, scene in zip(files, scenes, strict=False):

@@ -41,7 +41,9 @@ def body(result, name, times):
 
 
 @reduced("four-bar with a clearance of 20 um in its knuckle")
-@pytest.mark.parametrize(("pin", "step"), [("pinkus", 2e-5), ("lugre_steady", 5e-6)])
+@pytest.mark.parametrize(
+    ("pin", "step"), [("pinkus", 2e-5), pytest.param("lugre_steady", 5e-6, marks=pytest.mark.long)]
+)
 def test_four_bar(pin, step, compare):
     """The rocker's centre of mass, which swings by 87 mm, within 2e-9 m; measured 6e-10."""
     times = np.linspace(0.0, 0.05, 21)

@@ -85,7 +85,7 @@ def test_the_arm_swings_as_in_an_independent_model(mechanism, block, compare):
     compare(name, expected, ours, error=None, rel=1e-3, scale=play, unit="rad")
 
 
-@pytest.mark.parametrize("mechanism", [SLOT, SLIDE])
+@pytest.mark.parametrize("mechanism", [SLOT, pytest.param(SLIDE, marks=pytest.mark.long)])
 def test_the_motion_tends_to_the_ideal_one_as_the_clearance_vanishes(mechanism):
     away = []
     for clearance in (1e-4, 1e-5):

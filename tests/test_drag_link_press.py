@@ -88,6 +88,7 @@ def test_the_ideal_guide_rubs_with_its_force(of_ideal_pins):
     assert run.quantity("guides.ram.dissipated").value == pytest.approx(expected, rel=1e-2)
 
 
+@pytest.mark.long
 def test_the_rod_of_its_step_file_fits(tmp_path):
     """As the scene has it in comments: the pins lie in the bores, the mass is the rod's."""
     pytest.importorskip("ngsolve")

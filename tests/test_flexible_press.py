@@ -4,11 +4,13 @@ import dataclasses
 
 import numpy as np
 import pytest
+from coarse_parts import COARSE
 
 from exu_press import Scene, simulate
 from exu_press.scene import flexible_press
 
 SHORT = {"revolutions": 0.04}
+MESH = 0.1
 VARIANTS = [("ideal", "ideal"), ("ideal", "dry"), ("dry", "dry"), ("lubricated", "dry")]
 
 
@@ -17,7 +19,7 @@ def linkage_as_solid():
     """Mass properties of the solid linkage, for a rigid twin of the flexible body."""
     from fe_models import Reduction, reduced_part, shipped_part
 
-    part = reduced_part(shipped_part("linkage"), Reduction(modes=0))
+    part = reduced_part(shipped_part("linkage", MESH), Reduction(modes=0))
     offset = float(part.centre_of_mass[0])
     inertia = float(part.inertia[2, 2]) - part.mass * offset**2
     return {"linkage_mass_offset": offset, "linkage_inertia": inertia, "linkage_mass": part.mass}
@@ -34,7 +36,7 @@ def test_without_modes_it_is_the_rigid_press(crank_pin, balls, linkage_as_solid)
     )
     twin = {k: v for k, v in linkage_as_solid.items() if k != "linkage_mass"}
     rigid = simulate(scene.replace({f"press.{key}": value for key, value in twin.items()}))
-    flexible = simulate(scene.replace({"bodies": flexible_press(modes=0)}))
+    flexible = simulate(scene.replace({"bodies": flexible_press(modes=0, mesh_size=MESH)}))
     assert np.abs(rigid["slider_position"] - flexible["slider_position"]).max() < 1e-8
     assert flexible.completed
 
@@ -48,7 +50,7 @@ def test_without_modes_it_is_the_rigid_press(crank_pin, balls, linkage_as_solid)
 )
 def test_every_pin_variant_runs(crank_pin, balls):
     result = simulate(
-        Scene(bodies=flexible_press(), joints={"crank_pin": crank_pin, "balls": balls}, **SHORT)
+        Scene(bodies=COARSE, joints={"crank_pin": crank_pin, "balls": balls}, **SHORT)
     )
     summary = result.summary()
     assert result.completed, summary["reason"]
@@ -61,7 +63,7 @@ def test_every_pin_variant_runs(crank_pin, balls):
 def test_the_balance_knows_that_the_frame_of_a_bending_crank_tilts():
     """In the plane alone it misses 3e-4 of what the drive puts in, however fine the steps."""
     scene = Scene(
-        bodies=flexible_press(modes=4),
+        bodies=COARSE,
         joints={"crank_pin": "lubricated", "balls": "dry"},
         revolutions=0.1,
     )
@@ -89,7 +91,7 @@ def test_ten_thousand_times_stiffer_it_approaches_the_rigid_press():
 
 def test_blanking_bends_the_crank():
     scene = Scene(
-        bodies=flexible_press(), joints={}, start_angle_deg=140.0,
+        bodies=COARSE, joints={}, start_angle_deg=140.0,
         revolutions=0.03,
         load={"blanking": {"kind": "blanking", "force": 1e6, "end_angle_deg": 150.0}},
     )  # fmt: skip
@@ -106,7 +108,7 @@ def test_blanking_bends_the_crank():
 @pytest.fixture(scope="module")
 def oiled_run():
     joints = {"crank_pin": "lubricated", "balls": "dry"}
-    result = simulate(Scene(bodies=flexible_press(), joints=joints, revolutions=0.02))
+    result = simulate(Scene(bodies=COARSE, joints=joints, revolutions=0.02))
     assert result.completed
     return result
 

@@ -2,8 +2,6 @@
 
 import ast
 import functools
-import subprocess
-import sys
 from collections import defaultdict
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -80,36 +78,4 @@ def test_only_methods_for_users_ask_the_face_of_the_package():
         "exu_press.result.result",
         "exu_press.scene.scene",
         "exu_press.studies.comparison",
-    }
-
-
-IDEAL_RUN = """
-import sys
-from exu_press import Scene, simulate
-simulate(Scene(joints={}, revolutions=1e-3))
-print(*(name for name in sys.modules if name.partition(".")[0] in ("exu_press", "fe_models")))
-"""
-
-NOT_OF_AN_IDEAL_RUN = (
-    "film",
-    "graphics",
-    "oil",
-    "wear",
-    "worn",
-    "flexible",
-    "placed_part",
-    "studies",
-)
-
-
-def test_an_ideal_rigid_run_imports_what_it_uses():
-    done = subprocess.run(
-        [sys.executable, "-c", IDEAL_RUN], capture_output=True, text=True, check=True
-    )
-    modules = done.stdout.split()
-    assert 50 < len(modules) <= 125
-    assert not [name for name in modules if any(word in name for word in NOT_OF_AN_IDEAL_RUN)]
-    assert {name for name in modules if name.startswith("fe_models.")} <= {
-        "fe_models.errors",
-        "fe_models.lazy",
     }

@@ -3,10 +3,11 @@
 import itertools
 import json
 import re
+from dataclasses import replace
 
 import pytest
 
-from exu_press import InputError, Result, Scene
+from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import compare, main
 from exu_press.files.output_directory import folder_name
 from exu_press.report.comparison import comparison_report
@@ -88,6 +89,12 @@ def test_no_variant_is_dropped_or_overwritten(names, mine, tmp_path, monkeypatch
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(f"speed_rpm = {100 + number}\n{mine.read_text()}")
     before = sorted(path.name for path in tmp_path.iterdir())
+    run = simulate(Scene.load(mine))
+    monkeypatch.setattr(
+        compare,
+        "simulate_side_by_side",
+        lambda scenes, **_: ((name, replace(run, scene=s)) for name, s in scenes.items()),
+    )
     assert main(["compare", *names, *QUICK, "--quiet", "--out", "inside"]) == 0
     expected = [100.0 + [*dict.fromkeys(names)].index(name) for name in names]
     assert speeds(tmp_path / "inside") == [(speed, speed) for speed in expected]

@@ -69,8 +69,14 @@ class Block:
 
     @property
     def shortened(self) -> list[str]:
-        """What shows that the commands run, in ten degrees unless more is looked at."""
-        return [] if re.search("--at |--from ", self.text) else ["--set", "revolutions=0.03"]
+        """What shows that the commands run, in ten degrees unless more is looked at.
+
+        Of other dimensions the press has no flexible variants, whose modes take long to find.
+        """
+        few = [] if re.search("--at |--from ", self.text) else ["revolutions=0.03"]
+        if "exu-press compare press" in self.text:
+            few.append("press.crank_radius=0.029")
+        return [word for change in few for word in ("--set", change)]
 
     @property
     def commands(self) -> list[str]:

@@ -53,7 +53,7 @@ def test_five_runs_stand_apart_in_grey():
             assert abs(lightness[0] - lightness[1]) > 15.0, (first, second)
 
 
-@pytest.mark.parametrize("width", ["84mm", "17.4cm"])
+@pytest.mark.parametrize("width", [pytest.param("84mm", marks=pytest.mark.long), "17.4cm"])
 def test_a_width_is_that_of_the_file_and_letters_are_those_of_a_paper(width, results, tmp_path):
     chosen = PictureFormat.from_texts("png", width, None, "default")
     with drawn_as(chosen):
@@ -84,7 +84,7 @@ def overlapping_headings(figure):
     return overlapping
 
 
-@pytest.mark.parametrize("width", [None, "84mm"])
+@pytest.mark.parametrize("width", [pytest.param(None, marks=pytest.mark.long), "84mm"])
 def test_no_heading_lies_on_another_one(width, results):
     with drawn_as(PictureFormat.from_texts("png", width, None, "default")):
         for figure in (

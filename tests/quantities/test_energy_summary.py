@@ -5,6 +5,7 @@ from pathlib import Path
 import exudyn as exu
 import numpy as np
 import pytest
+from coarse_parts import COARSE
 from exudyn.itemInterface import LoadForceVector, MarkerBodyRigid
 
 import exu_press
@@ -12,7 +13,6 @@ from exu_press import Result, Scene, simulate
 from exu_press.plots.save import save_pictures
 from exu_press.quantities.energy import energy_residual
 from exu_press.result import record
-from exu_press.scene import flexible_press
 
 SCENES = Path(exu_press.__file__).parent / "scenes"
 
@@ -84,7 +84,7 @@ def test_sensors_of_one_s_own_change_nothing():
 
 def test_damping_of_modes_is_an_entry_of_what_is_dissipated():
     pytest.importorskip("ngsolve")
-    result = simulate(Scene(bodies=flexible_press(modes=4), revolutions=0.05))
+    result = simulate(Scene(bodies=COARSE, revolutions=0.05))
     losses = [result[name] for name in result if name.endswith("_loss")]
     modal = result["crank_modes_loss"] + result["linkage_modes_loss"]
     assert modal[-1] > 0.01 * result["energy_dissipated"][-1]

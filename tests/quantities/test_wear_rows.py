@@ -159,6 +159,7 @@ SLOTTED = Scene(
         "length": 0.1,
     },
     wear=WEAR,
+    solver={"tolerance": 1e-2},
 )
 
 

@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from coarse_parts import COARSE
 
 from exu_press import Scene, simulate
 from exu_press.mechanism import mechanism_to_dict, shipped_mechanism
 from exu_press.mechanism.independent_constraints import independent_constraints
-from exu_press.scene import flexible_press, mechanism_of
+from exu_press.scene import mechanism_of
 
 PULSE = {
     "kind": "blanking",
@@ -27,7 +28,7 @@ SCENES = {
     },
     "dry pin": {"joints": {"crank_pin": "dry", "balls": "dry"}},
     "slider-crank": {"mechanism": "slider_crank", "joints": {}},
-    "flexible": {"bodies": flexible_press(modes=4), "joints": {}},
+    "flexible": {"bodies": COARSE, "joints": {}},
 }
 STEPS = {"step": 2e-5}
 

@@ -2,19 +2,18 @@
 
 import numpy as np
 import pytest
+from coarse_parts import COARSE
 
 from exu_press import Result, Scene, simulate
 from exu_press.model.placed_part import placed_parts
 from exu_press.result.stress import _worst
-from exu_press.scene import flexible_press
 
 pytest.importorskip("ngsolve")
 
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    bodies = flexible_press(modes=6, mesh_size=0.1)
-    result = simulate(Scene(bodies=bodies, revolutions=0.05))
+    result = simulate(Scene(bodies=COARSE, revolutions=0.05))
     path = tmp_path_factory.mktemp("flexible") / "run.nc"
     result.save(path)
     return result, path

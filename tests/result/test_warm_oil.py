@@ -149,8 +149,6 @@ def test_friction_of_a_mixed_film_heats_it_too():
     assert of_pin(run, "share_contact") > 0.01
     lost = of_pin(run, "mean_power")
     assert of_pin(run, "film.carried_off") == pytest.approx(lost, rel=0.03)
-    other = simulate(run.scene.replace({"friction.mu_kinetic": 0.02}))
-    assert of_pin(other, "film.temperature") < of_pin(run, "film.temperature")
 
 
 @pytest.mark.long

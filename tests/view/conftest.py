@@ -1,10 +1,10 @@
 """Short runs, made once."""
 
 import pytest
+from coarse_parts import COARSE
 from matplotlib.figure import Figure
 
 from exu_press import Result, Scene, simulate
-from exu_press.scene import flexible_press
 from exu_press.view import Animation
 from exu_press.view.animation import SIZE
 
@@ -17,7 +17,7 @@ SCENES = {
         "solver": {"step": 2e-4},
     },
     "ideal": {"joints": {}, "revolutions": 0.1},
-    "flexible": {"bodies": flexible_press(), "revolutions": 0.03},
+    "flexible": {"bodies": COARSE, "revolutions": 0.03},
 }
 
 

@@ -116,6 +116,7 @@ def test_warm_oil_has_the_temperature_of_its_heat_balance():
     assert bearing.viscosity == pytest.approx(oil.viscosity(bearing.temperature), rel=1e-9)
 
 
+@pytest.mark.long
 def test_an_inclined_journal_warms_its_oil_as_a_parallel_one_does():
     """Its film bears no load without bound: that of the hottest oil would not bear this one."""
     inclined = coefficients("grooved", (0.0, -1000.0), tilt=5e-4, oil=OIL)

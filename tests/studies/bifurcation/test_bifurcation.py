@@ -82,6 +82,7 @@ def test_whole_numbers_stay_whole():
     assert [type(value) for value in study.values] == [int, int]
 
 
+@pytest.mark.long
 def test_a_run_from_the_start_is_the_attractor(monkeypatch):
     """A fifth of the revolutions that an exponent needs."""
     for module in ("motion", "lyapunov"):

@@ -28,7 +28,7 @@ def known():
 
 
 def test_ishigami_s_function():
-    found, constant = indices(sample(ishigami, 3, 2048, 1))
+    found, constant = indices(sample(ishigami, 3, 1024, 1))
     first, total = known()
     assert found.first == pytest.approx(first, abs=0.03)
     assert found.total == pytest.approx(total, abs=0.03)

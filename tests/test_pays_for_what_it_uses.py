@@ -34,9 +34,12 @@ for option in ("--help", "--version"):
     except SystemExit:
         pass
 """
-SCENE = "from exu_press import Scene, simulate; Scene()"
-IDEAL_RUN = "simulate(Scene(joints={}, revolutions=1e-3))"
-FIRST_STEPS = "import exu_press.cli.run; simulate(Scene(revolutions=1e-6))"
+SCENE = "from exu_press import Scene; Scene()"
+FIRST_STEPS = "import exu_press.cli.run; exu_press.simulate(Scene(revolutions=1e-6))"
+IDEAL_RUN = """
+from exu_press import Scene, simulate
+simulate(Scene(joints={}, revolutions=1e-3))
+"""
 RIGID_RUN = """
 result = simulate(Scene.from_dict({
     "mechanism": "press", "revolutions": 0.01, "solver": {"step": 1e-4}}))
@@ -72,7 +75,7 @@ def test_each_step_of_the_way_to_a_run_imports_what_it_uses(tmp_path):
     assert {"exudyn", "numpy"} <= first  # SciPy takes twice as long to load as those two
     assert not tops(first) & {"scipy", "tqdm", "matplotlib", *FLEXIBLE}
     ideal, rigid, of_command = imported_after(
-        SCENE + "\n" + IDEAL_RUN,
+        IDEAL_RUN,
         RIGID_RUN % (tmp_path / "run.nc"),
         "from exu_press.cli import main\n" + COMMAND % place,
     )

@@ -90,12 +90,13 @@ def simulate_side_by_side(
             progress.label = ", ".join(labels) or progress.label
             progress.update(len(runs) * cores.cost_done() / total)
             for future in ended:
-                run, error = waiting.pop(future), future.exception()
-                if error is not None and not (
-                    isinstance(error, ChildError) and run.ratio != ITSELF
-                ):
-                    raise error
-                results[run.label][run.ratio] = future.result() if error is None else error
+                run = waiting.pop(future)
+                try:
+                    results[run.label][run.ratio] = future.result()
+                except ChildError as error:
+                    if run.ratio == ITSELF:
+                        raise
+                    results[run.label][run.ratio] = error
                 if len(results[run.label]) == expected[run.label]:
                     yield run.label, _result_with_errors(results.pop(run.label), errors)
 

@@ -20,10 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fe_models.array_file import cache_folder, load_arrays, save_arrays
-from fe_models.errors import InputError
 from fe_models.reduced import ReducedInterface, ReducedPart
 from fe_models.reduction import Reduction, Report, Solid, reduce_part
-from fe_models.temporary import TemporaryFolder, remove_abandoned
+from fe_models.temporary import remove_abandoned
 
 __all__ = ["cache_file", "default_folder", "load", "reduced_part", "save"]
 
@@ -75,55 +74,24 @@ def reduced_part(
     if stored is not None:
         return stored
     if (reader := solid.reader) is not None:
-        with TemporaryFolder() as spare:
-            arguments = solid, reduction, file, spare / file.name
-            here = f"{__name__}:{reduce_here.__name__}"
-            written, reason = reader.in_child(here, *arguments, report=report)
-            stored = load(written)
-        if reason:
-            _warn_of_cache(file, reason, solid)
-        if stored is None:
-            raise InputError(f"{file}: was changed by another program while it was written")
-        return stored
-    reduced = reduce_part(solid, reduction, report)
+        here = f"{__name__}:{reduce_here.__name__}"
+        reduced: ReducedPart = reader.in_child(here, solid, reduction, report=report)
+    else:
+        reduced = reduce_part(solid, reduction, report)
     try:
         save(reduced, file)
     except OSError as error:  # the cache is optional
-        _warn_of_cache(file, str(error.strerror), solid)
+        warnings.warn(
+            f"{file}: cannot be written ({error.strerror}); {solid.name} is reduced again whenever "
+            "it is needed",
+            stacklevel=2,
+        )
     return reduced
 
 
-def reduce_here(
-    solid: Solid, reduction: Reduction, file: Path, spare: Path, report: Report | None = None
-) -> tuple[Path, str]:
-    """Read and reduce a body of a STEP file or of matrices in this process, a child.
-
-    Args:
-        solid: to be reduced.
-        reduction: how.
-        file: in the cache, where the reduced part goes.
-        spare: the same in a temporary folder, for a cache that cannot be written.
-        report: called with (what is being done, share done).
-
-    Returns:
-        the file it is in; why that is not the cache's, or nothing.
-    """
-    reduced = reduce_part(solid.open_here(), reduction, report)
-    try:
-        save(reduced, file)
-    except OSError as error:  # the cache is optional
-        save(reduced, spare)
-        return spare, str(error.strerror)
-    return file, ""
-
-
-def _warn_of_cache(file: Path, reason: str, solid: Solid) -> None:
-    """Warn of a cache's file that cannot be written, as on a full disk."""
-    warnings.warn(
-        f"{file}: cannot be written ({reason}); {solid.name} is reduced again whenever it "
-        "is needed",
-        stacklevel=3,
-    )
+def reduce_here(solid: Solid, reduction: Reduction, report: Report | None = None) -> ReducedPart:
+    """Read and reduce a body of a STEP file or of matrices in this process, a child."""
+    return reduce_part(solid.open_here(), reduction, report)
 
 
 def default_folder() -> Path:

@@ -1,6 +1,6 @@
 """Reading of others' files in a child process, as a damaged one may crash or block its reader.
 
-`reduced_part` reads, meshes and reduces there in one go, and the result is a file of plain arrays.
+`reduced_part` reads, meshes and reduces there in one go, and gets plain arrays.
 The geometry kernel of this process never opens a STEP file.
 """
 

@@ -11,29 +11,12 @@ column of the angle with which the line turns.
 """
 
 import math
-from typing import Protocol
 
 import numpy as np
 
 from exu_press.numerics.arrays import Array
 
 __all__ = ["FixedLine", "GuideLine", "TurningLine"]
-
-
-class GuideLine(Protocol):
-    """The line of a guide, at coordinates (n,) of the bodies' nodes."""
-
-    def direction_row(self, q: Array) -> Array:
-        """Return the displacement along the line by each coordinate, (n,)."""
-
-    def normal_row(self, q: Array) -> Array:
-        """Return the displacement across the line by each coordinate, (n,)."""
-
-    def lateral_displacement(self, q: Array) -> float:
-        """Return the displacement across the line, m."""
-
-    def turning(self, row: Array) -> Array:
-        """Return the derivative (n, n) of one row, from the other one as it stands there."""
 
 
 class FixedLine:
@@ -115,3 +98,7 @@ class TurningLine:
         r, angle = self._apart + q[:3] - q[3:], self._normal + q[5] + turned
         x, y = math.cos(angle), math.sin(angle)
         return np.array([x, y, 0.0, -x, -y, r[1] * x - r[0] * y])
+
+
+GuideLine = FixedLine | TurningLine
+"""The line of a guide, at coordinates (n,) of the bodies' nodes."""

@@ -9,14 +9,11 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array
 
-__all__ = ["eno_cubic", "evaluate", "hermite", "integral", "slopes", "spline"]
+__all__ = ["eno_cubic", "evaluate", "hermite", "integral", "spline"]
 
 VARIES = 0.75
 """Change of second differences over the sum of its neighbours: 0.5 where a curve is smooth, 1 at an
 event."""
-
-BLOCK = 16384
-"""Number of points whose slopes are computed together."""
 
 
 def hermite(x: Array, values: Array, slopes: Array) -> Array:
@@ -122,18 +119,3 @@ def integral(x: Array, values: Array) -> Array:
     steps *= values[1:] + values[:-1]
     np.cumsum(steps, out=running_sum[1:])
     return running_sum
-
-
-def slopes(x: Array, values: Array) -> Array:
-    """Return the slopes (n,) of values (n,) at x (n,), as `numpy.gradient`.
-
-    In blocks, as the dozen arrays of a long record do not fit into the processor's cache.
-    """
-    gradient = np.empty(len(x))
-    for begin in range(0, len(x), BLOCK):
-        end = begin + BLOCK
-        first = max(begin - 1, 0)
-        gradient[begin:end] = np.gradient(values[first : end + 1], x[first : end + 1])[
-            begin - first : end - first
-        ]
-    return gradient

@@ -8,7 +8,7 @@ import numpy as np
 from exu_press.mechanism import Guide
 from exu_press.mechanism.guide_motion import pose_in_guide
 from exu_press.numerics.arrays import Array
-from exu_press.numerics.piecewise import integral, slopes
+from exu_press.numerics.piecewise import integral
 from exu_press.quantities.acceleration import mean_peak_of, peak
 from exu_press.quantities.kind import DIFFERENCE, ENERGY, FLOW, LOAD, MOMENT, MOTION, RESULTANT
 from exu_press.quantities.law_errors import guide_film_error
@@ -68,7 +68,7 @@ def _sliding_power(run: Reading, guide: Guide) -> float | None:
         return np.asarray(pose_in_guide(run.mechanism, guide, bodies, poses)[:, :2] @ direction)
 
     position = read_columns(run.result.channels, "body_position", position_of)
-    power = slopes(run.time, position)
+    power = np.gradient(position, run.time)
     power *= force
     return run.mean(np.abs(power, out=power))
 

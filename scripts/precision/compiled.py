@@ -42,12 +42,9 @@ class CompiledModel:
 
     def trajectory(self, time: Array, states: Array) -> Trajectory:
         """Return what is seen of states (n, 4) at instants (n,)."""
-        seen = np.empty((len(time), 3))
-        self._observe(time, states, seen)
-        dry = self.scene.joints["crank_pin"].kind == "dry"
-        return Trajectory(
-            time, states[:, 1], states[:, 3], seen[:, 0], seen[:, 1], seen[:, 2] if dry else None
-        )
+        acceleration = np.empty(len(time))
+        self._observe(time, states, acceleration)
+        return Trajectory(time, states[:, 1], states[:, 3], acceleration)
 
 
 def compile_model(scene: Scene) -> CompiledModel:
@@ -55,7 +52,7 @@ def compile_model(scene: Scene) -> CompiledModel:
     jit: Any = None
     if has_numba():
         jit = importlib.import_module("numba").njit
-    scalar_rate, scalar_pin = rate_of(scene, jit)
+    scalar_rate = rate_of(scene, jit)
 
     def rate(t: float, x: Array) -> Array:
         out = np.empty(4)
@@ -65,12 +62,10 @@ def compile_model(scene: Scene) -> CompiledModel:
     def fill(t: float, x: Array, out: Array) -> None:
         out[0], out[1], out[2], out[3] = scalar_rate(t, x[0], x[1], x[2], x[3])
 
-    def observe(time: Array, states: Array, seen: Array) -> None:
+    def observe(time: Array, states: Array, acceleration: Array) -> None:
         for i in range(len(time)):
             x = states[i]
-            _, _, force, depth, _, _ = scalar_pin(time[i], x[0], x[1], x[2], x[3])
-            _, _, _, acceleration = scalar_rate(time[i], x[0], x[1], x[2], x[3])
-            seen[i, 0], seen[i, 1], seen[i, 2] = acceleration, force, depth
+            acceleration[i] = scalar_rate(time[i], x[0], x[1], x[2], x[3])[3]
 
     if jit is not None:
         rate, fill, observe = jit(rate), jit(fill), jit(observe)

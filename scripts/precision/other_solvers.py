@@ -5,7 +5,7 @@ from functools import cache
 
 from exu_press.scene import Scene
 from exu_press.studies.precision.cases import Case, Extent
-from exu_press.studies.precision.errors import Errors, WholeRunErrors, errors_of
+from exu_press.studies.precision.errors import Errors, errors_of
 from exu_press.studies.precision.references import Reference, divergence
 from exu_press.studies.precision.timing import Attempt, TimedRun
 from precision.compiled import CompiledModel, compile_model
@@ -67,7 +67,7 @@ class Squeezer(Case):
 
     def errors(
         self, run: TimedRun, reference: Reference, horizon: float
-    ) -> tuple[Errors, WholeRunErrors | None]:
+    ) -> tuple[Errors, float | None]:
         """Return the errors at the endpoint."""
         if run.trajectory is None:
             return Errors(None, None, None), None

@@ -17,7 +17,7 @@ from exu_press.schema.table import plain
 __all__ = ["Jit", "Numbers", "ScalarFunction", "is_reducible", "numbers_of", "rate_of", "start_of"]
 
 State = tuple[float, float, float, float]
-PinForce = tuple[float, float, float, float, float]
+PinForce = tuple[float, float, float, float]
 ScalarFunction = Callable[..., Any]
 """Floats in, a tuple of floats out; Any, as a compiled one has no signature to check."""
 Jit = Callable[[ScalarFunction], ScalarFunction]
@@ -118,9 +118,9 @@ def start_of(numbers: Numbers) -> State:
 def dry_force(
     n: Numbers, e: float, n_rate: float, t_rate: float, omega_j: float, omega_b: float, c: float
 ) -> PinForce:
-    """Return f_n, f_t on the journal (N), the arm of -f_t on the bearing (m), the penetration (m).
+    """Return f_n, f_t on the journal (N), the arm of -f_t on the bearing (m), and a couple on that.
 
-    And the couple on the bearing (N m), which a film's shear alone has.
+    The couple (N m) is a film's shear.
 
     Hertz with STEP damping and no tension (Eqs. 23-26), steady LuGre friction (Eq. 33).
 
@@ -135,7 +135,7 @@ def dry_force(
     """
     depth, reach = e - c, n.radius + e
     if depth <= 0.0:
-        return 0.0, 0.0, reach, depth, 0.0
+        return 0.0, 0.0, reach, 0.0
     x = min(depth / n.damping_depth, 1.0)
     damping = n.damping_max * x * x * (3.0 - 2.0 * x)
     normal = max(0.0, n.stiffness * depth**n.exponent + damping * n_rate)
@@ -144,7 +144,7 @@ def dry_force(
     mu = (n.mu_kinetic + (n.mu_static - n.mu_kinetic) * stribeck) * tanh(
         v / n.regularisation_velocity
     ) + n.sigma_2 * v
-    return -normal, -mu * normal, reach, depth, 0.0
+    return -normal, -mu * normal, reach, 0.0
 
 
 def film_force(
@@ -153,7 +153,7 @@ def film_force(
     """Return the same of Pinkus' film with |eps_dot| (Eq. 35); NaN at eccentricity ratio 1."""
     eps, eps_t = e / c, n_rate / c
     if eps >= 1.0:
-        return nan, nan, nan, nan, nan
+        return nan, nan, nan, nan
     eps_w = eps * (omega_j + omega_b) - 2.0 * t_rate / c
     s2, two = 1.0 - eps * eps, 2.0 + eps * eps
     s, b = sqrt(s2), abs(eps_t) * eps
@@ -162,20 +162,16 @@ def film_force(
     f_r = -(24.0 * eps * big_s / two + 6.0 * pi * x * eps_t) / (s2 * s)
     f_t = 6.0 * pi * x * eps_w / (two * s)
     shear = n.film_scale * c * 2.0 * pi / s * (omega_j - omega_b)
-    return n.film_scale * f_r, n.film_scale * f_t, 0.5 * e, e - c, shear
+    return n.film_scale * f_r, n.film_scale * f_t, 0.5 * e, shear
 
 
 def _pin_forces(law: ScalarFunction, jit: Jit) -> ScalarFunction:
-    """Return what the pin does: (numbers, t, phi, y, phi_t, y_t) -> forces and penetration.
-
-    Its six values: the force on the rod along y (N) and on phi (N m), the force's magnitude (N),
-    the penetration (m, negative apart), and the eccentricity (x, y), m.
-    """
+    """Return the pin's force on the rod along y (N) and on phi (N m), of (numbers, t, phi, ...)."""
     law = jit(law)
 
     def pin(
         n: Any, t: float, phi: float, y: float, phi_t: float, y_t: float
-    ) -> tuple[float, float, float, float, float, float]:
+    ) -> tuple[float, float]:
         angle, r, big_l = n.start_angle + n.speed * t, n.crank_radius, n.rod_length
         cos_a, sin_a, cos_p, sin_p = cos(angle), sin(angle), cos(phi), sin(phi)
         e_x = -r * sin_a + big_l * cos_p  # journal on the crank less bearing on the rod
@@ -184,21 +180,20 @@ def _pin_forces(law: ScalarFunction, jit: Jit) -> ScalarFunction:
         v = -r * n.speed * sin_a - y_t + big_l * cos_p * phi_t
         e = hypot(e_x, e_y)
         n_x, n_y = (e_x / e, e_y / e) if e > 0.0 else (1.0, 0.0)
-        f_n, f_t, reach, depth, couple = law(
+        f_n, f_t, reach, couple = law(
             n, e, u * n_x + v * n_y, v * n_x - u * n_y, n.speed, phi_t, n.clearance
         )
         f_x, f_y = f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x
         on_phi = big_l * (f_y * cos_p - f_x * sin_p) - reach * f_t + couple
-        return -f_y, on_phi, hypot(f_n, f_t), depth, e_x, e_y
+        return -f_y, on_phi
 
     return jit(pin)
 
 
-def rate_of(scene: Scene, jit: Jit | None = None) -> tuple[ScalarFunction, ScalarFunction]:
-    """Return the equations of motion of a scene and what its pin does.
+def rate_of(scene: Scene, jit: Jit | None = None) -> ScalarFunction:
+    """Return the equations of motion of a scene.
 
-    The first is (t, phi, y, phi_t, y_t) -> (phi_t, y_t, phi_tt, y_tt), SI; the second takes the
-    same and returns the values of `_pin_forces`.
+    They are (t, phi, y, phi_t, y_t) -> (phi_t, y_t, phi_tt, y_tt), SI.
 
     Args:
         scene: a slider-crank with a dry pin or a film.
@@ -208,16 +203,10 @@ def rate_of(scene: Scene, jit: Jit | None = None) -> tuple[ScalarFunction, Scala
     n = numbers_of(scene)
     forces = _pin_forces(dry_force if scene.joints["crank_pin"].kind == "dry" else film_force, jit)
 
-    def pin(
-        t: float, phi: float, y: float, phi_t: float, y_t: float
-    ) -> tuple[float, float, float, float, float, float]:
-        out: tuple[float, float, float, float, float, float] = forces(n, t, phi, y, phi_t, y_t)
-        return out
-
     def rate(
         t: float, phi: float, y: float, phi_t: float, y_t: float
     ) -> tuple[float, float, float, float]:
-        q_y, q_phi, _, _, _, _ = forces(n, t, phi, y, phi_t, y_t)
+        q_y, q_phi = forces(n, t, phi, y, phi_t, y_t)
         half, cos_p, sin_p = 0.5 * n.rod_length, cos(phi), sin(phi)
         a, b = n.rod_inertia + n.rod_mass * half * half, -n.rod_mass * half * cos_p
         d = n.rod_mass + n.slider_mass
@@ -226,7 +215,7 @@ def rate_of(scene: Scene, jit: Jit | None = None) -> tuple[ScalarFunction, Scala
         det = a * d - b * b
         return phi_t, y_t, (d * rhs_phi - b * rhs_y) / det, (a * rhs_y - b * rhs_phi) / det
 
-    return jit(rate), jit(pin)
+    return jit(rate)
 
 
 def _as_it_is(function: ScalarFunction) -> ScalarFunction:

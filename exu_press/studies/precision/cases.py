@@ -5,7 +5,7 @@ from typing import Self
 
 from exu_press.scene import Scene
 from exu_press.studies.precision import references
-from exu_press.studies.precision.errors import Errors, WholeRunErrors, errors_of, whole_run_errors
+from exu_press.studies.precision.errors import Errors, errors_of, peaks_error
 from exu_press.studies.precision.references import Reference
 from exu_press.studies.precision.stated import StatedErrors, stated_errors
 from exu_press.studies.precision.timing import Attempt, TimedRun, fixed_steps, tolerances
@@ -118,13 +118,13 @@ class Case:
 
     def errors(
         self, run: TimedRun, reference: Reference, horizon: float
-    ) -> tuple[Errors, WholeRunErrors | None]:
-        """Return how far a run is from the reference."""
+    ) -> tuple[Errors, float | None]:
+        """Return the errors of a run, and where there is a horizon that of all its peaks."""
         if run.trajectory is None or reference.trajectory is None:
             return Errors(None, None, None), None
-        errors = errors_of(run.trajectory, reference.trajectory, horizon)
-        late = whole_run_errors(run.trajectory, reference.trajectory, run.starts, reference.starts)
-        return errors, late
+        both = run.trajectory, reference.trajectory
+        peaks = peaks_error(*both, run.starts, reference.starts)
+        return errors_of(*both, horizon), peaks if horizon < self.duration else None
 
     def compare_stated_errors(self, amount: Extent, horizon: float) -> list[StatedErrors]:
         """Return the stated errors of runs until the horizon."""

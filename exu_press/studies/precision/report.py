@@ -13,7 +13,7 @@ from exu_press.studies.base.report import Picture, Report, Table
 from exu_press.studies.precision.rows import Row
 from exu_press.studies.precision.stated import StatedErrors
 from exu_press.studies.precision.table import (
-    case_tables,
+    case_table,
     machine_lines,
     order_table,
     stated_tables,
@@ -96,7 +96,7 @@ class PrecisionReport(Report):
         """Return where times were taken, the runs of each case, orders, and stated errors."""
         tables = [Table("Machine", above=machine_lines(self.machine, self.quick))]
         for name, case in self.cases.items():
-            tables += case_tables(name, case, [row for row in self.rows if row.case == name])
+            tables.append(case_table(name, case, [row for row in self.rows if row.case == name]))
         tables += [order_table(self.orders), *stated_tables(self.stated)]
         return [*tables, Table("Left out", above=self.left_out)] if self.left_out else tables
 

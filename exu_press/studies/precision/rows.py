@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from statistics import linear_regression
 from typing import Any
 
-from exu_press.studies.precision.errors import Errors, WholeRunErrors
+from exu_press.studies.precision.errors import Errors
 from exu_press.studies.precision.timing import OUTCOME, Attempt, Outcome, TimedRun
 
 __all__ = ["ERRORS", "Row", "order_of", "orders_of", "row_of", "series_of"]
@@ -29,7 +29,7 @@ class Row(Outcome):
         wall_time: median, s.
         cpu_time: median of the processor time, s.
         wall_times: of every repetition, s.
-        late: figures of the whole of a dry run.
+        error_peaks: of the peaks of a whole run in which trajectories diverge, relative.
     """
 
     case: str
@@ -43,12 +43,7 @@ class Row(Outcome):
     wall_time: float
     cpu_time: float
     wall_times: tuple[float, ...]
-    late: WholeRunErrors | None
-
-    @property
-    def error_peaks(self) -> float | None:
-        """The larger error of the mean and of the 95th percentile of a dry run's peaks."""
-        return None if self.late is None else max(self.late.mean_of_peaks, self.late.large_peaks)
+    error_peaks: float | None
 
     def resolved_error(self, error: str) -> float | None:
         """Return an error; None where it is missing or below what the reference resolves."""
@@ -62,7 +57,7 @@ def row_of(
     run: TimedRun,
     errors: Errors,
     floor: Errors,
-    late: WholeRunErrors | None,
+    peaks: float | None,
 ) -> Row:
     """Return the row of a run; errors below the floor are raised to it and marked."""
     names = dict(zip(ERRORS, ("position", "velocity", "peak_acceleration"), strict=True))
@@ -83,7 +78,7 @@ def row_of(
         wall_time=run.wall_time,
         cpu_time=run.cpu_time,
         wall_times=run.wall_times,
-        late=late,
+        error_peaks=peaks,
         **{name: getattr(run, name) for name in OUTCOME},
         **values,
     )

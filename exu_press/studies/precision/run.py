@@ -77,8 +77,8 @@ def _run(
                 attempt.again(0) if attempt.again else attempt.run()
                 warm.add(attempt.solver)
             run = time_runs(attempt, case.repeats or amount.repeats, longest)
-            errors, late = case.errors(run, reference, horizon)
-            rows.append(row_of(case.name, attempt, run, errors, reference.floor, late))
+            errors, peaks = case.errors(run, reference, horizon)
+            rows.append(row_of(case.name, attempt, run, errors, reference.floor, peaks))
             progress.update(done + 1)
     return rows
 

@@ -2,15 +2,13 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import astuple
 from typing import Any
 
 from exu_press.studies.base.report import Table
-from exu_press.studies.precision.errors import PEAKS_APART
 from exu_press.studies.precision.rows import ERRORS, Row
 from exu_press.studies.precision.stated import StatedErrors
 
-__all__ = ["case_tables", "horizon_text", "machine_lines", "order_table", "stated_tables"]
+__all__ = ["case_table", "horizon_text", "machine_lines", "order_table", "stated_tables"]
 
 INDENT = 2
 
@@ -20,6 +18,7 @@ HEAD = (
     "position",
     "velocity",
     "peak acc.",
+    "all peaks",
     "time, s",
     "cpu, s",
     "steps",
@@ -28,11 +27,6 @@ HEAD = (
     "laws",
     "us/step",
     "status",
-)
-
-LATE_HEAD = (
-    *("solver", "setting", "impacts", "their times, s", "peak force", "rms force", "graph"),
-    *("mean of peaks", "95th percentile"),
 )
 
 ORDER_HEAD = ("case", "solver", "setting", "position", "velocity", "peak")
@@ -51,22 +45,20 @@ def machine_lines(machine: Mapping[str, Any], quick: bool) -> list[str]:
     return lines
 
 
-def case_tables(name: str, case: Mapping[str, Any], rows: Sequence[Row]) -> list[Table]:
-    """Return a case's reference and its runs, and figures of whole dry runs."""
+def case_table(name: str, case: Mapping[str, Any], rows: Sequence[Row]) -> Table:
+    """Return a case's reference and its runs."""
     reference = case["reference"]
     units = "rad, rad/s" if case["scene"] is None else "m, m/s"
     title = f"{name}: {case['title']}"
     above = [
         title,
         f"  {case['duration']:g} s simulated; {horizon_text(case)}",
-        f"  errors up to then, {units} and relative; < smaller than the reference can tell; "
-        "* one run, not the median of three",
+        f"  errors up to then, {units} and relative, and of the whole run's peaks where there is a "
+        "horizon; < smaller than the reference can tell; * one run, not the median of three",
         f"  reference: {reference['method']}; {_difference(reference)}",
     ]
     below = [f"  {row.solver} {_setting(row)}: {row.reason}" for row in rows if row.reason]
-    runs = Table(title, HEAD, [_cells(row) for row in rows], above, below, INDENT)
-    late = _late_tables(title, rows) if case["horizon"] < case["duration"] else []
-    return [runs, *late]
+    return Table(title, HEAD, [_cells(row) for row in rows], above, below, INDENT)
 
 
 def order_table(orders: Sequence[Mapping[str, Any]]) -> Table:
@@ -130,6 +122,7 @@ def _cells(row: Row) -> tuple[str, ...]:
         row.solver,
         _setting(row),
         *("<" * (name in row.at_most) + _number(getattr(row, name), 2) for name in ERRORS),
+        _number(row.error_peaks, 2),
         f"{row.wall_time:.3g}" + ("" if len(row.wall_times) > 1 else "*"),
         f"{row.cpu_time:.3g}",
         *(_number(count, 7) for count in counts),
@@ -140,26 +133,6 @@ def _cells(row: Row) -> tuple[str, ...]:
 
 def _setting(row: Row) -> str:
     return f"{row.value:g}{' s' if row.setting == 'step' else ''}"
-
-
-def _late_tables(title: str, rows: Sequence[Row]) -> list[Table]:
-    cells: list[tuple[str, ...]] = [
-        (
-            row.solver,
-            f"{row.value:g}",
-            str(row.late.impacts),
-            *(_number(value, 2) for value in astuple(row.late)[1:]),
-        )
-        for row in rows
-        if row.late is not None
-    ]
-    if not cells:
-        return []
-    above = (
-        "  the whole run: touches, their error; relative errors; graph distance; peaks: largest "
-        f"accelerations of each {PEAKS_APART:g} s, of all starts"
-    )
-    return [Table(f"{title}, the whole run", LATE_HEAD, cells, [above], indent=INDENT)]
 
 
 def _number(value: float | None, digits: int) -> str:

@@ -11,7 +11,7 @@ from exu_press.studies.precision.errors import (
     Trajectory,
     errors_of,
     instants_until,
-    whole_run_errors,
+    peaks_error,
 )
 from exu_press.studies.precision.rows import order_of, orders_of, row_of, series_of
 from exu_press.studies.precision.timing import Attempt, TimedRun, time_runs
@@ -19,17 +19,10 @@ from exu_press.studies.precision.timing import Attempt, TimedRun, time_runs
 TIME = np.linspace(0.0, 0.1, 401)
 
 
-def wave(time=TIME, shift=0.0, amplitude=1.0, force=None, penetration=None):
+def wave(time=TIME, amplitude=1.0):
     a, w = amplitude, 50.0
-    x = w * (time - shift)
-    return Trajectory(
-        time,
-        a * np.sin(x),
-        a * w * np.cos(x),
-        -a * w * w * np.sin(x),
-        force,
-        penetration,
-    )
+    x = w * time
+    return Trajectory(time, a * np.sin(x), a * w * np.cos(x), -a * w * w * np.sin(x))
 
 
 def test_a_larger_amplitude_is_seen_in_all_three():
@@ -56,49 +49,17 @@ def test_instants_end_at_the_horizon(horizon):
     assert instants_until(horizon)[-1] == pytest.approx(horizon, abs=1e-12)
 
 
-def test_late_figures_of_a_shifted_run():
-    depth = np.sin(300.0 * TIME) * 1e-6
-    late = whole_run_errors(
-        wave(shift=1e-3, force=1.1 * np.maximum(depth, 0.0), penetration=np.roll(depth, 1)),
-        wave(force=np.maximum(depth, 0.0), penetration=depth),
-    )
-    assert late.impact_time == pytest.approx(TIME[1], rel=1e-6)
-    assert late.peak_force == pytest.approx(0.1) and late.rms_force == pytest.approx(0.1)
-    assert 0.009 < late.graph_distance < 0.05  # the shift over the length; more at the end
-
-
 def test_peaks_of_a_whole_run_are_a_distribution_over_its_starts():
     """Accelerations of a run are a tenth larger, those of its other start a tenth less."""
-    depth = np.sin(300.0 * TIME)
-    truth = wave(force=depth, penetration=depth)
-    large, small = (
-        wave(amplitude=amplitude, force=depth, penetration=depth) for amplitude in (1.1, 0.9)
-    )
-    alone, both = whole_run_errors(large, truth), whole_run_errors(large, truth, [small])
-    assert alone.mean_of_peaks == pytest.approx(0.1) and alone.large_peaks == pytest.approx(0.1)
-    assert both.mean_of_peaks == pytest.approx(0.0, abs=1e-12)
-    assert both.large_peaks == pytest.approx(0.0, abs=1e-12)
-    assert whole_run_errors(large, truth, [], [large]).mean_of_peaks == pytest.approx(0.1 / 2.1)
+    truth, large, small = (wave(amplitude=amplitude) for amplitude in (1.0, 1.1, 0.9))
+    assert peaks_error(large, truth) == pytest.approx(0.1)
+    assert peaks_error(large, truth, [small]) == pytest.approx(0.0, abs=1e-12)
+    assert peaks_error(large, truth, [], [large]) == pytest.approx(0.1 / 2.1)
 
 
 def test_a_run_shorter_than_a_span_has_one_peak():
     time = np.linspace(0.0, 0.003, 50)
-    short, large = (
-        wave(time, amplitude=amplitude, force=time, penetration=time) for amplitude in (1.0, 1.2)
-    )
-    assert whole_run_errors(large, short).mean_of_peaks == pytest.approx(0.2)
-
-
-def test_impact_times_need_equally_many_impacts():
-    depth, fewer = np.sin(300.0 * TIME), np.sin(100.0 * TIME)
-    late = whole_run_errors(
-        wave(force=depth, penetration=fewer), wave(force=depth, penetration=depth)
-    )
-    assert late.impacts == 2 and late.impact_time is None
-
-
-def test_a_film_has_no_late_figures():
-    assert whole_run_errors(wave(force=TIME), wave(force=TIME)) is None
+    assert peaks_error(wave(time, 1.2), wave(time)) == pytest.approx(0.2)
 
 
 NO_FLOOR = Errors(0.0, 0.0, 0.0)

@@ -91,7 +91,7 @@ def execute(options: argparse.Namespace) -> int:
 
         # they are refused here, where their files keep too little
         figures = comparison_figures(stored) if stored else {}
-    measured = _compare_curves(curves, stored, {})
+    _compare_curves(curves, stored)  # which refuses those that a run does not have
     require_common_window(compared)  # before anything is run or written
     if len(stored) > 1:
         with_equal_windows(stored)
@@ -103,7 +103,7 @@ def execute(options: argparse.Namespace) -> int:
         comparison = Comparison(results)
         if options.csv is not None:
             write_csv(options.csv, comparison.columns())
-        measured = _compare_curves(curves, results, measured)
+        measured = _compare_curves(curves, results)
         differences = {
             name: {run: comparison.plain() for run, comparison in runs.items()}
             for name, runs in measured.items()
@@ -166,33 +166,24 @@ def _label(name: str, labels: Iterable[str]) -> str:
 
 
 def _compare_curves(
-    curves: Mapping[Path, CurveFile],
-    results: Mapping[str, Result],
-    known: Mapping[str, Mapping[str, CurveComparison]],
+    curves: Mapping[Path, CurveFile], results: Mapping[str, Result]
 ) -> dict[str, dict[str, CurveComparison]]:
-    """Return measured curves beside runs by label, by the names of their files; `known` as is."""
+    """Return measured curves beside runs by label, by the names of their files."""
     stems = [file.stem for file in curves]
-    compared = {}
-    for file, curve in curves.items() if results else ():
-        name = file.stem if stems.count(file.stem) == 1 else str(file)
-        known_runs = known.get(name, {})
-        compared[name] = {
-            label: known_runs.get(label) or compare_curve(file, curve, result)
-            for label, result in results.items()
+    return {
+        file.stem if stems.count(file.stem) == 1 else str(file): {
+            label: compare_curve(file, curve, result) for label, result in results.items()
         }
-    return compared
+        for file, curve in curves.items()
+    }
 
 
 def _load_items(
     names: list[str], assignments: list[str], allow_code: bool, *, measured: bool
 ) -> tuple[Mapping[str, Scene | Result], list[str]]:
-    """Return scenes and results by label, read and checked before anything is run.
+    """Return scenes and results by label, and why variants of a scene are left out.
 
-    Why variants of a scene are left out stands beside them.
-
-    Args:
-        allow_code: whether scenes may name modules of the user's.
-        measured: whether measured curves are beside them, with which one run may be alone.
+    Beside a `measured` curve one run may be alone.
     """
     if not names:
         raise InputError("a measurement alone; allowed are scenes or results beside it")

@@ -143,11 +143,7 @@ def _load_mechanism(name: str, changes: Mapping[str, Any]) -> tuple[Mechanism, f
 def _of_scene(
     data: Mapping[str, Any], path: Path, changes: Mapping[str, Any]
 ) -> tuple[Mechanism, float | None]:
-    """Return the mechanism that a scene names or holds, and the crank's speed where it says it.
-
-    Args:
-        changes: of the scene's keys that are drawn, and of the mechanism's.
-    """
+    """Return the mechanism that a scene names or holds, and the crank's speed where it says it."""
     own = {name: changes[name] for name in DRAWN if name in changes}
     further = {name: value for name, value in changes.items() if name not in own}
     scene = {**data, **own}

@@ -105,12 +105,7 @@ def _start_path(name: str) -> Path:
 
 
 def _start_of(options: argparse.Namespace, scene: Scene) -> State | None:
-    """Return the state in which the run of --from ended, or None without it.
-
-    Raises:
-        InputError: the run did not get to its end, is of an older version, or began otherwise than
-            the scene does.
-    """
+    """Return the state in which the run of --from ended, or None without it."""
     if options.start is None:
         return None
     if options.within is not None:
@@ -168,11 +163,7 @@ def _with_start(result: Result, path: Path) -> Result:
 
 
 def _make_room(unfinished: Path, options: argparse.Namespace) -> None:
-    """Remove the finished blocks of an earlier run, or set them aside where --from goes on.
-
-    Raises:
-        InputError: neither --overwrite nor --from says what is to become of them.
-    """
+    """Remove the finished blocks of an earlier run, or set them aside where --from goes on."""
     if options.overwrite:
         remove(unfinished)
     elif (

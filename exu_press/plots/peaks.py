@@ -31,8 +31,7 @@ def with_error(value: Value, scale: float = 1.0, digits: int = 4) -> str:
         scale: to the unit that is shown.
         digits: of a figure without error.
     """
-    stated = None if value.error is None else value.to_dict()
-    return uncertain(value.value, stated, scale, digits).replace("+-", "±")
+    return uncertain(value.value, value.to_dict(), scale, digits).replace("+-", "±")
 
 
 def mark_peak(

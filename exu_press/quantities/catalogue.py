@@ -10,7 +10,7 @@ from exu_press.errors import InputError
 from exu_press.quantities.cost import COSTS
 from exu_press.quantities.energy import BALANCE
 from exu_press.quantities.fatigue import BODIES
-from exu_press.quantities.gears import GEARS
+from exu_press.quantities.gears_and_springs import GEARS, SPRINGS
 from exu_press.quantities.joints import JOINTS
 from exu_press.quantities.observed import find_observed, with_observed
 from exu_press.quantities.oil import OIL
@@ -20,7 +20,6 @@ from exu_press.quantities.reading import Reading
 from exu_press.quantities.sheet import SHEETS
 from exu_press.quantities.slider import SLIDER, STROKES
 from exu_press.quantities.slopes import SLOPES
-from exu_press.quantities.springs import SPRINGS
 from exu_press.quantities.start_stop import START_STOP
 from exu_press.quantities.wear import WEAR
 from exu_press.scene import Scene, mechanism_of

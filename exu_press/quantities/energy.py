@@ -61,10 +61,7 @@ def _balance(result: Result) -> dict[str, Array]:
 
 
 def _end(kind: str) -> Callable[[Reading, str], float | None]:
-    """Return a reader of the end of a balance's channel, None where the user's own items have part.
-
-    The energies of those items are not known.
-    """
+    """Return a reader of a balance at the end, None with own items, whose energy is unknown."""
     return lambda run, _: float(run[f"energy_{kind}"][-1]) if has_balance(run.result) else None
 
 

@@ -80,12 +80,6 @@ def _start(run: Reading, _: str) -> float | None:
     return largest[0] / largest[1] if largest[1] else None
 
 
-def _peak_force(run: Reading, joint: str) -> float | None:
-    if joint not in run.result.joints:  # of several ideal joints only some are recorded
-        return None
-    return run.peaks(f"{joint}_force").length
-
-
 START = Quantity(
     "start_ratio", "",
     "largest joint force before quantities are read, over the largest one after it",
@@ -109,7 +103,7 @@ JOINTS = (
              title="eccentricity ratio, max", extreme=Extreme.LARGEST, headline=True,
              law_error=eccentricity_error, curve="ratio"),
     Quantity("peak_force", "N", "largest force between journal and bearing",
-             LOAD, _peak_force, Owner.JOINT,
+             LOAD, lambda run, joint: run.peak(f"{joint}_force"), Owner.JOINT,
              title="joint force, max", display_unit="kN", extreme=Extreme.LARGEST, headline=True,
              curve="force"),
     START,

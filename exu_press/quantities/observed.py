@@ -53,12 +53,7 @@ def find_observed(declared: Iterable[Quantity], name: str) -> Quantity | None:
 
 @lru_cache(maxsize=256)
 def _observation(quantity: Quantity, label: str) -> Quantity:
-    """Return a quantity as it is read with another window or rate.
-
-    Args:
-        quantity: with a window of 1 ms or a rate of 1 kHz.
-        label: number and unit, as "500us", "1deg" or "5khz".
-    """
+    """Return a quantity of 1 ms or 1 kHz with another window or rate, as "500us" or "5khz"."""
     number, unit = re.fullmatch(r"(\d+)([a-z]+)", label).groups()  # type: ignore[union-attr]
     is_mean = MEAN in quantity.name
     unit_words = {"khz": "kHz", "hz": "Hz", "mdeg": "mdeg of the crank", "deg": "deg of the crank"}

@@ -39,18 +39,12 @@ def _frictionless(scene: Scene, _: str = "") -> bool:
 
 
 def _of_guide(run: Reading, body: str, quantity: str) -> Array | None:
-    name = f"{guide_channel(run.mechanism, body)}_{quantity}"
-    return run.channel(name)
+    return run.channel(f"{guide_channel(run.mechanism, body)}_{quantity}")
 
 
 def _guide_peak(quantity: str) -> Callable[[Reading, str], float | None]:
     """Return a reader of the largest magnitude of a guide's channel."""
-
-    def read(run: Reading, body: str) -> float | None:
-        name = f"{guide_channel(run.mechanism, body)}_{quantity}"
-        return None if run.channel(name) is None else run.peaks(name).length
-
-    return read
+    return lambda run, body: run.peak(f"{guide_channel(run.mechanism, body)}_{quantity}")
 
 
 def _sliding_powers(run: Reading) -> dict[str, float | None]:
@@ -124,7 +118,7 @@ def _mean_of(channel: str, column: int | None, window: float, run: Reading, _: s
 DRIVE = (
     Quantity("drive.peak_torque", "N m",
              "largest torque of the drive; a motor's turns flywheel and crank",
-             LOAD, lambda run, _: run.peaks("drive_torque").length,
+             LOAD, lambda run, _: run.peak("drive_torque"),
              title="drive torque, max", display_unit="kN m", extreme=Extreme.LARGEST,
              curve="drive_torque"),
     Quantity("drive.peak_torque_mean_1ms", "N m", "largest torque of the drive, averaged over 1 ms",
@@ -132,7 +126,7 @@ DRIVE = (
              observe=partial(_mean_of, "drive_torque", None), extreme=Extreme.LARGEST),
     Quantity("drive.peak_crank_torque", "N m",
              "largest torque that turns the crank, behind a motor's flywheel",
-             LOAD, lambda run, _: run.peaks("crank_torque").length,
+             LOAD, lambda run, _: run.peak("crank_torque"),
              available=_motor, title="crank torque, max", display_unit="kN m",
              extreme=Extreme.LARGEST, curve="crank_torque"),
     Quantity("drive.peak_crank_torque_mean_1ms", "N m",
@@ -144,7 +138,7 @@ DRIVE = (
              LOAD, lambda run, _: run.mean(run["drive_torque"]),
              signed=True),
     Quantity("drive.peak_power", "W", "largest power of the drive",
-             LOAD, lambda run, _: run.peaks("drive_power").length,
+             LOAD, lambda run, _: run.peak("drive_power"),
              extreme=Extreme.LARGEST, curve="drive_power"),
     Quantity("drive.mean_power", "W", "mean power of the drive, over whole revolutions",
              LOAD, lambda run, _: run.mean(run["drive_power"]),

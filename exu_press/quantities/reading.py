@@ -49,6 +49,10 @@ class Reading:
             self._peaks[name] = peaks(self.time, self[name])
         return self._peaks[name]
 
+    def peak(self, name: str) -> float | None:
+        """Return the largest magnitude of such a channel, None where the run does not have it."""
+        return None if self.channel(name) is None else self.peaks(name).length
+
     def once(self, read: Callable[["Reading"], Read]) -> Read:
         """Return a function of this reading, which is called once."""
         if read not in self._computed:

@@ -88,7 +88,7 @@ _SLIDER = (
              curve="slider_velocity"),
     Quantity("peak_acceleration.resolved", "m/s^2",
              "largest acceleration of the slider, as the integrator resolves it",
-             LOAD, lambda run, _: run.peaks("slider_acceleration").length,
+             LOAD, lambda run, _: run.peak("slider_acceleration"),
              title="peak acceleration", extreme=Extreme.LARGEST, headline=True,
              curve="slider_acceleration"),
     Quantity("peak_acceleration.mean_1ms", "m/s^2",

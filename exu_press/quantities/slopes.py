@@ -24,9 +24,8 @@ def _can_slope(scene: Scene, joint: str) -> bool:
 
 
 def _peak_slope(run: Reading, joint: str) -> float | None:
-    if f"{joint}_slope" not in run.result:
-        return None
-    return float(lengths(run[f"{joint}_slope"]).max())
+    slope = run.channel(f"{joint}_slope")
+    return None if slope is None else float(lengths(slope).max())
 
 
 def slope_warnings(run: Reading) -> Iterator[str]:

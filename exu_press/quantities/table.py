@@ -4,7 +4,6 @@ import textwrap
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 
@@ -83,16 +82,12 @@ class QuantityLine:
 
 def shown_value(quantity: Quantity, value: Value) -> str:
     """Return a value in the unit that tables show, with its error where that is known."""
-    return uncertain(value.value, _error_entry(value), quantity.scale, quantity.digits)
+    return uncertain(value.value, value.to_dict(), quantity.scale, quantity.digits)
 
 
 def narrow_cell(quantity: Quantity, value: Value) -> str:
     """Return a value in the unit that tables show, with its error in brackets."""
-    return bracket_text(value.value, _error_entry(value), quantity.scale, quantity.digits)
-
-
-def _error_entry(value: Value) -> Mapping[str, Any] | None:
-    return None if value.error is None else value.to_dict()
+    return bracket_text(value.value, value.to_dict(), quantity.scale, quantity.digits)
 
 
 def lines_by_heading(results: Mapping[str, Result]) -> dict[str, list[QuantityLine]]:

@@ -42,7 +42,8 @@ def uncertain(
 
     Args:
         value: SI, None where there is none.
-        error: of the summary's `errors`; None where nothing is known.
+        error: of the summary's `errors`, or its entry of a quantity; without an error nothing is
+            known.
         scale: to the unit that is shown.
         digits: of a figure without error.
 
@@ -58,7 +59,7 @@ def uncertain(
     """
     if value is None:
         return "-"
-    if error is None:
+    if error is None or error["error"] is None:
         return str(value) if isinstance(value, int) else significant(value * scale, digits)
     if not error["determined"]:
         low, high = error["low"] * scale, error["high"] * scale
@@ -94,6 +95,8 @@ def bracket_text(
     if value is None:
         return "-"
     scaled, whole = value * scale, isinstance(value, int)
+    if error is not None and error["error"] is None:
+        error = None
     if error is None or _is_exact(value, error):
         digits = digits if error is None else MOST_DIGITS
         text = _narrow(scaled, 0 if whole else max(digits - 1 - _exponent(scaled), 0))
@@ -108,13 +111,7 @@ def bracket_text(
 
 
 def _with_last_digit(value: float, spread: float, most: int, power: bool) -> str:
-    """Return a figure with its error in brackets.
-
-    Args:
-        value: of at most `most` digits.
-        spread: its error.
-        power: whether it has a power of ten.
-    """
+    """Return a figure of at most `most` digits with its error in brackets, also as a power."""
     places = min(-_exponent(spread), most - 1 - _exponent(value))
     while True:
         missed = spread + abs(value - round(value, places))

@@ -37,8 +37,7 @@ class Value:
 
     def __str__(self) -> str:
         """Return value, error and unit as people write them."""
-        stated = None if self.error is None else self.to_dict()
-        return f"{uncertain(self.value, stated)} {self.unit}".strip()
+        return f"{uncertain(self.value, self.to_dict())} {self.unit}".strip()
 
     def to_dict(self) -> dict[str, Any]:
         """Return the entry of summary.json."""

@@ -102,12 +102,7 @@ class Spectra:
 
 
 def _strongest(spectrum: Spectrum, every_line: bool) -> list[int]:
-    """Return the places of the highest peaks above resolution and error, by frequency.
-
-    Args:
-        every_line: whether each frequency is a line of its own, as the orders of a single
-            revolution are.
-    """
+    """Return the places of the highest peaks (lines) above resolution and error, by frequency."""
     padded = np.concatenate([[0.0], spectrum.amplitude, [0.0]])
     higher = (padded[1:-1] > padded[:-2]) & (padded[1:-1] >= padded[2:])
     peaks = np.flatnonzero(higher | every_line)

@@ -155,11 +155,7 @@ def _file_is_whole(arguments: Mapping[str, Any]) -> bool:
 
 
 def _claim(directory: Path, study: Mapping[str, Any], written: Sequence[str]) -> None:
-    """Write study.json, or check that it is this study's.
-
-    Raises:
-        InputError: the directory belongs to another study, or has files of one without study.json.
-    """
+    """Write study.json, or check that it is this study's."""
     path = directory / STUDY_FILE
     own = json.loads(json.dumps(study))
     if not path.exists():

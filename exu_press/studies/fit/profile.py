@@ -122,14 +122,9 @@ def profile(evaluate: Evaluate, best: Minimum, jacobian: Array, key: int, level:
 def _end(
     root: Callable[[float], float], best: float, bound: float, distance: float, rise: float
 ) -> End:
-    """Return one end of an interval.
+    """Return the end of an interval, where the root of chi-square's rise is `rise`.
 
-    Args:
-        root: of chi-square's rise at a value of the key.
-        best: value of the key at the minimum.
-        bound: end of the range on this side.
-        distance: expected one of the end from the best.
-        rise: root at the end.
+    It is expected at a `distance` from the best value, and looked for up to the bound.
     """
     room = abs(bound - best)
     if room == 0.0:

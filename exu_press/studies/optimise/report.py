@@ -202,7 +202,7 @@ class OptimiseReport(Report):
     def _number(self, name: str, position: int, scale: float) -> str:
         """Return a quantity of a point of the front with its error."""
         value, error = float(self.numbers(name)[position]), float(self.errors[name][position])
-        stated = None if np.isnan(error) else {"error": error, "determined": True}
+        stated = {"error": None if np.isnan(error) else error, "determined": True}
         return uncertain(value, stated, scale, 5)
 
 

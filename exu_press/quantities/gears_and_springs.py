@@ -1,13 +1,13 @@
-"""Quantities of springs between bodies."""
+"""Quantities of gears, and of springs between bodies."""
 
 from exu_press.mechanism.springs import GasSpring
 from exu_press.quantities.acceleration import peak
-from exu_press.quantities.kind import ENERGY, MOTION
+from exu_press.quantities.kind import ENERGY, LOAD, MOTION
 from exu_press.quantities.quantity import Extreme, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.scene import Scene, mechanism_of
 
-__all__ = ["SPRINGS"]
+__all__ = ["GEARS", "SPRINGS"]
 
 
 def _is_gas(scene: Scene, name: str) -> bool:
@@ -20,6 +20,13 @@ def _peak_pressure(run: Reading, name: str) -> float:
     assert isinstance(spring, GasSpring)
     return float(spring.gas_pressure(run[f"spring_{name}_length"]).max())
 
+
+GEARS = (
+    Quantity("peak_torque", "N m", "largest torque of the gear on its body",
+             LOAD, lambda run, gear: run.peak(f"gear_{gear}_torque"), Owner.GEAR,
+             title="gear torque, max", display_unit="kN m", extreme=Extreme.LARGEST,
+             curve="torque"),
+)  # fmt: skip
 
 SPRINGS = (
     Quantity("peak_force", "N", "largest force of the spring",

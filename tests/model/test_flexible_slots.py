@@ -59,9 +59,15 @@ def inverted():
     return replace(shipped_mechanism("inverted_slider_crank"), output=Output("block"))
 
 
+def slider_crank():
+    return mechanism_of(Scene(mechanism="slider_crank"))
+
+
+WRIST = slider_crank().joints[-1].at[1]
 SIDES = [{"x": [side - 1e-3, side + 1e-3], "y": [0, 0.1]} for side in (-0.03, 0.03)]
 TOP = {"y": [-0.061, -0.059]}
 CASES = {
+    "slider": (slider_crank, "slider", bar(-0.65, -0.3, 0.04, (0.0, WRIST)), {}, "guides.slider"),
     "pin": (pin_in_slot, "rod", bar(-0.27, 0.07, 0.02, (0.0, 0.05), PIN), {}, "slots.end"),
     "block": (inverted, "block", bar(0.0, 0.1, 0.03, (0.0, 0.05)), SIDES, "guides.block"),
     "carrier": (inverted, "arm", bar(-0.18, -0.06, 0.05, (0.03, -0.15)), TOP, "guides.block"),
@@ -123,6 +129,8 @@ LONG = pytest.mark.long
         pytest.param("pin", {"modes": 0}, GUIDEWAY, marks=LONG),
         ("block", {"modes": 0}, SPRINGS),
         ("carrier", {"modes": 0}, {"friction": "coulomb"}),
+        ("slider", {"modes": 0}, SPRINGS | {"friction": "stribeck"}),
+        pytest.param("slider", {"modes": 0}, GUIDEWAY, marks=LONG),
     ],
 )
 def test_stiff_it_is_the_rigid_body(drawn, case, body, guide):
@@ -130,7 +138,9 @@ def test_stiff_it_is_the_rigid_body(drawn, case, body, guide):
     result, other = simulate(flexible), simulate(rigid)
     assert result.completed and other.completed, result.info["reason"] + other.info["reason"]
     compared = ["slider_position", "slider_velocity", f"{channel}_force"]
-    compared += [n for n in (f"{channel}_friction", f"{channel}_loss") if n in other]
+    compared += [
+        n for n in (f"{channel}_{of}" for of in ("friction", "loss", "moment")) if n in other
+    ]
     for name in compared:
         there = np.interp(result.time, other.time, other[name])
         difference = np.abs(result[name] - there).max()

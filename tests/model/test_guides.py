@@ -1,0 +1,242 @@
+"""[guide] that rubs, has clearance or oil: statics by hand, losses, balance, the frame's force."""
+
+import functools
+
+import numpy as np
+import pytest
+from pressed import by_statics, pressed_slider_crank
+
+from exu_press import Scene, simulate
+from exu_press.mechanism import Body, Guide, Joint, Mechanism, Output
+from exu_press.mechanism.parts import GROUND
+from exu_press.scene import flexible_press, mechanism_of
+from exu_press.solving import scales
+
+LONG = pytest.mark.long
+MU, FORCE, CLEARANCE = 0.2, 1e5, 2e-5
+SIZES = {"clearance": CLEARANCE, "length": 0.3, "width": 0.1, "friction": "coulomb"}
+OILED = {**SIZES, "viscosity": 0.1, "face_width": 0.08, "contact_gap": 2e-6}
+RUBBING = {
+    "ideal": ({}, {"revolutions": 1.0, "solver": {"max_step_deg": 0.3}}),
+    "elastic": ({"lateral_stiffness": 1e10}, {"revolutions": 1.0, "solver": {"max_step_deg": 0.3}}),
+    "loose": (
+        {"clearance": CLEARANCE},
+        {"start_angle_deg": 20.0, "revolutions": 0.85, "contact": {"restitution": 0.1}}
+        | {"solver": {"tolerance": 3e-4}},
+    ),
+}
+
+
+@functools.cache
+def pressed(kind):
+    """Return a run under a constant force, and where it slides once it lies on its way."""
+    keys, scene = RUBBING[kind]
+    guide = {"friction": "coulomb", "mu_kinetic": MU} | keys
+    result = pressed_slider_crank(FORCE, guide=guide, **scene)
+    side, velocity, _ = by_statics(result, FORCE, MU)
+    slides = np.abs(velocity) > 5e-3
+    if kind == "loose":
+        slides &= (result.time > 0.5) & (np.abs(side) > 500.0)
+    assert slides.sum() > 100
+    return result, slides
+
+
+@pytest.mark.parametrize("kind", RUBBING)
+def test_side_force_friction_and_torque_are_those_of_statics(kind):
+    result, slides = pressed(kind)
+    side, velocity, torque = by_statics(result, FORCE, MU)
+    allowed = 5e-3 if kind == "loose" else 2e-3
+    force = np.abs(result["guide_force"])
+    assert np.abs(force - np.abs(side))[slides].max() < allowed * np.abs(side).max()
+    friction = -MU * np.sign(velocity) * force
+    off = np.abs(result["guide_friction"] - friction)[slides].max()
+    assert off < 1e-3 * np.abs(friction).max()
+    assert np.abs(result["drive_torque"] - torque)[slides].max() < allowed * np.abs(torque).max()
+
+
+@pytest.mark.parametrize("kind", RUBBING)
+def test_the_losses_are_the_work_of_friction(kind):
+    """Over a revolution the constant load gives back what it took: the drive pays for friction."""
+    result, _ = pressed(kind)
+    lost = result.quantity("guides.slider.dissipated").value
+    power = np.abs(result["guide_friction"] * result["slider_velocity"])
+    assert lost == pytest.approx(np.trapezoid(power, result.time), rel=1e-2)
+    assert lost > 20.0
+    assert (np.diff(result["guide_loss"]) >= -1e-9).all()
+    assert result.quantity("energy.residual").value < 1e-3
+    assert result.quantity("energy.dissipated").value == pytest.approx(lost, rel=1e-3)
+    assert result.quantity("guides.slider.mean_power").value == pytest.approx(
+        lost / result.time[-1], rel=1e-9
+    )
+    if kind != "loose":
+        driven = np.trapezoid(result["drive_power"], result.time)
+        assert driven == pytest.approx(lost, rel=2e-3)
+        peak = MU * result.quantity("guides.slider.peak_force").value
+        assert result.quantity("guides.slider.peak_friction").value == pytest.approx(peak, rel=1e-2)
+
+
+def test_a_loose_slider_has_its_clearance_and_the_give_of_its_guideway():
+    result, lies = pressed("loose")
+    stiffness = result.scene.guide.support.lateral_stiffness
+    expected = CLEARANCE + np.abs(result["guide_force"]) / stiffness
+    assert np.abs(np.abs(result["slider_lateral"]) - expected)[lies].max() < 1e-7
+    assert result["slider_lateral"].max() > CLEARANCE
+    assert result["slider_lateral"].min() < -CLEARANCE
+
+
+def test_the_film_of_a_pressed_slider_thins_until_contact_bears():
+    thin = {**OILED, "viscosity": 0.001, "friction": "none"}
+    result = pressed_slider_crank(FORCE, start_angle_deg=20.0, revolutions=1.0, guide=thin)
+    gap, beside = result["guide_gap"], np.abs(result["slider_lateral"])
+    assert result.quantity("guides.slider.min_film").value == max(0.0, gap.min())
+    assert gap.max() > 1e-5 and gap.min() < 2e-6
+    missed = result["energy_input"] - result["energy_stored"] - result["energy_dissipated"]
+    assert np.abs(missed).max() < 1e-4 * np.abs(result["load_die_work"]).max()
+    assert gap == pytest.approx(
+        CLEARANCE - beside, abs=2e-9
+    )  # the pin is the middle: hardly a tilt
+    assert np.abs(result["guide_force"]).max() > 5e3
+
+
+def test_the_drag_is_that_of_couettes_flow():
+    """With the slider in the middle: 2 mu w L v / c."""
+    result = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=1.0, guide=OILED))
+    expected = -2.0 * 0.1 * 0.08 * 0.3 / CLEARANCE * result["slider_velocity"]
+    assert result["guide_friction"] == pytest.approx(expected, abs=2e-3 * np.abs(expected).max())
+    lost = np.trapezoid(-expected * result["slider_velocity"], result.time)
+    # across the film it is lost as well
+    assert lost < result["guide_loss"][-1] < 1.01 * lost
+
+
+JOINTS = {"crank_pin": "lubricated", "balls": "dry"}
+OF_PRESS = {"joints": JOINTS, "revolutions": 0.15}
+IDEAL = {"joints": {}, "revolutions": 0.15}
+OF_CRANK = {"mechanism": "slider_crank", "revolutions": 0.1}
+OF_CRANK |= {"joints": {"crank_pin": "lubricated", "wrist_pin": "dry"}}
+LOOSE = {"clearance": 5e-5, "width": 0.2}
+
+
+@pytest.mark.parametrize(
+    ("scene", "guide"),
+    [
+        (IDEAL, {"friction": "lugre"}),
+        (OF_PRESS, {"friction": "stribeck"}),
+        ({"revolutions": 0.025}, LOOSE | {"friction": "stribeck"}),
+        (OF_CRANK | {"start": "loaded"}, OILED),
+        (OF_CRANK | {"start": "centred"}, OILED),
+        *(pytest.param(IDEAL, {"friction": f}, marks=LONG) for f in ("stribeck", "lugre_steady")),
+        *(pytest.param(OF_PRESS, {"friction": f}, marks=LONG) for f in ("lugre", "lugre_steady")),
+        *(
+            pytest.param({"revolutions": 0.025}, LOOSE | {"friction": f}, marks=LONG)
+            for f in ("none", "lugre")
+        ),
+    ],
+)
+def test_the_balance_closes(scene, guide):
+    result = simulate(Scene(**scene, guide=guide))
+    assert result.completed, result.info["reason"]
+    assert result.quantity("energy.residual").value < (1e-4 if "width" in guide else 3e-3)
+    guides = [guide.body for guide in mechanism_of(result.scene).guides]
+    lost = [result.quantity(f"guides.{name}.dissipated").value for name in guides]
+    assert max(lost) > 0.0
+    in_joints = sum(result[f"{name}_loss"][-1] for name in result.clearance_joints)
+    dissipated = result.quantity("energy.dissipated").value
+    assert sum(lost) + in_joints == pytest.approx(dissipated, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "guide"),
+    [
+        ("eccentric_press", LOOSE),
+        ("six_bar", OILED),
+        *(pytest.param(*v, marks=LONG) for v in (("six_bar", LOOSE), ("drag_link", OILED))),
+    ],
+)
+def test_any_mechanisms_guides_have_clearance(mechanism, guide):
+    result = simulate(Scene(mechanism=mechanism, joints={}, revolutions=0.3, guide=guide))
+    assert result.completed
+    assert result.quantity("energy.residual").value < 1e-3
+    for name in (guide.body for guide in mechanism_of(result.scene).guides):
+        if guide is OILED:
+            assert 0.0 < result.quantity(f"guides.{name}.min_film").value < CLEARANCE
+        else:
+            assert result.quantity(f"guides.{name}.peak_force").value > 0.0
+
+
+@pytest.mark.parametrize("guide", [{"friction": "coulomb"}, OILED], ids=["rubs", "oiled"])
+def test_the_frame_bears_what_guides_do(guide):
+    """The forces on the frame are the weights and the inertia forces of all bodies."""
+    result = simulate(Scene(mechanism="six_bar", joints={}, speed_rpm=60.0, guide=guide))
+    weight = sum(body.mass for body in mechanism_of(result.scene).bodies) * result.scene.gravity
+    expected = result["shaking_force"] - np.array([0.0, weight])
+    error = np.abs(result["frame_force"] - expected)[1:].max()
+    assert error < 0.2 * result.scene.solver.tolerance * scales(result.scene).force
+    friction = np.abs(result["guide_friction"]).max()
+    assert friction > 0.01 * np.abs(result["shaking_force"]).max()
+
+
+@pytest.mark.long
+def test_oil_of_flexible_bodies_drags_as_that_of_rigid_ones():
+    pytest.importorskip("ngsolve")
+    scene = {"joints": {}, "revolutions": 0.01, "guide": OILED}
+    rigid, soft = (
+        simulate(Scene.from_dict({**scene, **more}))
+        for more in ({}, {"bodies": flexible_press(modes=4)})
+    )
+    assert soft.completed
+    assert soft.quantity("energy.residual").value < 1e-3
+    for name in ("slide_guide_friction", "plunger_left_guide_friction"):
+        assert soft[name][-1] == pytest.approx(rigid[name][-1], rel=0.02)
+
+
+def test_lugre_in_guides_follows_the_scenes_bristles():
+    """Softer bristles need a longer way to their friction: less is lost."""
+    scene = {"mechanism": "slider_crank", "joints": {}, "guide": {"friction": "lugre"}}
+    lost = [
+        simulate(Scene(**scene, revolutions=1.0, friction={"sigma_0": stiffness})).quantity(
+            "guides.slider.dissipated"
+        )
+        for stiffness in (10.0, 1e5)
+    ]
+    assert lost[0].value < 0.9 * lost[1].value
+
+
+WATCH = Mechanism(
+    name="slider_crank",
+    bodies=(
+        Body("crank", 0.025, 3.4e-7, (-0.0012, -0.0019)),
+        Body("rod", 0.015, 9e-6, (-0.01, -0.028)),
+        Body("ram", 0.049, 5.9e-6, (-0.015, -0.058)),
+    ),
+    joints=(
+        Joint("shaft", (0.0, 0.0), GROUND, "crank"),
+        Joint("crank_pin", (-0.0045, -0.003), "rod", "crank"),
+        Joint("wrist_pin", (-0.0142, -0.0519), "ram", "rod"),
+    ),
+    guides=(Guide("ram"),),
+    crank="crank",
+    output=Output("ram"),
+)
+
+
+@pytest.mark.parametrize(
+    "tolerance", [1e-4, *(pytest.param(t, marks=pytest.mark.long) for t in (1e-3, 1e-5))]
+)
+def test_a_crank_in_oil_takes_one_iteration_a_step_with_friction(tolerance):
+    """At 1e-4 Newton's method failed within a microsecond, without derivatives by side forces."""
+    run = simulate(
+        Scene(
+            mechanism=WATCH,
+            speed_rpm=48.0,
+            revolutions=0.01,
+            start_angle_deg=143.0,
+            start="centred",
+            joints={"shaft": {"kind": "lubricated", "clearance": 2.4e-6, "radius": 1.4e-3}},
+            film={"length": 0.004, "viscosity": 0.03},
+            guide={"friction": "coulomb", "mu_kinetic": 0.1},
+            solver={"tolerance": tolerance},
+        )
+    )
+    assert run.completed
+    tries = run.info["steps"] + run.info["rejected_steps"]
+    assert run.info["newton_iterations"] < 1.2 * tries

@@ -173,31 +173,23 @@ BREAKDOWN = re.compile(
 )
 
 
-@pytest.fixture(scope="module", params=["slider_crank", "press"])
-def broken(request):
-    return simulate(Scene.from_dict({**THIN_OIL, "mechanism": request.param}))
-
-
-def test_film_that_breaks_down_says_when_and_where(broken):
-    assert broken.info["status"] == "film broke down"
+@pytest.mark.parametrize("mechanism", ["slider_crank", "press"])
+def test_a_film_that_breaks_down_says_when_and_where_and_keeps_the_run(mechanism):
+    broken = simulate(Scene.from_dict({**THIN_OIL, "mechanism": mechanism}))
+    assert broken.info["status"] == "film broke down" and not broken.completed
     match = BREAKDOWN.fullmatch(broken.info["reason"])
     assert match, broken.info["reason"]
     when, angle, ratio = map(float, match.groups())
     assert when == pytest.approx(broken.info["end_time"], rel=1e-4)
     assert angle == pytest.approx(360.0 * 4.0 * when, abs=0.02)
     assert ratio >= 1.0
-
-
-def test_what_was_computed_before_the_breakdown_is_kept(broken):
-    assert not broken.completed
-    assert 0.0 < broken.time[-1] < 0.25
     assert broken.time[-1] == pytest.approx(broken.info["end_time"], rel=1e-9)
+    assert 0.0 < broken.time[-1] < 0.25
     assert broken.info["steps"] == len(broken.time) - 1 > 10
     ratio = np.linalg.norm(broken["crank_pin_eccentricity"], axis=1) / 1e-4
     assert ratio.max() < 1.0, "no accepted state lies outside the film"
     assert ratio[-1] > 0.9, "and the last one is close to its end"
-    for name in broken:
-        assert np.all(np.isfinite(broken[name])), name
+    assert all(np.all(np.isfinite(broken[name])) for name in broken)
 
 
 CTRL_C = """
@@ -293,29 +285,16 @@ def test_a_script_that_looks_at_no_outcome_is_warned():
         solve_dynamic(pendulum()[0], settings(1.0), max_steps=20)
 
 
-SCENE = Scene.from_dict(
-    {
-        "mechanism": "slider_crank",
-        "speed_rpm": 60.0,
-        "revolutions": 0.1,
-        "joints": {"crank_pin": "ideal"},
-        "guide": {"clearance": 2e-5, "width": 0.1, "friction": "lugre"},
-        "solver": {"tolerance": 1e-4},
-    }
-)
-
-
-def test_it_says_how_long_and_why(monkeypatch, capsys) -> None:
+def test_a_long_run_says_how_long_and_why_and_a_short_one_nothing(monkeypatch, capsys):
+    guide = {"clearance": 2e-5, "width": 0.1, "friction": "lugre"}
+    scene = Scene(
+        mechanism="slider_crank", speed_rpm=60.0, joints={}, revolutions=0.03, guide=guide
+    )
+    simulate(scene, quiet=False)
+    assert "s left: steps of" not in capsys.readouterr().err
     monkeypatch.setattr("exu_press.integrate.monitor.SOON", 0.0)
     monkeypatch.setattr("exu_press.integrate.monitor.LONG", 0.0)
-    simulate(SCENE, quiet=False)
-    said = [line for line in capsys.readouterr().err.splitlines() if "s left: steps of" in line]
-    assert len(said) == 1
+    simulate(scene.replace({"revolutions": 0.1, "solver.tolerance": 1e-4}), quiet=False)
+    (said,) = [line for line in capsys.readouterr().err.splitlines() if "s left: steps of" in line]
     for part in ("run: about ", "slider's guide", "guide.friction = 'lugre'", "solver.tolerance"):
-        assert part in said[0]
-
-
-@pytest.mark.parametrize("quiet", [False, True])
-def test_a_short_run_says_nothing(quiet: bool, capsys) -> None:
-    simulate(SCENE.replace({"revolutions": 0.02}), quiet=quiet)
-    assert "s left: steps of" not in capsys.readouterr().err
+        assert part in said

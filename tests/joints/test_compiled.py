@@ -33,22 +33,15 @@ def test_all_modules_are_compiled_or_none():
     assert len(compiled) == (len(setup_script("")["MODULES"]) if COMPILED else 0)
 
 
-@pytest.mark.parametrize(
-    ("asked", "command", "expected"),
-    [
-        ("1", "bdist_wheel", True),
+def test_when_to_compile(monkeypatch):
+    for asked, command, expected in (
         ("1", "editable_wheel", True),
         ("0", "bdist_wheel", False),
         ("", "editable_wheel", False),
-    ],
-)
-def test_when_to_compile(asked, command, expected, monkeypatch):
-    script = setup_script(asked)
-    monkeypatch.setattr(sys, "argv", ["setup.py", command])
-    assert script["wanted"]() is expected
-
-
-def test_another_word_is_refused():
+    ):
+        script = setup_script(asked)
+        monkeypatch.setattr(sys, "argv", ["setup.py", command])
+        assert script["wanted"]() is expected
     with pytest.raises(SystemExit, match="EXU_PRESS_COMPILE = 'yes': allowed are 0 and 1"):
         setup_script("yes")
 

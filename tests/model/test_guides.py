@@ -65,12 +65,11 @@ def test_the_losses_are_the_work_of_friction(kind):
     assert (np.diff(result["guide_loss"]) >= -1e-9).all()
     assert result.quantity("energy.residual").value < 1e-3
     assert result.quantity("energy.dissipated").value == pytest.approx(lost, rel=1e-3)
-    assert result.quantity("guides.slider.mean_power").value == pytest.approx(
-        lost / result.time[-1], rel=1e-9
-    )
     if kind != "loose":
         driven = np.trapezoid(result["drive_power"], result.time)
         assert driven == pytest.approx(lost, rel=2e-3)
+        power = result.quantity("guides.slider.mean_power").value
+        assert power == pytest.approx(lost / result.time[-1], rel=1e-9)
         peak = MU * result.quantity("guides.slider.peak_force").value
         assert result.quantity("guides.slider.peak_friction").value == pytest.approx(peak, rel=1e-2)
 

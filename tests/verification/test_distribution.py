@@ -43,10 +43,6 @@ def test_bounds_of_percentiles_have_their_confidence(count, draw):
     assert (inside / 200 < 0.98).all()
 
 
-def test_of_fewer_samples_the_largest_may_be_below_the_percentile():
-    assert 0.95**LEAST_REVOLUTIONS <= 0.05 < 0.95 ** (LEAST_REVOLUTIONS - 1)
-
-
 def test_a_run_that_stops_early_leaves_none():
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, solver={"max_steps": 20})
     with pytest.raises(InputError, match=r"no distribution, as a run .*20 steps"):

@@ -16,6 +16,9 @@ LOOSE = Scene(
 )
 
 
+ACROSS = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].normal)))
+
+
 @pytest.fixture(scope="module")
 def run():
     return simulate(LOOSE)
@@ -35,9 +38,8 @@ def horizon(result, others):
 
 
 def test_a_body_that_is_elsewhere_between_its_ways_has_parted(run):
-    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].normal)))
-    assert horizon(run, {4.0: moved(run, across, 0.9 * DIVERGED * PLAY / 2**0.5)}) is None
-    found = horizon(run, {4.0: moved(run, across, DIVERGED * PLAY)})
+    assert horizon(run, {4.0: moved(run, ACROSS, 0.9 * DIVERGED * PLAY / 2**0.5)}) is None
+    found = horizon(run, {4.0: moved(run, ACROSS, DIVERGED * PLAY)})
     assert 0.9 * run.time[-1] < found <= run.time[-1]
 
 
@@ -48,21 +50,18 @@ def test_one_that_tilts_has_too(run):
 
 
 def test_one_that_is_ahead_has_not(run):
-    along = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].direction)))
-    assert horizon(run, {4.0: moved(run, along, PLAY)}) is None
+    assert horizon(run, {4.0: moved(run, 1 - ACROSS, PLAY)}) is None
 
 
 @pytest.mark.parametrize(("ratio", "parted"), [(0.5, True), (0.25, False), (9.0, False)])
 def test_errors_go_with_the_root_of_the_tolerance(run, ratio, parted):
-    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].normal)))
-    found = horizon(run, {ratio: moved(run, across, 0.33 * DIVERGED * PLAY)})
+    found = horizon(run, {ratio: moved(run, ACROSS, 0.33 * DIVERGED * PLAY)})
     assert (found is not None) is parted
 
 
 def test_a_close_run_at_half_the_tolerance_does_not_hide_that_a_coarser_one_has_diverged(run):
     """A flexible dry press, 0.23 clearances from a run at a tenth of the tolerance at its end."""
-    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].normal)))
-    close, coarser = (moved(run, across, distance * PLAY / 2**0.5) for distance in (0.026, 0.54))
+    close, coarser = (moved(run, ACROSS, distance * PLAY / 2**0.5) for distance in (0.026, 0.54))
     found = divergence(run, {0.5: close, 4.0: coarser})
     assert found.growth.horizon is not None
     assert 0.23 < 0.026 / found.distances[0.5] < 1.0
@@ -70,9 +69,8 @@ def test_a_close_run_at_half_the_tolerance_does_not_hide_that_a_coarser_one_has_
 
 def test_a_run_at_half_the_tolerance_vouches_for_less_where_a_coarser_one_has_diverged(run):
     """One difference is small by chance more often than two."""
-    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].normal)))
-    near = moved(run, across, 1.1 * DIVERGED * PLAY / single_difference_factor(0.5**ORDER))
-    beside, away = (moved(run, across, part * DIVERGED * PLAY) for part in (0.6, 1.5))
+    near = moved(run, ACROSS, 1.1 * DIVERGED * PLAY / single_difference_factor(0.5**ORDER))
+    beside, away = (moved(run, ACROSS, part * DIVERGED * PLAY) for part in (0.6, 1.5))
     found = divergence(run, {0.5: near, 8.0: beside})
     assert found.growth.horizon is None
     assert found.nearest == 0.0
@@ -84,8 +82,7 @@ def test_a_run_at_half_the_tolerance_vouches_for_less_where_a_coarser_one_has_di
 
 def test_a_run_that_was_beside_by_chance_vouches_for_less_still(run):
     """When the coarser one diverged, its distance told an error fourteen times the other's."""
-    across = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].normal)))
-    near, away = (moved(run, across, part * PLAY) for part in (0.035, 10.0 * DIVERGED))
+    near, away = (moved(run, ACROSS, part * PLAY) for part in (0.035, 10.0 * DIVERGED))
     found = divergence(run, {0.5: near, 8.0: away})
     part = 0.035 / (10.0 * DIVERGED)  # of the coarser one's distance, at all times
     assert found.nearest == pytest.approx(1.0 / ((8.0**ORDER - 1.0) * part), rel=0.1)

@@ -311,16 +311,6 @@ def test_a_force_that_symmetry_makes_nothing_is_known():
     assert told["determined"]
 
 
-def test_a_power_of_such_a_force_is_known():
-    """Its runs differ by what rounding made of each: it may be that of the other guides' powers."""
-    run = simulate(Scene(mechanism="press", joints={}, revolutions=1.0), errors=True)
-    power = run.quantity("guides.slider.sliding_power")
-    told, others = run.info["errors"][power.name], run.quantity("drive.guide_friction_power").value
-    assert told["determined"]
-    assert power.value < told["error"]
-    assert 1e-7 * others < told["error"] < 1e-5 * others
-
-
 def test_the_friction_of_such_a_force_is_known():
     """Finer steps leave more than coarser ones of a guide's side forces that cancel."""
     guide = {"friction": "coulomb", "mu_kinetic": 0.2}

@@ -12,6 +12,7 @@ from exu_press.laws.contact import hertz, step_damping
 from exu_press.laws.film import finite
 from exu_press.laws.friction import no_friction
 
+PLACE = exu.OutputVariableType.Coordinates
 VELOCITY = exu.OutputVariableType.Coordinates_t
 
 
@@ -45,12 +46,21 @@ def system_at(nodes, velocities, accelerations=None, joints=None, length=1.0):
     )
 
 
-def settings(end=1.0, steps=100, **changes):
-    """Exudyn's settings of a run that writes no solution file."""
+def settings(end=1.0, steps=100, period=None, **changes):
+    """Exudyn's settings of a run that writes no solution file.
+
+    Args:
+        end: s.
+        steps: of the largest size.
+        period: between what sensors record, s; 0 for every step, None for Exudyn's own.
+        changes: of the time integration.
+    """
     chosen = exu.SimulationSettings()
     integration = chosen.timeIntegration
     integration.endTime, integration.numberOfSteps = end, steps
     chosen.solution.file.write = False
+    if period is not None:
+        chosen.solution.sensors.writePeriod = period
     for name, value in changes.items():
         *path, last = name.split("__")
         owner = integration
@@ -60,23 +70,28 @@ def settings(end=1.0, steps=100, **changes):
     return chosen
 
 
-def mass_on_spring(frequency=20.0, position=1.0, force=None):
-    """A kilogram on a spring (rad/s), displaced by 1 m; its system and the sensor's number."""
+def oscillator(*, stiffness=100.0, damping=0.0, start=1.0, force=None, kind=PLACE, **sensor):
+    """Return a mass of 1 kg on a spring to the ground, its spring and a sensor of its own."""
     mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[position]))
+    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[start]))
     mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
     ends = [
         mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
         for number in (mbs.AddNode(items.NodePointGround()), node)
     ]
-    spring = items.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, stiffness=frequency**2)
+    options = {"markerNumbers": ends, "stiffness": stiffness, "damping": damping}
     if force is not None:
-        spring.springForceUserFunction = force
-    mbs.AddObject(spring)
-    sensor = items.SensorNode(nodeNumber=node, outputVariableType=VELOCITY, storeInternal=True)
-    mbs.AddSensor(sensor)
+        options["springForceUserFunction"] = force
+    spring = mbs.AddObject(items.ObjectConnectorCoordinateSpringDamper(**options))
+    options = {"storeInternal": True, **sensor}
+    sensor = mbs.AddSensor(items.SensorNode(nodeNumber=node, outputVariableType=kind, **options))
     mbs.Assemble()
-    return mbs
+    return mbs, spring, sensor
+
+
+def mass_on_spring(frequency=20.0, position=1.0, force=None):
+    """A kilogram on a spring (rad/s), displaced by 1 m; its system, with a sensor of its speed."""
+    return oscillator(stiffness=frequency**2, start=position, force=force, kind=VELOCITY)[0]
 
 
 def pendulum(bearing, torque=None, speed=0.0):

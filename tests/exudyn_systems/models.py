@@ -3,46 +3,21 @@
 import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
+import stand_in_system
+from stand_in_system import PLACE
 
 exu.config.suppressWarnings = True
 
 
 def settings(end, steps, *, period=0.01):
     """Return settings of a run that writes no file."""
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = end
-    settings.timeIntegration.numberOfSteps = steps
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = period
-    return settings
+    return stand_in_system.settings(end, steps, period)
 
 
-def coordinate_sensor(mbs, node, *, velocity=False, **options):
+def coordinate_sensor(mbs, node, kind=PLACE):
     """Add a sensor of a node's coordinates, or of their rates."""
-    kind = exu.OutputVariableType.Coordinates_t if velocity else exu.OutputVariableType.Coordinates
-    options = {"storeInternal": True, **options}
-    return mbs.AddSensor(items.SensorNode(nodeNumber=node, outputVariableType=kind, **options))
-
-
-def oscillator(*, stiffness=100.0, damping=0.0, start=1.0, force=None, **sensor):
-    """Return a mass of 1 kg on a spring to the ground, its spring and its sensor."""
-    mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[start]))
-    mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
-    ground = mbs.AddNode(items.NodePointGround())
-    markers = [
-        mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
-        for number in (ground, node)
-    ]
-    options = {} if force is None else {"springForceUserFunction": force}
-    spring = mbs.AddObject(
-        items.ObjectConnectorCoordinateSpringDamper(
-            markerNumbers=markers, stiffness=stiffness, damping=damping, **options
-        )
-    )
-    sensor = coordinate_sensor(mbs, node, **sensor)
-    mbs.Assemble()
-    return mbs, spring, sensor
+    sensor = {"outputVariableType": kind, "storeInternal": True}
+    return mbs.AddSensor(items.SensorNode(nodeNumber=node, **sensor))
 
 
 def rotor():

@@ -6,7 +6,8 @@ import threading
 import exudyn as exu
 import numpy as np
 import pytest
-from exudyn_systems.models import oscillator, settings
+from exudyn_systems.models import settings
+from stand_in_system import oscillator
 
 from exu_press import InputError, SolverStatus
 from exu_press.exudyn_systems import solve_dynamic

@@ -4,7 +4,8 @@ import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
 import pytest
-from exudyn_systems.models import coordinate_sensor, oscillator, rotor, settings
+from exudyn_systems.models import coordinate_sensor, rotor, settings
+from stand_in_system import VELOCITY, oscillator
 
 from exu_press import SolverStatus
 from exu_press.exudyn_systems import solve_dynamic
@@ -108,7 +109,7 @@ def reference(time):
 
 def servo(steps):
     mbs, spring, _ = oscillator(stiffness=4e3, damping=120.0, start=0.0)
-    sensor = coordinate_sensor(mbs, 0, velocity=True)
+    sensor = coordinate_sensor(mbs, 0, VELOCITY)
     mbs.Assemble()
 
     def sample(mbs, time):

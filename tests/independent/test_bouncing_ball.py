@@ -21,6 +21,7 @@ from exudyn.itemInterface import (
     SensorNode,
 )
 from scipy.optimize import brentq
+from stand_in_system import settings
 
 from exu_press import solve_dynamic
 from exu_press.studies.attractor import period_of
@@ -87,18 +88,13 @@ def section(gamma, e, periods):
         for kind in (exu.OutputVariableType.Coordinates, exu.OutputVariableType.Coordinates_t)
     ]
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = periods * PERIOD
-    settings.timeIntegration.numberOfSteps = 20 * periods
-    settings.timeIntegration.minimumStepSize = 1e-10
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = 0.0
+    chosen = settings(periods * PERIOD, 20 * periods, period=0.0, minimumStepSize=1e-10)
 
     def middle(time):
         number = math.floor(time / PERIOD - 0.5 + 1e-9) + 1
         return (number + 0.5) * PERIOD
 
-    solve_dynamic(mbs, settings, tolerance=1e-4, method="adaptive", next_corner=middle).check()
+    solve_dynamic(mbs, chosen, tolerance=1e-4, method="adaptive", next_corner=middle).check()
     time, places = mbs.GetSensorStoredData(sensors[0]).T
     _, speeds = mbs.GetSensorStoredData(sensors[1]).T
     wanted = (np.arange(periods) + 0.5) * PERIOD

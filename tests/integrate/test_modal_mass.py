@@ -6,6 +6,7 @@ import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
 import pytest
+from stand_in_system import settings
 
 from exu_press.integrate import SolverStatus, SolverTuning, solve_dynamic
 from exu_press.integrate.modal_mass import follow_modes
@@ -69,12 +70,8 @@ def vibrating(basis, followed=True):
 
 def run(mbs, sensor, steps, tolerance=None, **numbers):
     """Time and the slow mode's coordinate over ten of its periods."""
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = 10.0
-    settings.timeIntegration.numberOfSteps = steps
-    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
-    settings.solution.file.write, settings.solution.sensors.writePeriod = False, 0.0
-    outcome = solve_dynamic(mbs, settings, tolerance=tolerance, tuning=SolverTuning(**numbers))
+    chosen = settings(10.0, steps, period=0.0, generalizedAlpha__spectralRadius=0.8)
+    outcome = solve_dynamic(mbs, chosen, tolerance=tolerance, tuning=SolverTuning(**numbers))
     assert outcome.status in (
         SolverStatus.COMPLETED,
         SolverStatus.UNDER_RESOLVED,

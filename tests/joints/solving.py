@@ -2,40 +2,30 @@
 
 import exudyn as exu
 from exudyn.itemInterface import NodeRigidBody2D, ObjectRigidBody2D, SensorNode
+from stand_in_system import settings
 
 from exu_press.integrate import SolverStatus, solve_dynamic
 
 
-def solve(mbs, settings):
+def solve(mbs, chosen):
     """Solve an assembled system; sensors record every step, in memory."""
-    settings.timeIntegration.verboseMode = 0
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = 0.0
+    chosen.timeIntegration.verboseMode = 0
+    chosen.solution.sensors.writePeriod = 0.0
     exu.config.printToConsole = False
     try:
-        mbs.SolveDynamic(settings)
+        mbs.SolveDynamic(chosen)
     finally:
         exu.config.printToConsole = True
 
 
 def fixed_steps(duration, step):
     """Return settings with steps of one size."""
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.numberOfSteps = round(duration / step)
-    settings.timeIntegration.endTime = duration
-    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
-    return settings
+    return settings(duration, round(duration / step), generalizedAlpha__spectralRadius=0.9)
 
 
 def completed(mbs, end, steps=200, tolerance=1e-4):
     """Solve an assembled system to a tolerance, up to its end."""
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = end
-    settings.timeIntegration.numberOfSteps = steps
-    settings.timeIntegration.verboseMode = 0
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = 0.0
-    outcome = solve_dynamic(mbs, settings, tolerance=tolerance)
+    outcome = solve_dynamic(mbs, settings(end, steps, period=0.0), tolerance=tolerance)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
 
 

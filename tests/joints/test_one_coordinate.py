@@ -14,6 +14,7 @@ from exudyn.itemInterface import (
     ObjectRotationalMass1D,
 )
 from solving import planar_body, recorded, solve
+from stand_in_system import settings
 
 from exu_press import InputError, add_dry_revolute
 from exu_press.joints import user_force_of
@@ -80,12 +81,8 @@ class OneJoint:
         )
         sensors = [recorded(self.mbs, each, "Coordinates") for each in (node, free_node)]
         self.mbs.Assemble()
-        settings = exu.SimulationSettings()
-        settings.timeIntegration.numberOfSteps = 2000
-        settings.timeIntegration.endTime = 4e-3
-        settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
-        settings.timeIntegration.newton.relativeTolerance = 1e-10
-        solve(self.mbs, settings)
+        newton = {"newton__relativeTolerance": 1e-10}
+        solve(self.mbs, settings(4e-3, 2000, generalizedAlpha__spectralRadius=0.8, **newton))
         return [np.asarray(self.mbs.GetSensorStoredData(s))[:, 1:] for s in sensors]
 
 

@@ -11,6 +11,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody,
 )
 from solving import planar_body, recorded
+from stand_in_system import settings
 
 from exu_press import Scene, add_joint_sensor, add_lubricated_revolute, simulate
 from exu_press.laws.contact import hertz, step_damping
@@ -52,11 +53,8 @@ def rotor(kind, **film):
     spin = recorded(mbs, node, "AngularVelocity")
     sensor = add_joint_sensor(mbs, joint)
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.numberOfSteps, settings.timeIntegration.endTime = 500, 0.5
-    settings.timeIntegration.newton.useModifiedNewton = False
-    settings.solution.file.write, settings.solution.sensors.writePeriod = False, 0.0
-    mbs.SolveDynamic(settings, showHints=False)
+    chosen = settings(0.5, 500, period=0.0, newton__useModifiedNewton=False)
+    mbs.SolveDynamic(chosen, showHints=False)
     spins = np.asarray(mbs.GetSensorStoredData(spin))
     return spins[:, 0], spins[:, -1], np.asarray(mbs.GetSensorStoredData(sensor))[:, -1]
 

@@ -12,6 +12,7 @@ from exudyn.itemInterface import (
     ObjectMassPoint2D,
 )
 from solving import planar_body, recorded, solve
+from stand_in_system import settings
 
 from exu_press import InputError, add_dry_revolute, add_dry_spherical, add_lubricated_revolute
 from exu_press.joints import States, user_force_of
@@ -56,18 +57,19 @@ class Bodies:
         self.mbs.Assemble()
         self.states = States(user_force_of(self.mbs).joints)
         self.mbs.SetPostStepUserFunction(self._take)
-        settings = exu.SimulationSettings()
-        integration = settings.timeIntegration
-        integration.numberOfSteps, integration.endTime = round(end_time / step), end_time
-        integration.generalizedAlpha.spectralRadius = 0.8
-        integration.newton.useModifiedNewton = True
-        integration.newton.modifiedNewtonJacUpdatePerStep = True
-        integration.newton.relativeTolerance = tolerance
-        integration.newton.absoluteTolerance = 1e-10
-        integration.adaptiveStep = True
-        integration.adaptiveStepDecrease = 0.5
-        integration.minimumStepSize = step / 64
-        solve(self.mbs, settings)
+        chosen = settings(
+            end_time,
+            round(end_time / step),
+            generalizedAlpha__spectralRadius=0.8,
+            newton__useModifiedNewton=True,
+            newton__modifiedNewtonJacUpdatePerStep=True,
+            newton__relativeTolerance=tolerance,
+            newton__absoluteTolerance=1e-10,
+            adaptiveStep=True,
+            adaptiveStepDecrease=0.5,
+            minimumStepSize=step / 64,
+        )
+        solve(self.mbs, chosen)
 
     def recorded(self, level):
         """Return (n, bodies, 3); positions are displacements from the reference."""

@@ -13,6 +13,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
     SensorNode,
 )
+from stand_in_system import settings
 
 from exu_press import solve_dynamic
 
@@ -58,17 +59,12 @@ class PlanarMechanism:
     def run(self, tolerance, end, interval):
         """Return times (n,), and poses and velocities (bodies, n, 3) relative to the start."""
         self.mbs.Assemble()
-        settings = exu.SimulationSettings()
-        settings.timeIntegration.endTime = end
-        settings.timeIntegration.numberOfSteps = 500
-        settings.timeIntegration.minimumStepSize = 1e-12
-        settings.solution.file.write = False
-        settings.solution.sensors.writePeriod = 0.0
+        chosen = settings(end, 500, period=0.0, minimumStepSize=1e-12)
 
         def next_row(time):
             return (math.floor(time / interval + 1e-9) + 1) * interval
 
-        solve_dynamic(self.mbs, settings, tolerance=tolerance, next_corner=next_row).check()
+        solve_dynamic(self.mbs, chosen, tolerance=tolerance, next_corner=next_row).check()
         stored = np.array([[self.mbs.GetSensorStoredData(s) for s in b] for b in self._sensors])
         self._container.Reset()
         time = stored[0, 0, :, 0]

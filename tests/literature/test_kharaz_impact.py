@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from data import columns_of
 from exudyn.itemInterface import NodeRigidBody2D, ObjectRigidBody2D, SensorNode
+from stand_in_system import settings
 
 from exu_press import solve_dynamic
 from exu_press.joints import add_guideway_contact
@@ -50,13 +51,9 @@ def rebound(angle_deg, tolerance):
         SensorNode(nodeNumber=node, outputVariableType=velocity, storeInternal=True)
     )
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = 6.0 * FLIGHT / SPEED / math.cos(angle) + 4e-5
-    settings.timeIntegration.numberOfSteps = 50
-    settings.timeIntegration.minimumStepSize = 1e-14
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = 0.0
-    solve_dynamic(mbs, settings, tolerance=tolerance).check()
+    end = 6.0 * FLIGHT / SPEED / math.cos(angle) + 4e-5
+    chosen = settings(end, 50, period=0.0, minimumStepSize=1e-14)
+    solve_dynamic(mbs, chosen, tolerance=tolerance).check()
     _, x, y, spin = mbs.GetSensorStoredData(sensor)[-1]
     container.Reset()
     assert y == pytest.approx(-RESTITUTION * down, rel=1e-2)  # it has left the plate

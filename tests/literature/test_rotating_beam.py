@@ -25,6 +25,7 @@ from exudyn.itemInterface import (
     ObjectRotationalMass1D,
 )
 from scipy.integrate import solve_ivp
+from stand_in_system import settings
 
 from exu_press.model.start import quasi_static_motion
 from fe_models import (
@@ -132,13 +133,10 @@ def spun_up(part, speed, end=TIME):
         )
     )
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = end, 750
-    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
-    settings.solution.file.write, settings.timeIntegration.verboseMode = False, 0
-    settings.solution.sensors.writePeriod = end / 150
-    settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
-    mbs.SolveDynamic(settings)
+    chosen = settings(end, 750, period=end / 150, generalizedAlpha__spectralRadius=0.9)
+    chosen.timeIntegration.verboseMode = 0
+    chosen.linearSolver.solverType = exu.LinearSolverType.EigenDense
+    mbs.SolveDynamic(chosen)
     stored = np.asarray(mbs.GetSensorStoredData(sensor))
     return stored[:, 0], np.array([tip(part, q)[1] for q in stored[:, 1:]])
 

@@ -102,7 +102,6 @@ def test_a_file_has_its_gears():
         ({"to": "plane"}, r"gears\.planet\.to = 'plane': unknown.*planet"),
         ({"ratio": 0}, r"gears\.planet\.ratio = 0: allowed is an integer, not 0"),
         ({"ratio": 1.5}, r"gears\.planet\.ratio = 1\.5: allowed is an integer"),
-        ({"ratio": "-1"}, r"gears\.planet\.ratio = '-1': allowed is a number"),
     ],
 )
 def test_refused(changes, text):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from exu_press import Scene, simulate
+from exu_press.model.start import quasi_static_motion
 from exu_press.scene import mechanism_of
 
 FORMING = {
@@ -10,6 +11,14 @@ FORMING = {
     "height": [0.0, 0.001, 0.01, 0.03, 0.045],
     "force": [240e3, 240e3, 260e3, 180e3, 0.0],
 }
+
+
+def static_modes(model, body):
+    """Return the modal coordinates of a flexible body in its quasi-static motion."""
+    mbs, scene = model.mbs, model.scene
+    turned = mbs.GetNodeODE2Index(model.nodes["crank"])
+    q, _ = quasi_static_motion(mbs, model.drive, turned, scene.angular_speed)
+    return q[mbs.systemData.GetNodeLTGODE2(model.nodes[f"{body}_modes"])]
 
 
 def pressed_slider_crank(force, offset=(0.0, 0.0), **scene):

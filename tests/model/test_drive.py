@@ -115,23 +115,6 @@ def test_a_motor_that_lags_over_one_revolution_has_a_mean_speed():
     assert result.quantity("drive.mean_power").value is None
 
 
-@pytest.mark.parametrize(
-    "scene",
-    [
-        {},
-        {"joints": {"shaft": "lubricated", "balls": "dry"}, "guide": {"lateral_stiffness": 1e9}},
-        {"load": {"blanking": {"kind": "blanking", "force": 1e5, "end_angle_deg": 60.0}}},
-    ],
-    ids=str,
-)
-def test_the_balance_closes(scene):
-    result = simulate(
-        Scene(**scene, drive={"rated_torque": 400.0, "inertia": 20.0}, revolutions=0.1)
-    )
-    assert result.completed
-    assert result.quantity("energy.residual").value < 1e-3
-
-
 def test_a_press_that_stalls_says_so_and_keeps_what_it_did():
     motor = {"rated_torque": 50.0, "inertia": 5.0}
     scene = Scene(

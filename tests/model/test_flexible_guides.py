@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 from independent.solid import displaced
+from pressed import static_modes
 
 from exu_press import InputError, Scene, simulate
 from exu_press.joints.history import history
 from exu_press.model import build
 from exu_press.model.placed_part import placed_parts
-from exu_press.model.start import quasi_static_motion
 from exu_press.model.system import System
 from exu_press.result.flexible import guided_motion
 from exu_press.result.record import record
@@ -93,10 +93,7 @@ def test_in_its_clearance_a_soft_slider_touches_with_its_guided_faces(slider):
 def pressed(asked, mean):
     """Return how far a face moves against the pin under a force of 1 N at slow speed, m."""
     model = build(asked)
-    mbs = model.mbs
-    turned = mbs.GetNodeODE2Index(model.nodes["crank"])
-    q, _ = quasi_static_motion(mbs, model.drive, turned, asked.angular_speed)
-    modes = q[mbs.systemData.GetNodeLTGODE2(model.nodes["slider_modes"])]
+    modes = static_modes(model, "slider")
     interface = model.parts["slider"].reduced.interface
     moved = interface(mean).translation @ modes - interface("wrist_pin").translation @ modes
     model.SC.Reset()

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 from independent.solid import displaced
+from pressed import static_modes
 
 import exu_press
 from exu_press import InputError, Scene, simulate
 from exu_press.model import build
-from exu_press.model.start import quasi_static_motion
 from exu_press.scene import mechanism_of
 
 pytest.importorskip("ngsolve")
@@ -62,10 +62,7 @@ def bent(rocker, **keys):
     load = {**CONSTANT, "face": TIP, **keys}
     asked = scene(rocker, {"one": load}, gravity=0.0, speed_rpm=1e-3)
     model = build(asked)
-    mbs = model.mbs
-    turned = mbs.GetNodeODE2Index(model.nodes["crank"])
-    q, _ = quasi_static_motion(mbs, model.drive, turned, asked.angular_speed)
-    modes = q[mbs.systemData.GetNodeLTGODE2(model.nodes["rocker_modes"])]
+    modes = static_modes(model, "rocker")
     part, body = model.parts["rocker"], model.mechanism.body("rocker")
     top = body.local((AT, LENGTH + OVERHANG))
     moved = {"tip": part.carried_point(part.loads["one"], top)[1] @ modes}

@@ -13,6 +13,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody,
 )
 from scipy.integrate import quad
+from stand_in_system import settings
 
 from exu_press import Scene, add_joint_sensor, add_lubricated_spherical, simulate
 from exu_press.laws.film import film_scale
@@ -45,11 +46,8 @@ def alone(spin, inertia=0.5, mass=50.0):
 
 def run(mbs, duration, steps):
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.numberOfSteps, settings.timeIntegration.endTime = steps, duration
-    settings.timeIntegration.newton.useModifiedNewton = False
-    settings.solution.file.write, settings.solution.sensors.writePeriod = False, 0.0
-    mbs.SolveDynamic(settings, showHints=False)
+    chosen = settings(duration, steps, period=0.0, newton__useModifiedNewton=False)
+    mbs.SolveDynamic(chosen, showHints=False)
 
 
 def test_a_ball_spins_down_alike_about_any_axis():

@@ -13,6 +13,7 @@ from exudyn.itemInterface import (
     ObjectJointSpherical,
 )
 from independent.solid import displaced
+from stand_in_system import settings
 
 from exu_press.integrate import SolverStatus, solve_dynamic
 from exu_press.mechanism import Body, Motion
@@ -73,12 +74,8 @@ def spun(part):
     )
     marker = body.add_point_marker(mbs, "pin")
     mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.endTime = 0.1
-    settings.timeIntegration.numberOfSteps = 200
-    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
-    settings.solution.file.write = False
-    outcome = solve_dynamic(mbs, settings, tolerance=1e-6)
+    chosen = settings(0.1, 200, generalizedAlpha__spectralRadius=0.8)
+    outcome = solve_dynamic(mbs, chosen, tolerance=1e-6)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     x, y, _ = mbs.GetMarkerOutput(marker, exu.OutputVariableType.Position)
     turn = float(mbs.GetNodeOutput(disc.node, exu.OutputVariableType.Coordinates))

@@ -52,13 +52,6 @@ def test_mechanical_advantage_is_the_crank_s_speed_over_the_slider_s():
     assert np.all(np.isinf(found.mechanical_advantage[~moving]))
 
 
-def test_velocity_is_the_derivative_of_the_position():
-    found = stroke_of(four_bar(), ANGLES)
-    change = np.diff(found.position)
-    mean = 0.5 * (found.velocity[1:] + found.velocity[:-1]) * np.diff(ANGLES)
-    assert change == pytest.approx(mean, abs=1e-5 * np.ptp(found.position))
-
-
 def test_the_largest_velocity_lies_between_whole_degrees():
     """A trammel's tracer (0.03, 0.01): x = 0.03 cos - 0.01 sin of the crank's angle."""
     found = stroke_of(shipped_mechanism("elliptic_trammel"), ANGLES)

@@ -114,10 +114,6 @@ def test_the_papers_press_starts_centred():
     assert model.scene.start == "centred"
 
 
-def test_a_start_that_no_joint_needs_is_dropped():
-    assert Scene(start="loaded").replace({"joints.crank_pin": "ideal", "joints.balls": "ideal"})
-
-
 FEW = ("dry", 0.0, False), ("lubricated", 90.0, False), ("dry", 180.0, True)
 ANYWHERE = itertools.product(("dry", "lubricated"), (0.0, 90.0, 180.0), (False, True))
 

@@ -101,10 +101,6 @@ def test_at_the_centre_it_is_a_damper_in_every_direction(cap_angle):
         assert (f_r, f_t) == pytest.approx((-constant * v, constant * u), abs=5e-3 * constant)
 
 
-def test_a_hemisphere_has_four_pi_at_the_centre():
-    assert ball().law(0.0, 1.0, 0.0)[0] == pytest.approx(-4.0 * math.pi, rel=2e-3)
-
-
 @pytest.mark.parametrize("cap_angle", CAPS)
 def test_towards_the_wall_it_is_a_sphere_before_a_plane(cap_angle):
     """6 pi mu r^2 v / h with r = R^2 / c, the curvatures' difference (Taylor)."""

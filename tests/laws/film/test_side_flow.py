@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from exu_press.laws.catalogue import FILM_LAWS
 from exu_press.laws.film.reynolds import solve_reynolds, supply_line
 from exu_press.laws.film.side_flow import finite_flow, no_flow, short_flow
 
@@ -57,7 +56,3 @@ def test_it_is_of_first_degree_and_has_no_side():
     assert at(flow, 0.7, 0.6, 1.5) == pytest.approx(3.0 * one, rel=1e-12)
     assert at(flow, 0.7, 0.2, -0.5) == one
     assert at(flow, 0.7, 0.0, 0.0) == 0.0
-
-
-def test_only_long_bearings_keep_their_oil():
-    assert {name for name, law in FILM_LAWS.items() if not law.flows_out} == {"pinkus", "pi_film"}

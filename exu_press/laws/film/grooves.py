@@ -23,7 +23,7 @@ NARROWEST = math.radians(1.0)
 """Least bearing between two grooves, rad: less is not resolved."""
 
 ROUNDING = 1e-9
-"""Part of a cell's source by which its flow may be short before the cell counts as wet."""
+"""Part of a cell's largest source by which its flow may be short before it counts as wet."""
 
 FAINT = 1e-3
 """Part of the supply pressure whose flow through a cell counts like its source for `ROUNDING`."""
@@ -220,6 +220,7 @@ class GroovedFilmState:
         self._share = np.where(self._land, 0.0, share)
         shapes = np.stack([np.cos(self._local), -np.sin(self._local)]) * self._w_theta
         self._sources = (shapes[:, :, None] * self._w_zeta).reshape(2, -1)
+        self._area = np.outer(self._w_theta, self._w_zeta).ravel()
         if bearing.is_pressurized:
             self._sources = np.stack([*self._sources, -self._matrix.net(self._share)])
 
@@ -243,7 +244,8 @@ class GroovedFilmState:
         if guess is None:  # a pressure fills the film; cell by cell that would take long
             wet = self._land & ((source > 0.0) | (supply > 0.0))
             guess = self._matrix.pressures(self._sources, wet)
-        rounding = ROUNDING * (np.abs(source) + supply * FAINT * self._matrix.diagonal)
+        rounding = math.hypot(eps_dot, half_w) * self._area
+        rounding = ROUNDING * (rounding + supply * FAINT * self._matrix.diagonal)
         pressures = self._matrix.solve(self._sources, speeds, rounding, self._land, guess)
         p = speeds @ pressures.by_speed + supply * self._share
         feed = float(self._share @ (self._matrix.net(p) - source)) if supply else 0.0

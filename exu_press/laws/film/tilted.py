@@ -280,7 +280,8 @@ class TiltedFilm:
         source = speeds @ sources
         wet = (source > 0.0 if self._wet is None else self._wet) & land
         guess = matrix.pressures(sources, wet)
-        solved = matrix.solve(sources, speeds, ROUNDING * np.abs(source), land, guess)
+        rounding = ROUNDING * np.abs(speeds).max() * np.hypot(sources[0], sources[1])
+        solved = matrix.solve(sources, speeds, rounding, land, guess)
         self._wet = solved.unbroken
         return np.asarray(solved.by_speed.T)
 

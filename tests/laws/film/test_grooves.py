@@ -12,7 +12,7 @@ from slopes import slopes
 from exu_press import InputError
 from exu_press.laws.film import dissipated_power, short
 from exu_press.laws.film.grooved_table import DIRECTIONS, LAST, LEVELS, GroovedFilm, tabulated_row
-from exu_press.laws.film.grooves import Groove, GroovedBearing, solve_grooved
+from exu_press.laws.film.grooves import Groove, GroovedBearing, GroovedFilmState, solve_grooved
 from exu_press.laws.film.reynolds import solve_reynolds
 from exu_press.model.film_tables import film_table
 
@@ -115,6 +115,20 @@ def test_a_groove_away_from_the_middle_of_its_ends_is_no_bearing():
     ):
         with pytest.raises(InputError, match=words):
             GroovedBearing(0.5, grooves)
+
+
+def test_a_cell_whose_sources_cancel_is_settled():
+    """Where closing and rotation displace the same but for rounding, at the film's boundary."""
+    bearing = GroovedBearing(
+        0.5, tuple(Groove(sign * 0.5 * math.pi, WIDTH, 1.0) for sign in (1.0, -1.0))
+    )
+    share = 0.5 * math.sqrt(2.0)
+    state, guess = GroovedFilmState(bearing, 0.0, math.radians(145.0), (72, 5)), None
+    for turn in range(0, 360, 5):
+        angle = math.radians(turn)
+        guess = state.solve(math.sin(angle), math.cos(angle), guess=guess).pressures
+    alone = state.solve(share, -share)
+    assert state.solve(share, -share, guess=guess)[:3] == pytest.approx(alone[:3], rel=1e-9)
 
 
 def test_shear_of_the_lands():

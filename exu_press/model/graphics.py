@@ -10,7 +10,7 @@ from exudyn import graphics
 
 from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Point
 from exu_press.mechanism.parts import DRIVE
-from exu_press.mechanism.shapes import FrontView, swept_points
+from exu_press.mechanism.shapes import FrontView, rail_corners, swept_points
 from exu_press.model import Model, build
 from exu_press.scene import Scene
 
@@ -19,8 +19,7 @@ __all__ = ["add_graphics", "build_with_graphics"]
 THICKNESS = 0.03
 """Thickness of a body along z, relative to the mechanism's height; neighbours lie side by side."""
 
-FRAME = [0.55, 0.55, 0.55, 1.0]
-DISC = [0.90, 0.72, 0.25, 1.0]
+FRAME, DISC = "#8C8C8C", "#E6B840"
 
 
 def build_with_graphics(scene: Scene) -> Model:
@@ -44,7 +43,7 @@ def add_graphics(model: Model) -> None:
         crank = model.parts[mechanism.crank]
         height_there = float(crank.reduced.interface(crank.drive).centre[2])
         disc = graphics.Cylinder(
-            [0.0, 0.0, height_there], [0.0, 0.0, thickness], 0.05 * height, DISC
+            [0.0, 0.0, height_there], [0.0, 0.0, thickness], 0.05 * height, _rgba(DISC)
         )
         _show(model, DRIVE, [disc])
     _show(model, GROUND, _frame(mechanism, view, layers, thickness))
@@ -93,17 +92,13 @@ def _frame(
     for guide in mechanism.guides:
         if not guide.is_rail:
             continue
-        outline, width = view.swept[guide.body], 0.25 * thickness
-        (x_min, low), (x_max, high) = outline.min(axis=0), outline.max(axis=0)
-        for x in (x_min - width, x_max + width):
-            centre = [x, 0.5 * (low + high), layers[guide.body] * thickness]
-            size = [width, high - low, thickness]
-            solids.append(graphics.Brick(centre, size, FRAME))
+        for rail in rail_corners(guide, view.swept[guide.body], view.unit):
+            outline = [(x, y) for x, y in rail.tolist()]
+            solids.append(_solid(outline, FRAME, layers[guide.body] * thickness, thickness))
     for joint in mechanism.joints:
         if joint.on_frame:
-            start = [*joint.at, -thickness]
-            pin = graphics.Cylinder(start, [0.0, 0.0, 3.0 * thickness], 0.2 * thickness, FRAME)
-            solids.append(pin)
+            start, along = [*joint.at, -thickness], [0.0, 0.0, 3.0 * thickness]
+            solids.append(graphics.Cylinder(start, along, 0.2 * thickness, _rgba(FRAME)))
     return solids
 
 

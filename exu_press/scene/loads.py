@@ -1,16 +1,17 @@
 """Every load of a scene by its name."""
 
-import dataclasses
 from collections.abc import Collection, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError, UnusedKeyError, error_prefix
+from exu_press.errors import InputError, error_prefix
 from exu_press.mechanism import Mechanism
 from exu_press.scene.load import ATTACHMENT, COLUMNS, LOAD_KINDS, Load
 from exu_press.scene.solver import RPM
 from exu_press.schema.checks import demand_known, demand_name
-from exu_press.schema.table import declared_keys
+from exu_press.schema.registry import choice
+from exu_press.schema.table import Table, table_from
 
 __all__ = ["changed_load", "loads_of", "with_files_beside"]
 
@@ -83,6 +84,13 @@ def with_files_beside(tables: Any, folder: Path) -> Any:
     }
 
 
+@dataclass(frozen=True)
+class OneLoad(Table):
+    """The table of a load, whose kind decides which keys it has."""
+
+    kind: Load = choice(None, "kind of load", LOAD_KINDS)
+
+
 def _load(where: str, table: Any) -> Load:
     if isinstance(table, Load):
         return table
@@ -90,7 +98,7 @@ def _load(where: str, table: Any) -> Load:
         raise InputError(f"{where} = {table!r}: allowed is a table of keys")
     keys = dict(table)
     name = keys.pop("kind", None)
-    kind = LOAD_KINDS.choose("kind", name, keys)
+    kind = LOAD_KINDS.choose(f"{where}.kind", name, keys)
     if "file" in keys:
         path = keys.pop("file")
         if not isinstance(path, str):
@@ -100,25 +108,7 @@ def _load(where: str, table: Any) -> Load:
             raise InputError(f"file and {both[0]}: allowed is one of the two")
         with error_prefix("file: "):
             keys |= kind.read_file(Path(path))
-    _refuse_unknown(str(name), [field.name for field in dataclasses.fields(kind)], keys)
-    load: Load = kind(**keys)
-    return load
-
-
-def _refuse_unknown(kind: str, known: list[str], keys: Mapping[str, Any]) -> None:
-    """Raise InputError for the first key that a kind of load does not have."""
-    for key, value in keys.items():
-        if key in known:
-            continue
-        holders = [
-            repr(name)
-            for name, kind_class in LOAD_KINDS.items()
-            if key in declared_keys(kind_class)
-        ]
-        if holders:
-            reason = f"kind is {kind!r}; it belongs to {' or '.join(holders)}"
-            raise UnusedKeyError(key, f"{key} = {value!r}", reason)
-        demand_known(f"{key} = {value!r}: unknown key of kind {kind!r}", key, ["kind", *known])
+    return table_from(OneLoad, where, {"kind": name, **keys}).kind
 
 
 def _check_body(where: str, load: Load, mechanism: Mechanism, flexible: Collection[str]) -> None:

@@ -226,12 +226,8 @@ def _states(
     guideways: Mapping[str, tuple[ClearanceJoint, ...]],
 ) -> States:
     """Return the recorder of the joints' states, and of the friction work of those that wear."""
-    wearing: list[ClearanceJoint] = []
-    if scene.wear is not None:
-        from exu_press.scene.wearing import wearing_guides, wearing_joints
-
-        wearing += [clearance[name] for name in wearing_joints(scene)]
-        wearing += [end for name in wearing_guides(scene) for end in guideways[name]]
+    wearing = [clearance[name] for name in scene.wearing["joints"]]
+    wearing += [end for name in scene.wearing["guides"] for end in guideways[name]]
     ends = [end for contacts in guideways.values() for end in contacts]
     return States([*clearance.values(), *ends], wearing)
 

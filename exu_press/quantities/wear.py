@@ -21,7 +21,6 @@ from exu_press.result.channel import guide_channel
 from exu_press.result.windows import window
 from exu_press.scene import DryJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.joint import unworn
-from exu_press.scene.wearing import wear_of, wearing_guides, wearing_joints
 
 __all__ = [
     "SECTORS",
@@ -83,7 +82,7 @@ def _sector(scene: Scene, joint: str) -> float:
     """Return the area of a sector of a joint's surfaces, m^2."""
     described = scene.joints[joint]
     assert isinstance(described, DryJoint | LubricatedJoint)
-    length = wear_of(scene, "joints", joint).length
+    length = scene.wearing["joints"][joint].length
     return 2.0 * np.pi * described.radius / SECTORS * length
 
 
@@ -142,7 +141,7 @@ class _Steps:
 
 def _rubbing_steps(result: Result, joint: str) -> Iterator[_Steps]:
     """Yield the steps in which a joint rubs, AT_ONCE at a time."""
-    wear, described = wear_of(result.scene, "joints", joint), result.scene.joints[joint]
+    wear, described = result.scene.wearing["joints"][joint], result.scene.joints[joint]
     assert isinstance(described, DryJoint | LubricatedJoint)
     drawn = next(j for j in mechanism_of(result.scene).joints if j.name == joint)
     angles = [
@@ -176,7 +175,7 @@ def guideway_depths(result: Result, name: str) -> Array:
     By its back and front end or the pin, on the left and on the right, in 72 parts of each one's
     path. The ends' own edges lose as much, and have no depth; for a pin see `pin_depths`.
     """
-    wear = wear_of(result.scene, "guides", name)
+    wear = result.scene.wearing["guides"][name]
     mechanism, poses = mechanism_of(result.scene), result["body_position"]
     guide = mechanism.guide(name)
     position = pose_in_guide(mechanism, guide, result.bodies, poses)[:, :2] @ np.array(
@@ -214,7 +213,7 @@ def pin_depths(result: Result, name: str) -> Array:
 
     In sectors of 5 degrees: the pin touches a straight wall along one line.
     """
-    wear, mechanism = wear_of(result.scene, "guides", name), mechanism_of(result.scene)
+    wear, mechanism = result.scene.wearing["guides"][name], mechanism_of(result.scene)
     guide = mechanism.guide(name)
     assert guide.at is not None and guide.guideway is not None
     pose = pose_in_guide(mechanism, guide, result.bodies, result["body_position"])
@@ -243,12 +242,12 @@ def wear_of_a_revolution(result: Result) -> dict[str, Any]:
     if run.whole is None:
         return depths
     last, turns = _whole(run, run.whole)
-    for joint in wearing_joints(result.scene):
+    for joint in result.scene.wearing["joints"]:
         contacts = dataclasses.asdict(contacts_of(last, joint, turns))
         depths["contacts"][joint] = {
             name: values.tolist() if name != "area" else values for name, values in contacts.items()
         }
-    for body in wearing_guides(result.scene):
+    for body in result.scene.wearing["guides"]:
         depths["guideways"][body] = _guideway_depth(last, body) / turns
     return depths
 
@@ -260,11 +259,11 @@ def _whole(run: Reading, begin: float) -> tuple[Result, float]:
 
 
 def _wears(scene: Scene, joint: str) -> bool:
-    return joint in wearing_joints(scene)
+    return joint in scene.wearing["joints"]
 
 
 def _guide_wears(scene: Scene, body: str) -> bool:
-    return body in wearing_guides(scene)
+    return body in scene.wearing["guides"]
 
 
 def _pin_wears(scene: Scene, name: str) -> bool:
@@ -280,7 +279,7 @@ def _per_revolution(worn: Callable[[Result, str], float], run: Reading, owner: s
 
 
 def _volume(result: Result, joint: str) -> float:
-    wear = wear_of(result.scene, "joints", joint)
+    wear = result.scene.wearing["joints"][joint]
     work = float(sliding_of(result, joint).work.sum())
     return archard(wear.coefficient, wear.hardness, work, 1.0)
 
@@ -291,7 +290,7 @@ def _ends(result: Result, body: str) -> list[Sliding]:
 
 
 def _guide_volume(result: Result, body: str) -> float:
-    wear = wear_of(result.scene, "guides", body)
+    wear = result.scene.wearing["guides"][body]
     work = sum(float(end.work.sum()) for end in _ends(result, body))
     return archard(wear.coefficient, wear.hardness, work, 1.0)
 
@@ -312,12 +311,12 @@ def _deepest(run: Reading) -> dict[str, float]:
     """Return the largest depth of every joint and guide that wears, by owner."""
     result, scene = run.result, run.result.scene
     joints = {f"joints.{j}": max(_depth(0, result, j), _depth(1, result, j))
-              for j in wearing_joints(scene)}  # fmt: skip
+              for j in scene.wearing["joints"]}  # fmt: skip
     return joints | {
         f"guides.{b}": max(
             _guideway_depth(result, b), _pin_depth(result, b) if _pin_wears(scene, b) else 0.0
         )
-        for b in wearing_guides(scene)
+        for b in scene.wearing["guides"]
     }
 
 
@@ -330,7 +329,7 @@ def _pressure_velocity(run: Reading, joint: str) -> Array:
     """Return mean pressure times sliding speed, (n,), W/m^2."""
     result, described = run.result, run.result.scene.joints[joint]
     assert isinstance(described, DryJoint | LubricatedJoint)
-    area = 2.0 * described.radius * wear_of(result.scene, "joints", joint).length
+    area = 2.0 * described.radius * result.scene.wearing["joints"][joint].length
     return sliding_of(result, joint).power / area
 
 
@@ -339,7 +338,7 @@ def _guide_pressure_velocity(run: Reading, body: str) -> Array:
     guide = mechanism_of(result.scene).guide(body)
     assert guide.guideway is not None
     across = 2.0 * guide.guideway.half_width if guide.is_slot else guide.guideway.length
-    area = across * wear_of(result.scene, "guides", body).length
+    area = across * result.scene.wearing["guides"][body].length
     return np.asarray(sum(end.power for end in _ends(result, body)) / area)
 
 

@@ -8,7 +8,6 @@ from exu_press.result.channel import Channel
 from exu_press.result.guides import guide_channels
 from exu_press.result.joints import stored_and_lost
 from exu_press.result.recording import Record, Recording
-from exu_press.scene.wearing import wearing_guides
 
 __all__ = ["record"]
 
@@ -22,7 +21,7 @@ def record(run: Recording) -> Record:
     model, time = run.model, run.time
     channels: dict[str, Channel] = {}
     all_stored, all_losses = np.zeros_like(time), np.zeros_like(time)
-    wearing = wearing_guides(model.scene)
+    wearing = model.scene.wearing["guides"]
     states = {
         f"{name} {n}": history(model.states, joint, time)
         for name, ends_of_guide in model.guideways.items()

@@ -70,9 +70,7 @@ def _wearing(scene: Scene) -> list[str]:
     """Return the names of the joints whose wear is asked for."""
     if scene.wear is None:
         return []
-    from exu_press.scene.wearing import wearing_joints
-
-    return list(wearing_joints(scene))
+    return list(scene.wearing["joints"])
 
 
 def expected_channels(scene: Scene, *, own_items: bool) -> dict[str, tuple[str, bool]]:

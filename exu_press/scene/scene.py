@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     from exu_press.scene.load import Load
     from exu_press.scene.motor import Motor
     from exu_press.scene.output import Output
-    from exu_press.scene.wear import Wear
+    from exu_press.scene.wear import Wear, WearAt
 
     class LoadTables:
         """`load`: of the class it reads a file, of a scene it is its [load] tables."""
@@ -80,6 +80,9 @@ class Scene(Table):
         asked: dotted names of the keys that the user gave, be it with their defaults.
         files: sha256 of the files that were read for it, by name.
         guides: name -> guide, of those that are not ideal; [guide.NAME] has its keys over [guide].
+        wearing: "joints" and "guides" -> name -> law of wear, of those whose wear is asked for:
+            revolute joints whose surfaces touch, guides with clearance, and slots with clearance
+            and their pin's diameter.
 
     Raises:
         InputError: a key is unknown, has a wrong type or a value outside its range, a table or a
@@ -90,6 +93,7 @@ class Scene(Table):
     asked: ClassVar[frozenset[str]]
     files: ClassVar[Mapping[str, str]]
     guides: ClassVar[Mapping[str, "ElasticGuide"]]
+    wearing: ClassVar[Mapping[str, Mapping[str, "WearAt"]]]
     mechanism: str | Mechanism = key(
         "press",
         "the path of a mechanism file, .toml",
@@ -305,6 +309,7 @@ class Scene(Table):
 
     def _settle_wear(self) -> None:
         """Complete the wear of each place; a scene in which nothing wears has no such table."""
+        object.__setattr__(self, "wearing", {"joints": {}, "guides": {}})
         if self.wear is None:
             return
         mechanism = mechanism_of(self)
@@ -323,8 +328,9 @@ class Scene(Table):
                 "slot clearance and its pin's diameter, guide.width"
             )
             self._refuse({"wear": why}, "wear", self.wear)
-        wear = self.wear.check_places(joints, guides, mechanism.groups)
+        wear, wearing = self.wear.check_places(joints, guides, mechanism.groups)
         object.__setattr__(self, "wear", wear)
+        object.__setattr__(self, "wearing", wearing)
 
     def _why_unworn(self, drawn: Drawn) -> str:
         """Return why a joint does not wear, or nothing."""

@@ -65,8 +65,8 @@ class Wear(WearAt):
 
     def check_places(
         self, joints: Mapping[str, str], guides: Mapping[str, str], groups: Mapping[str, Any]
-    ) -> "Wear":
-        """Return the table with groups as their joints; every place that wears has all keys.
+    ) -> tuple["Wear", dict[str, dict[str, WearAt]]]:
+        """Return the table with groups as their joints, and the law of each place that wears.
 
         Args:
             joints: every joint -> why it does not wear, or nothing.
@@ -80,7 +80,7 @@ class Wear(WearAt):
         for name, keys in (self.joints or {}).items():
             for member in groups.get(name, (name,)):
                 by_joint[member] = {**by_joint.get(member, {}), **keys}
-        whole = dataclasses.replace(self, joints=by_joint or None)
+        whole, places = dataclasses.replace(self, joints=by_joint or None), {}
         for kind, tables, known in (
             ("joints", by_joint, joints),
             ("guides", self.guides or {}, guides),
@@ -92,18 +92,17 @@ class Wear(WearAt):
                     raise InputError(f"{path}: there is no such place; allowed are {names}")
                 if known[name]:
                     raise UnusedKeyError(path, path, known[name])
-            for name, why in known.items():
-                if not why:
-                    here = whole.law_of(kind, name)
-                    demand_keys(
-                        f"{kind}.{name}", here, KEYS, "wear", f"[wear] or [wear.{kind}.{name}]"
-                    )
-        return whole
-
-    def law_of(self, kind: str, name: str) -> WearAt:
-        """Return the law at one of the "joints" or "guides"."""
-        usual = {name: getattr(self, name) for name in KEYS}
-        return WearAt(**{**usual, **(getattr(self, kind) or {}).get(name, {})})
+            usual = {key: getattr(self, key) for key in KEYS}
+            laws = {
+                name: WearAt(**{**usual, **tables.get(name, {})})
+                for name, why in known.items()
+                if not why
+            }
+            for name, law in laws.items():
+                where = f"[wear] or [wear.{kind}.{name}]"
+                demand_keys(f"{kind}.{name}", law, KEYS, "wear", where)
+            places[kind] = laws
+        return whole, places
 
 
 KEYS = tuple(field.name for field in dataclasses.fields(WearAt))

@@ -8,7 +8,6 @@ from typing import Any, cast
 from exu_press.errors import InputError
 from exu_press.quantities import quantity_of
 from exu_press.quantities.catalogue import DEAD_CENTRE, JOINT_FORCE
-from exu_press.scene.wearing import wearing_joints
 from exu_press.schema.checks import key
 from exu_press.schema.table import Table
 from exu_press.studies.base import Study
@@ -86,7 +85,7 @@ class WearStudy(Study):
     @property
     def joints(self) -> tuple[str, ...]:
         """The joints that wear."""
-        return wearing_joints(self.scene)
+        return tuple(self.scene.wearing["joints"])
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -6,7 +6,6 @@ and a slider-crank with viscosities 1 % apart; tests/quantities/test_law_errors.
 them all.
 """
 
-from exu_press.laws.catalogue import PAD_ERROR
 from exu_press.scene import Scene
 from exu_press.scene.joint import oil_of
 
@@ -45,8 +44,8 @@ def dissipation_error(scene: Scene, _: str, value: float) -> float:
 
 def guide_film_error(scene: Scene, guide: str, value: float) -> float:
     """Return the error of the thickness of the film between a body and its guideways."""
-    oiled = guide in scene.guides and scene.guides[guide].oil is not None
-    return PAD_ERROR * abs(value) if oiled else 0.0
+    oil = scene.guides[guide].oil if guide in scene.guides else None
+    return 0.0 if oil is None else oil.error * abs(value)
 
 
 def _relative_flow_error(scene: Scene, joint: str) -> float:

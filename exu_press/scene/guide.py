@@ -156,6 +156,8 @@ class GuideOil(Table):
 
     table: ClassVar[str] = "guide"
     needed: ClassVar[tuple[str, ...]] = ("face_width", "contact_gap")
+    error: ClassVar[float] = 0.02
+    """Relative, of its film's forces."""
     viscosity: float = key(
         None, "clearance: dynamic, of the oil in it; dry without it", "Pa s", above=0, example=0.1
     )

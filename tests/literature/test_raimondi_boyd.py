@@ -7,15 +7,15 @@ import pytest
 from data import columns_of
 
 from exu_press.joints.interface import FilmInterface
-from exu_press.laws.catalogue import FILM_LAWS
 from exu_press.laws.film import finite
 from exu_press.laws.film.reynolds import solve_reynolds
 from exu_press.laws.film.side_flow import finite_flow
+from exu_press.scene.film import Finite
 
 TABLE = columns_of("raimondi_boyd_1958.csv")
 ROWS = np.isfinite(TABLE["L_over_D"])  # the law is meant for L/D up to 4
 RATIO, EPS = TABLE["L_over_D"][ROWS], 1.0 - TABLE["h0_over_c"][ROWS]
-FORCE_ERROR, FLOW_ERROR = FILM_LAWS["finite"].error, FILM_LAWS["finite"].flow_error
+FORCE_ERROR, FLOW_ERROR = Finite.error, Finite.flow_error
 NARROW = EPS > 0.95  # where a grid of 1958 is at its worst
 
 pytestmark = pytest.mark.validation(

@@ -9,12 +9,12 @@ import math
 
 import pytest
 
-from exu_press.laws.catalogue import FILM_LAWS
 from exu_press.laws.contact import DAMPING_LAWS, cylindrical, hertz
 from exu_press.laws.film import with_asperities
 from exu_press.laws.friction import LuGre, coulomb, lugre_steady, no_friction, stribeck
 from exu_press.laws.load_curve import LoadCurve, blanking_pulse, closing
 from exu_press.laws.motor import kloss, torque_table
+from exu_press.scene.film import Finite, PiFilm, Pinkus, Short
 
 STIFFNESSES = {
     "point": hertz(2.5e10),
@@ -28,7 +28,7 @@ CONTACTS = {
     for name, law in DAMPING_LAWS.items()
     for parameters in [(1e8, 1e-5) if name == "step" else (0.5,)]
 }
-FILMS = {name: entry.factory(0.5) for name, entry in FILM_LAWS.items()}
+FILMS = {kind.registered_name: kind().film(0.5) for kind in (Pinkus, PiFilm, Short, Finite)}
 FILMS |= {f"{name}, mixed": with_asperities(law, 0.02) for name, law in FILMS.items()}
 FRICTIONS = {
     "none": no_friction(),

@@ -3,7 +3,7 @@
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.laws.catalogue import BALL_ERROR, FILM_LAWS
+from exu_press.scene.film import BallFilm, Finite, PiFilm, Pinkus, Short
 
 BALLS = Scene(
     mechanism="eccentric_press", speed_rpm=60.0, revolutions=0.3, joints={"balls": "lubricated"}
@@ -14,7 +14,7 @@ FIGURES = ("min_film", "dissipated", "max_eccentricity_ratio", "peak_force")
 
 @pytest.mark.parametrize(
     ("scene", "joint", "part"),
-    [(BALLS, "ball_left", BALL_ERROR), (PIN, "crank_pin", FILM_LAWS["finite"].error)],
+    [(BALLS, "ball_left", BallFilm.error), (PIN, "crank_pin", Finite.error)],
     ids=["ball", "journal"],
 )
 def test_the_error_of_a_table_covers_a_film_that_is_as_much_stronger(scene, joint, part):
@@ -31,8 +31,4 @@ def test_the_error_of_a_table_covers_a_film_that_is_as_much_stronger(scene, join
 
 
 def test_a_closed_form_has_no_error_of_its_own():
-    assert {name: law.error for name, law in FILM_LAWS.items() if name != "finite"} == {
-        "pinkus": 0.0,
-        "pi_film": 0.0,
-        "short": 0.0,
-    }
+    assert {kind.error for kind in (Pinkus, PiFilm, Short)} == {0.0}

@@ -10,9 +10,9 @@ from scipy.sparse.linalg import spsolve
 from slopes import slopes
 
 from exu_press import InputError
-from exu_press.laws.catalogue import BALL_ERROR
 from exu_press.laws.film import dissipated_power, socket_drag
 from exu_press.laws.film.ball import ball
+from exu_press.scene.film import BallFilm
 from tabulation.reynolds_sphere import solve_cap
 
 CAPS = [math.pi / 4, 1.2, math.pi / 2]
@@ -87,7 +87,7 @@ def test_squeeze_has_the_closed_form(eps, cap_angle, compare):
     law = ball(cap_angle).law
     closed = closed_form(eps, cap_angle), -closed_form(-eps, cap_angle)
     force = np.array([law(eps, 1.0, 0.0)[0], law(eps, -1.0, 0.0)[0]])
-    compare("force", closed, force, error=BALL_ERROR * np.abs(force), rel=5e-3)
+    compare("force", closed, force, error=BallFilm.error * np.abs(force), rel=5e-3)
     assert law(eps, 1.0, 0.0)[1] == pytest.approx(0.0, abs=1e-9 / (1.0 - eps))
 
 

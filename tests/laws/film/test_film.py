@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from slopes import slopes
 
-from exu_press.laws.catalogue import FILM_LAWS
 from exu_press.laws.film import finite, pi_film, with_asperities
+from exu_press.scene.film import FILMS
 
-LAWS = {name: entry.factory(0.4) for name, entry in FILM_LAWS.items()} | {
+LAWS = {name: FILMS[name]().film(0.4) for name in ("pinkus", "pi_film", "short", "finite")} | {
     "finite_1": finite(1.0),
     "finite_4": finite(4.0),
     "mixed_pi_film": with_asperities(pi_film(), 0.05),

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 from literature.data import columns_of
 
-from exu_press.laws.catalogue import FILM_LAWS
 from exu_press.laws.film import finite, pi_film, short
 from exu_press.laws.film.reynolds import solve_reynolds, supply_line
+from exu_press.scene.film import Finite
 
 COLUMNS = ("1", "2", "2.5", "3", "4", "5", "6", "8")  # D/B
 WIDTHS = [1.0 / float(column) for column in COLUMNS]
 TABLE = columns_of("butenschoen_1976.csv")
 LAWS = [finite(width) for width in WIDTHS]
-ERROR = FILM_LAWS["finite"].error
+ERROR = Finite.error
 BUTENSCHOEN = pytest.mark.validation(
     "table",
     "finite bearing, B/D 1 to 1/8, eccentricity ratios to 0.99",

@@ -15,25 +15,6 @@ if not (ROOT / "CITATION.cff").exists():
     pytest.skip("not run from the sources", allow_module_level=True)
 
 
-@pytest.fixture
-def project():
-    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-
-
-def test_the_version_stands_in_the_tag_alone(project):
-    assert "version" in project["dynamic"]
-    assert "version" not in project
-    assert "\nversion:" not in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
-
-
-def test_the_licence_is_the_one_that_is_named(project):
-    assert project["license"] == "BSD-3-Clause"
-    (file,) = project["license-files"]
-    text = (ROOT / file).read_text(encoding="utf-8")
-    assert text.startswith("BSD 3-Clause License")
-    assert "the exu_press developers" in text
-
-
 def test_idle_names_and_bare_participles_are_refused(tmp_path, monkeypatch):
     (tmp_path / "law.py").write_text(
         """
@@ -101,14 +82,6 @@ def test_a_file_without_the_lines_between_which_it_repeats_is_refused(monkeypatc
     monkeypatch.setitem(write_release.BLOCKS, "LICENSE", [write_release.citation])
     with pytest.raises(ValueError, match="release: begin"):
         write_release.release_text("LICENSE", OWNER)
-
-
-@pytest.mark.parametrize(
-    "file", [".github/ISSUE_TEMPLATE/fault.yml", ".github/ISSUE_TEMPLATE/question.yml"]
-)
-def test_issue_templates_ask_for_scene_and_installation(file):
-    text = (ROOT / file).read_text(encoding="utf-8")
-    assert "id: scene" in text and "exu-press doctor" in text
 
 
 SCHEMAS = {

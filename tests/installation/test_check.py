@@ -59,12 +59,6 @@ def test_a_missing_package_is_status_1(monkeypatch, capsys):
     assert "scipy            MISSING" in capsys.readouterr().out
 
 
-def test_requirements_are_those_declared():
-    assert {"exu-press", "exudyn", "numpy", "scipy", "matplotlib"} <= set(check.versions())
-    assert "pytest" in check.extras()["test"]
-    assert check.extras()["fatigue"].keys() == {"rainflow"}
-
-
 def test_ngsolve_is_needed_where_it_has_wheels(monkeypatch):
     systems = {
         ("linux", "x86_64"): True,

@@ -9,7 +9,6 @@ import pytest
 from exu_press import InputError
 from exu_press.parallel.rows import RowFile
 from exu_press.parallel.task import name_of, task_of, versions
-from fe_models.lazy import named_object
 
 ROW = {"status": "completed", "reason": "", "value": 0.1 + 0.2}
 
@@ -99,10 +98,6 @@ def test_the_key_is_of_function_arguments_and_versions(monkeypatch):
     )
     others.append(task_of(name, {"a": 1.0, "b": {"c": 2}}))
     assert len({key, *(changed.key for changed in others)}) == 4
-
-
-def test_a_name_leads_back_to_its_function():
-    assert named_object(name_of(batch_functions.digits)) is batch_functions.digits
 
 
 def test_what_a_worker_cannot_import_is_refused():

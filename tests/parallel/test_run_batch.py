@@ -152,10 +152,6 @@ def test_a_worker_of_other_versions_is_refused(tmp_path, monkeypatch):
         batch(batch_functions.digits, [{"x": 1}], tmp_path)
 
 
-def test_nothing_to_run_is_no_rows(tmp_path):
-    assert batch(batch_functions.digits, [], tmp_path) == []
-
-
 THOUSAND = """
 import resource, batch_functions
 from exu_press.parallel import run_batch

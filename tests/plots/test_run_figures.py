@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.errors import InputError
 from exu_press.plots import energy_figure, force_figure, orbit_figure, press_figure, slider_figure
 from exu_press.plots.slider import sliding_mean
 
@@ -12,7 +11,6 @@ PATHS = [
     *("Crank pin", "Crank pin: eccentricity"),
     *("Ball, each side", "Ball, each side: height in its socket"),
 ]
-PINS = ["Crank pin", "Ball, each side", "Pivot, each side"]
 GUIDES = ["Shaking force", "Power of the drive", "Guides"]
 
 
@@ -34,17 +32,6 @@ def test_panels_and_their_units(results, draw, label, titles, unit):
     panels = titled(draw(results[label]))
     assert list(panels) == titles
     assert all(axes.get_ylabel().endswith(unit) for axes in panels.values())
-
-
-@pytest.mark.parametrize(
-    ("label", "titles"),
-    [("lubricated", PINS), ("slider_crank", ["Crank pin", "Wrist pin", "Guide"])],
-)
-def test_forces_of_joints_and_the_drive(results, label, titles):
-    figure = force_figure({label: results[label]})
-    assert list(titled(figure)) == [*titles, "Drive torque"]
-    assert [axes.get_ylabel() for axes in figure.axes] == ["force, kN"] * 3 + ["torque, N m"]
-    assert not figure.legends
 
 
 def test_sides_that_differ_are_both_shown(results):
@@ -99,11 +86,6 @@ def test_a_small_path_is_magnified_beside_the_whole_circle(results):
     assert path.get_xlim()[1] < 50.0  # um, of 100
     (inset,) = path.child_axes
     assert inset.get_xlim()[1] > 100.0
-
-
-def test_ideal_joints_have_no_paths(results):
-    with pytest.raises(InputError, match="no joint with clearance"):
-        orbit_figure(results["ideal"])
 
 
 def test_shaking_force_is_drawn_as_its_mean_over_a_millisecond(results):

@@ -7,7 +7,7 @@ from PIL import Image
 from exu_press.errors import InputError
 from exu_press.files.output_directory import PICTURES
 from exu_press.plots import save_comparison, save_pictures
-from exu_press.plots.file import draw_figures, read_sources, save_figure
+from exu_press.plots.file import draw_figures, read_sources
 from exu_press.plots.format import PictureFormat, drawn_as
 from exu_press.studies.curve_comparison import MEASURED_PICTURE
 
@@ -51,11 +51,6 @@ def test_pictures_of_a_comparison(results, tmp_path):
     drawn = [name for name in PICTURES["compare"] if name != MEASURED_PICTURE]
     assert [path.name for path in paths] == [f"{name}.png" for name in drawn]
     assert_pictures(paths)
-
-
-def test_a_directory_that_is_not_there(tmp_path):
-    with pytest.raises(InputError, match="cannot be written"):
-        save_figure(Figure(), tmp_path / "missing" / "force.png")
 
 
 def draw_blank(number):

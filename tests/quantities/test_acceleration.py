@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press.quantities import acceleration, differentiated_peak, mean_peak, mean_peak_of, peak
+from exu_press.quantities import acceleration, differentiated_peak, mean_peak, mean_peak_of
 
 TIME = np.linspace(0.0, 0.1, 10001)
 
@@ -14,10 +14,6 @@ def pulse(height, begin, length):
     velocity = height * into
     position = height * into**2 / 2 + height * length * np.clip(TIME - begin - length, 0.0, None)
     return velocity, position
-
-
-def test_peak_is_the_largest_magnitude():
-    assert peak(np.array([1.0, -3.0, 2.0])) == 3.0
 
 
 @pytest.mark.parametrize("acceleration", [5.0, -5.0])

@@ -48,13 +48,6 @@ def test_what_a_scene_will_have_is_what_its_run_has(scene):
         assert find_quantity(name) == placed
 
 
-def test_names_are_unique_and_everything_is_said():
-    names = [(quantity.owner, quantity.name) for quantity in CATALOGUE]
-    assert len(set(names)) == len(names)
-    for quantity in CATALOGUE:
-        assert quantity.meaning and quantity.scale > 0.0
-
-
 def test_no_name_of_a_quantity_stands_anywhere_else_in_the_package():
     """But in examples of docstrings, and where a channel or a key of a scene has the same name."""
     names = {quantity.name for quantity in CATALOGUE if len(quantity.name) > 8}

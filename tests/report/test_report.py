@@ -110,17 +110,6 @@ def test_an_early_stop_is_the_first_warning(parsed):
     assert "film.viscosity = 0.4" not in text  # it was given
 
 
-def test_a_comparison_names_its_variants(parsed):
-    text = " ".join(parsed["compare"].text)
-    assert "ideal" in text and "dry" in text and "lubricated" in text
-
-
-def test_a_sweep_shows_every_run(parsed):
-    text = " ".join(parsed["sweep"].text)
-    assert "6 runs over joints.crank_pin.clearance, joints.crank_pin: 6 completed" in text
-    assert "joints.crank_pin.clearance, m" in text
-
-
 def test_warnings_of_doubtful_runs(outputs):
     result = Result.load(outputs["run"] / "run.nc")
     given = result.scene.replace({"film.law": "finite"})

@@ -34,9 +34,6 @@ def changed(original, tmp_path):
 
 INFO = [
     ({"status": None}, "info: has no status"),
-    ({"reason": None}, "info: has no reason"),
-    ({"end_time": None}, "info: has no end_time"),
-    ({"versions": None}, "info: has no versions"),
     ({"versions": [1]}, r"info.versions = \[1\]: allowed is a table"),
     ({"versions": 5}, "info.versions = 5: allowed is a table"),
     ({"status": "fine"}, "info.status = 'fine': allowed is one of 'completed', 'under-resolved'"),

@@ -48,13 +48,6 @@ def test_round_trip(result, path):
     assert loaded.summary() == result.summary()
 
 
-def test_round_trip_without_clearance_joints(path):
-    scene = {"mechanism": "slider_crank", "joints": {}, "revolutions": 0.01}
-    ideal = simulate(Scene.from_dict({**scene, "solver": {"step": 1e-4}}))
-    ideal.save(str(path))
-    assert_equal(ideal, Result.load(str(path)))
-
-
 def test_opens_without_the_package(result, path):
     """SciPy alone: every variable has units and a long name, time is a dimension."""
     result.save(path)
@@ -131,18 +124,3 @@ def test_netcdf_of_others_is_refused(path):
         file.createVariable("time", "d", ("time",))[:] = 0.0
     with pytest.raises(InputError, match=r"run\.nc: not a result of exu_press"):
         Result.load(path)
-
-
-def test_early_stop_is_saved_with_its_reason(path):
-    scene = {
-        "mechanism": "slider_crank",
-        "revolutions": 0.2,
-        "film": {"viscosity": 1e-7},
-        "solver": {"step": 1e-4},
-    }
-    stopped = simulate(Scene.from_dict(scene))
-    assert not stopped.completed
-    stopped.save(path)
-    loaded = Result.load(path)
-    assert not loaded.completed
-    assert loaded.info["reason"] == stopped.info["reason"] != ""

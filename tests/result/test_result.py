@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from exu_press import InputError, Scene, simulate
+from exu_press import Scene, simulate
 
 SCENE = {"mechanism": "press", "revolutions": 0.02, "solver": {"step": 1e-4}}
 
@@ -27,20 +27,6 @@ def test_run_starts_on_the_ideal_mechanism_with_centred_journals(result):
         assert np.abs(result[f"{joint}_eccentricity"][0]).max() < 1e-12
     assert result["slider_position"][0] == pytest.approx(0.47 + 26.19e-3, abs=0.02e-3)
     assert result["slider_velocity"][0] == pytest.approx(0.0, abs=1e-9)
-
-
-def test_unknown_channel_shows_the_known_ones(result):
-    with pytest.raises(InputError, match=r"channel 'slider'.*slider_position.*time") as caught:
-        result["slider"]
-    assert "\n" not in str(caught.value)
-    assert "slider" not in result
-    assert "slider_position" in result
-
-
-def test_unknown_joint_shows_the_recorded_ones(result):
-    with pytest.raises(InputError, match=r"'crank_pn'.*did you mean 'crank_pin'.*this run has"):
-        result.joints["crank_pn"]
-    assert "crank_pn" not in result.joints
 
 
 def test_summary_has_what_the_interface_promises(result):

@@ -179,15 +179,6 @@ def test_the_slowest_impact_follows_from_crank_speed_and_clearance():
                        "damping_depth": 1e-6, "slowest_impact": 1e-3})  # fmt: skip
 
 
-def test_what_the_mechanism_says_is_not_assumed():
-    assert assumed_values(Scene()) == [
-        "contact.tension = false (A-10)",
-        "film.viscosity = 0.4 Pa s (A-11)",
-        "film.length = 0.1 m (A-12)",
-        "film.at_contact = stop (A-13)",
-    ]
-
-
 def test_variants_of_a_film_are_dry_in_bearings_of_its_length():
     joints = {"knuckle": {**PIN, "kind": "lubricated"}, "pivot": {**PIN, "kind": "lubricated"}}
     made, _ = variants(scene(joints=joints, contact=None, film=OIL))

@@ -4,7 +4,7 @@ import dataclasses
 
 import pytest
 
-from exu_press import InputError, Scene
+from exu_press import Scene
 from exu_press.mechanism import SHIPPED
 from exu_press.scene.template import template
 from exu_press.scene.usage import TABLES
@@ -62,8 +62,3 @@ def test_a_table_that_is_not_in_use_is_right_when_it_is_put_to_use(table, value,
 @pytest.mark.parametrize(("mechanism", "body"), [("press", "linkage"), ("six_bar", "rod")])
 def test_the_example_of_a_flexible_body_is_right(mechanism, body, tmp_path):
     assert list(put_to_use(mechanism, f"bodies.{body}", tmp_path).bodies) == [body]
-
-
-def test_an_unknown_mechanism_is_refused():
-    with pytest.raises(InputError, match="mechanism = 'presss': allowed is one of"):
-        template("presss")

@@ -167,7 +167,3 @@ def test_a_script_ends_in_its_numbers(script, tmp_path):
 def run(path):
     """Run a script here, and check what it ends in."""
     check_of(Path(path))(runpy.run_path(path, run_name="__main__"))
-
-
-def test_there_are_twelve_at_least():
-    assert len(GALLERY) >= 12

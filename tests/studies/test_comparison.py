@@ -105,12 +105,6 @@ def test_runs_are_labelled_by_what_they_are(result):
         result.compare(result, labels=("a",))
 
 
-def test_a_label_that_is_too_long_is_a_note(result):
-    lines = result.compare(result, labels=("a" * 30, "my_long_press")).lines()
-    assert f"[1] {'a' * 30}" in lines
-    assert "[1]" in next(line for line in lines if line.endswith(" press"))
-
-
 def test_the_columns_of_a_csv_have_every_quantity(result):
     stated = with_made_up_errors(result, 1)
     columns = stated.compare(result, labels=("a", "b")).columns()
@@ -119,12 +113,6 @@ def test_the_columns_of_a_csv_have_every_quantity(result):
     assert columns["quantity"] == list(values_of(result)) and columns["unit"][at] == "m/s"
     assert (columns["a"][at], columns["a, low"][at]) == (value.value, value.low)
     assert columns["b, error"][at] is None
-
-
-def test_a_result_says_what_it_is_in_a_few_lines(result):
-    text = repr(result)
-    assert len(text.splitlines()) <= 10 and len(text) < 1000
-    assert "slider_crank" in text and "crank_pin" in text and "completed" in text
 
 
 def test_energies_per_stroke_are_those_of_whole_revolutions(scene):

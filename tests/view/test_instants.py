@@ -20,14 +20,6 @@ def test_every_step_is_seen_exactly_once(runs):
     assert steps == list(range(len(time)))
 
 
-def test_a_picture_holds_its_instant_alone(runs):
-    shown = moment(runs["press"], 0.03)
-    since = shown.steps_since_last(1)
-    assert since.stop - since.start == 1
-    assert runs["press"].time[since.start] <= 0.03 < runs["press"].time[since.stop]
-    assert moment(runs["press"]).time[1] == runs["press"].time[-1]
-
-
 @pytest.mark.parametrize(
     ("options", "message"),
     [

@@ -146,7 +146,7 @@ def short():
     with pytest.MonkeyPatch.context() as patch:
         for module in ("motion", "lyapunov"):
             patch.setattr(f"exu_press.studies.attractor.{module}.BATCHES", 2)
-        return attractor(FILM.replace({"solver.tolerance": 3e-3}), revolutions=4, skip=2, most=1)
+        return attractor(FILM.replace({"solver.tolerance": 1e-2}), revolutions=4, skip=2, most=1)
 
 
 def test_figures_of_each_revolution_are_kept(short):

@@ -120,12 +120,6 @@ def test_no_section(changes, words):
     assert "\n" not in str(raised.value)
 
 
-def test_no_such_channel():
-    with pytest.raises(InputError, match="--quantity crank_sped: no quantity") as raised:
-        attractor(FILM, revolutions=20, skip=1, most=4, names=["crank_sped"])
-    assert "did you mean 'crank_speed'?" in str(raised.value)
-
-
 PRESSED = Scene(
     mechanism="slider_crank",
     joints={"crank_pin": {"kind": "dry", "clearance": 5e-6, "radius": 0.07}},

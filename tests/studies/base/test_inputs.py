@@ -52,11 +52,9 @@ def test_an_edited_law_is_computed_anew(tmp_path, monkeypatch, processes, capfd)
     for count in (2, 2):
         assert main(command) == 0, capfd.readouterr().err
         assert len(rows(tmp_path / "o")) == count
-    for changed, count in (("law_of_mine.py", 4), ("stiffness_of_mine.py", 6)):
-        file = tmp_path / changed
-        file.write_text(file.read_text() + "# edited\n")
-        assert main(command) == 0
-        assert len(set(rows(tmp_path / "o"))) == len(rows(tmp_path / "o")) == count
+    (tmp_path / "stiffness_of_mine.py").write_text("STIFFNESS = 2e10\n")
+    assert main(command) == 0
+    assert len(set(rows(tmp_path / "o"))) == len(rows(tmp_path / "o")) == 4
 
 
 @pytest.fixture

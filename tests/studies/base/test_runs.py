@@ -58,11 +58,6 @@ def test_each_form_and_its_place_in_nested_tables():
     assert keys_from({name: each.plain() for name, each in keys.items()}) == keys
 
 
-def test_a_key_given_twice_is_refused():
-    with pytest.raises(InputError, match=r"keys\.film\.viscosity: given twice"):
-        keys_from({"film": {"viscosity": [1.0]}, "film.viscosity": [2.0]})
-
-
 @settings(deadline=None)
 @given(st.floats(0.001, 0.999))
 def test_shares_and_values_belong_to_each_other(share):

@@ -127,6 +127,12 @@ def test_a_unit_of_another_kind_is_refused(unit, wanted):
         factor_to("a.csv", unit, wanted)
 
 
+@pytest.fixture(scope="module")
+def fine():
+    scene = Scene(mechanism="slider_crank", speed_rpm=600.0, joints={})
+    return simulate(scene.replace({"solver.tolerance": 1e-7}))
+
+
 @pytest.mark.parametrize(
     ("channel", "unit", "off"),
     [
@@ -135,10 +141,8 @@ def test_a_unit_of_another_kind_is_refused(unit, wanted):
         ("drive_torque", "N m", 0.1),
     ],
 )
-def test_values_between_steps_are_those_of_a_finer_record(channel, unit, off):
+def test_values_between_steps_are_those_of_a_finer_record(fine, channel, unit, off):
     """Lines between every fiftieth step are off 2e-5 m, 1e-3 m/s and 1 N m."""
-    scene = Scene(mechanism="slider_crank", speed_rpm=600.0, joints={})
-    fine = simulate(scene.replace({"solver.tolerance": 1e-7}))
     few = fine.map_values(lambda _, values: values[::50])
     for over in ("time", "crank_angle"):
         file = CurveFile(over, np.array([0.0]), channel, unit, np.array([0.0]))

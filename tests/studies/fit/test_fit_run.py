@@ -53,14 +53,6 @@ def test_masses_are_found_from_forces(tmp_path):
 
 
 @pytest.mark.long
-def test_differential_evolution_comes_near_too(tmp_path):
-    given = {"method": "differential_evolution", "generations": 6}
-    report = fit(study(fit=given), tmp_path, workers=1)
-    assert report.values[SLIDER] == pytest.approx(1250.0, rel=0.1)
-    assert report.low[SLIDER] < 1250.0 < report.high[SLIDER]
-
-
-@pytest.mark.long
 def test_a_key_without_effect_is_named(tmp_path):
     keys = {
         SLIDER: KEYS[SLIDER],

@@ -13,7 +13,7 @@ from exu_press.studies.precision.errors import (
     instants_until,
     peaks_error,
 )
-from exu_press.studies.precision.rows import order_of, orders_of, row_of, series_of
+from exu_press.studies.precision.rows import order_of, orders_of, row_of
 from exu_press.studies.precision.timing import Attempt, TimedRun, time_runs
 
 TIME = np.linspace(0.0, 0.1, 401)
@@ -97,11 +97,6 @@ def test_numbers_of_modes_have_no_order():
     (found,) = orders_of(steps + modes)
     assert found["solver"] == "fixed step"
     assert found["error_position"] == pytest.approx(2.0)
-
-
-def test_series_run_from_coarse_to_fine():
-    rows = [row(1e-4, 0.0), row(1e-2, 0.0), row(1e-3, 0.0, solver="other")]
-    assert [r.value for r in series_of(rows)["case", "fixed step"]] == [1e-2, 1e-4]
 
 
 def test_long_runs_and_failed_ones_are_not_repeated():

@@ -74,13 +74,6 @@ def test_netcdf_reads_back(table, tmp_path):
         assert texts == [row["reason"] for row in ROWS]
 
 
-def test_which_quantities_are_shown(table):
-    assert table.quantities() == ("bottom_dead_centre", "joints.crank_pin.peak_force")
-    assert replace(table, selected=["cost.steps"]).quantities() == ("cost.steps",)
-    with pytest.raises(InputError, match=r"--show status: allowed are .*bottom_dead_centre"):
-        replace(table, selected=["status"]).quantities()
-
-
 def test_the_table_in_a_terminal(table):
     head, first, second, third, *rest = table.lines()
     assert head.split() == [
@@ -96,3 +89,10 @@ def test_the_table_in_a_terminal(table):
     assert third.endswith("film broke down")
     assert rest[0] == "3 runs: 1 completed, 1 failed, 1 film broke down"
     assert rest[1] == '  1 x failed: ValueError: "a", b'
+
+
+def test_which_quantities_are_shown(table):
+    assert table.quantities() == ("bottom_dead_centre", "joints.crank_pin.peak_force")
+    assert replace(table, selected=["cost.steps"]).quantities() == ("cost.steps",)
+    with pytest.raises(InputError, match=r"--show status: allowed are .*bottom_dead_centre"):
+        replace(table, selected=["status"]).quantities()

@@ -16,6 +16,7 @@ from exu_press.studies.wear.shape import ANGLES, Depths, worn_scene
 
 WEAR = {"coefficient": 1e-4, "hardness": 2e9, "length": 0.1}
 STROKES = 400
+GUIDED = {"clearance": 2e-5}
 
 
 def scene(**keys):
@@ -130,6 +131,11 @@ def test_too_few_jumps_end_it_with_their_reason(tmp_path):
     [
         ({"wear": None}, {}, r"no \[wear\]"),
         ({"revolutions": 1.5}, {}, "one revolution more"),
+        (
+            {"joints": {}, "friction": None, "contact": {"damping": "hu_guo"}, "guide": GUIDED},
+            {},
+            "no joint wears",
+        ),
         ({}, {"strokes": -1.0}, "strokes"),
         ({}, {"strokes": 10.0, "quantities": ["peak"]}, "quantity 'peak'"),
         ({}, {"strokse": 10.0}, "did you mean 'strokes'"),
@@ -138,19 +144,6 @@ def test_too_few_jumps_end_it_with_their_reason(tmp_path):
 def test_what_is_refused(keys, asked, words):
     with pytest.raises(InputError, match=words):
         WearStudy(scene(**keys), wear=asked or {"strokes": 10.0})
-
-
-def test_a_scene_in_which_no_joint_wears_is_refused():
-    guided = Scene(
-        mechanism="slider_crank",
-        joints={},
-        contact={"damping": "hu_guo"},
-        guide={"clearance": 2e-5},
-        wear=WEAR,
-        revolutions=2.0,
-    )
-    with pytest.raises(InputError, match="no joint wears"):
-        WearStudy(guided, wear={"strokes": 10.0})
 
 
 def test_the_command_and_its_page(coarse, tmp_path, capsys):

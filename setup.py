@@ -26,7 +26,6 @@ MODULES = [
     "integrate/controller",
     "integrate/criteria/eccentricity",
     "integrate/criteria/film_force",
-    "integrate/criteria/prescribed_velocity",
     "integrate/criteria/velocity",
     "integrate/error",
     "integrate/initial_conditions",

@@ -21,8 +21,7 @@ from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from exu_press.integrate.criteria.eccentricity import EccentricityError
-from exu_press.integrate.criteria.prescribed_velocity import PrescribedVelocityError
-from exu_press.integrate.criteria.velocity import VelocityError
+from exu_press.integrate.criteria.velocity import PrescribedVelocityError, VelocityError
 from exu_press.integrate.newton_filter import NewtonFilter
 from exu_press.integrate.task import Task
 from exu_press.joints.joint import ClearanceJoint

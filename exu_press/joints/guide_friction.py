@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import exudyn as exu
 import numpy as np
 
-from exu_press.joints.user_force import add_massless_item
+from exu_press.joints.user_force import StepWatch, add_massless_item
 from exu_press.laws.friction import Friction, LuGre
 from exu_press.numerics.arrays import Array
 
@@ -157,12 +157,11 @@ class GuideFriction:
         self._data: Any = mbs.systemData
         if isinstance(side, HeldSide):
             guide_frictions(mbs).append(self)
-        self._step: tuple[float, float] | None = None
+        self._steps = StepWatch(mbs)
         add_massless_item(mbs, nodes, self._forces, self._jacobian)
 
     def _forces(self, mbs: exu.MainSystem, time: float, item: int, q: Any, q_t: Any) -> Array:
-        self._begin_step(time)
-        q, q_t = np.asarray(q), np.asarray(q_t)
+        q, q_t = self._state(time, q, q_t)
         along = self._line.direction_row(q)
         mu, _ = self.friction(float(along @ q_t))
         return -mu * abs(self._side.force(q, q_t)) * along
@@ -177,8 +176,7 @@ class GuideFriction:
         by_q: float,
         by_q_t: float,
     ) -> exu.MatrixContainer:
-        self._begin_step(time)
-        q, q_t = np.asarray(q), np.asarray(q_t)
+        q, q_t = self._state(time, q, q_t)
         along, turning = self._line.direction_row(q), self._line.turning(-self._line.normal_row(q))
         mu, slope = self.friction(float(along @ q_t))
         side = self._side.force(q, q_t)
@@ -190,6 +188,12 @@ class GuideFriction:
         matrix = exu.MatrixContainer()  # a container would add to what it was given before
         matrix.SetWithDenseMatrix(np.outer(along, row) + by_q * mu * abs(side) * turning)
         return matrix
+
+    def _state(self, time: float, q: Any, q_t: Any) -> tuple[Array, Array]:
+        """Return a state as arrays; tell the friction about the step that is being tried."""
+        if step := self._steps.begun(time):
+            self.friction.begin_step(*step)
+        return np.asarray(q), np.asarray(q_t)
 
     def multiplier_partials(self) -> tuple[Array, int, Array]:
         """Return the change of minus the force with the multiplier of its side force.
@@ -212,12 +216,3 @@ class GuideFriction:
         mu, _ = self.friction(float(along @ rates))
         side = self._side.force(q, rates)
         return self._rows, self._side.index, mu * np.sign(side) * along
-
-    def _begin_step(self, time: float) -> None:
-        """Tell the friction about the step that is being tried."""
-        if self._step is not None and self._step[1] == time:
-            return
-        start = self._data.GetTime(exu.ConfigurationType.StartOfStep)
-        accepted = self._step is None or start != self._step[0] or start == self._step[1]
-        self._step = start, time
-        self.friction.begin_step(time - start, accepted)

@@ -20,7 +20,7 @@ from exu_press.errors import InputError
 from exu_press.joints.joint import GROUND, SHALLOW, ClearanceJoint, JointState
 from exu_press.numerics.floats import FloatBuffer
 
-__all__ = ["UserForceElement", "add_massless_item", "holds_joints", "user_force_of"]
+__all__ = ["StepWatch", "UserForceElement", "add_massless_item", "holds_joints", "user_force_of"]
 
 REGISTRY = "exu_press_joints"
 
@@ -28,6 +28,30 @@ START = exu.ConfigurationType.StartOfStep
 
 Block = list[float] | NDArray[np.float64] | None
 """A joint's Jacobian over its own coordinates, by rows; None where nothing acts."""
+
+
+class StepWatch:
+    """Tells from the times at which an item is asked for forces when a step begins.
+
+    Attributes:
+        tried: start and end of the last try of a step, s; None before the first one.
+    """
+
+    def __init__(self, mbs: exu.MainSystem) -> None:
+        self._data: Any = mbs.systemData
+        self.tried: tuple[float, float] | None = None
+
+    def begun(self, time: float) -> tuple[float, bool] | None:
+        """Return the size of a step to a time, s, and whether the last one was accepted.
+
+        None where the step is under way already.
+        """
+        tried = self.tried
+        if tried is not None and tried[1] == time:
+            return None
+        start = float(self._data.GetTime(START))
+        self.tried = start, time
+        return time - start, tried is None or start != tried[0] or start == tried[1]
 
 
 class UserForceElement:
@@ -49,7 +73,7 @@ class UserForceElement:
         self._data: Any = mbs.systemData
         self.nodes: dict[int, int] = {}
         self.size = 0
-        self._step: tuple[float, float] | None = None  # start and end of the last try, s
+        self._steps = StepWatch(mbs)
         self._jacobian_time: float | None = None
         self._last: tuple[Any, Any] = None, None
         self._time = 0.0  # of it, s
@@ -129,8 +153,8 @@ class UserForceElement:
 
     def memory(self) -> dict[str, Any]:
         """Return the memory of all joints, for a run that goes on from here."""
-        step = None if self._step is None else list(self._step)
-        return {"step": step, "joints": [joint.memory() for joint in self.joints]}
+        tried = self._steps.tried
+        return {"step": tried and list(tried), "joints": [joint.memory() for joint in self.joints]}
 
     def recall(self, memory: Mapping[str, Any]) -> None:
         """Go on from the memory of a system like this one, in the initial state."""
@@ -140,7 +164,7 @@ class UserForceElement:
         for joint in self.joints:
             _state_in(joint, q, q_t)
         self._last = q, q_t
-        self._step = None if memory["step"] is None else tuple(memory["step"])
+        self._steps.tried = memory["step"] and tuple(memory["step"])
         for joint, joint_memory in zip(self.joints, memory["joints"], strict=True):
             joint.recall(joint_memory)
 
@@ -254,7 +278,9 @@ class UserForceElement:
         self.evaluations += 1
         if not self._started:  # of Exudyn's own solvers, which would end without a word
             self._check_start(q, self.number)
-        self._begin_step(time)
+        if step := self._steps.begun(time):
+            for joint in self.joints:
+                joint.begin_step(*step)
         self._last, self._time = (q, q_t), time
         size = len(q)
         q, q_t = [*q, *GROUND], [*q_t, *GROUND]
@@ -306,16 +332,6 @@ class UserForceElement:
             self._blocks = [None] * len(self.joints)
         self._by_q_t = by_q_t
         return self._blocks
-
-    def _begin_step(self, time: float) -> None:
-        """Tell the joints about the step that is being tried."""
-        if self._step is not None and self._step[1] == time:
-            return
-        start = self._data.GetTime(START)
-        accepted = self._step is None or start != self._step[0] or start == self._step[1]
-        self._step = start, time
-        for joint in self.joints:
-            joint.begin_step(time - start, accepted)
 
 
 def _state_in(joint: ClearanceJoint, q: Any, q_t: Any) -> JointState:

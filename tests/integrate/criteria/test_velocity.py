@@ -8,8 +8,7 @@ import pytest
 from patched import PATCHED
 from stand_in_system import system_at
 
-from exu_press.integrate.criteria.prescribed_velocity import PrescribedVelocityError
-from exu_press.integrate.criteria.velocity import VelocityError
+from exu_press.integrate.criteria.velocity import PrescribedVelocityError, VelocityError
 from exu_press.integrate.scales import ErrorScales, RunningScales
 from exu_press.integrate.system import Node
 from exu_press.integrate.task import SolverTuning

@@ -191,7 +191,7 @@ class GuideFriction:
 
     def _state(self, time: float, q: Any, q_t: Any) -> tuple[Array, Array]:
         """Return a state as arrays; tell the friction about the step that is being tried."""
-        if step := self._steps.begun(time):
+        if step := self._steps.new_step(time):
             self.friction.begin_step(*step)
         return np.asarray(q), np.asarray(q_t)
 

@@ -278,7 +278,7 @@ class UserForceElement:
         self.evaluations += 1
         if not self._started:  # of Exudyn's own solvers, which would end without a word
             self._check_start(q, self.number)
-        if step := self._steps.begun(time):
+        if step := self._steps.new_step(time):
             for joint in self.joints:
                 joint.begin_step(*step)
         self._last, self._time = (q, q_t), time

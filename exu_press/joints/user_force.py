@@ -41,7 +41,7 @@ class StepWatch:
         self._data: Any = mbs.systemData
         self.tried: tuple[float, float] | None = None
 
-    def begun(self, time: float) -> tuple[float, bool] | None:
+    def new_step(self, time: float) -> tuple[float, bool] | None:
         """Return the size of a step to a time, s, and whether the last one was accepted.
 
         None where the step is under way already.

@@ -352,6 +352,7 @@ class FunctionInterface(InterfaceLaw):
         self,
         law: Callable[[float, float, float, float, float], Response],
         clearance: float,
+        energy: Callable[[float], tuple[float, float]] | None = None,
     ) -> None:
         """Let a function be the law.
 
@@ -359,9 +360,11 @@ class FunctionInterface(InterfaceLaw):
             law: (|e|, d|e|/dt, v_t, omega_J, omega_B) -> f_n and f_t, N, the five derivatives of
                 f_n by these, then those of f_t.
             clearance: eccentricity that others are compared with, m.
+            energy: |e| -> elastic energy, J, and its derivative, N; None where nothing is stored.
         """
         super().__init__(clearance, stateful=False, needs_secant=False)
         self.law = law
+        self.energy = energy
 
     def load(
         self, e: float, e_dot: float, v_t: float, omega_j: float, omega_b: float
@@ -375,6 +378,14 @@ class FunctionInterface(InterfaceLaw):
         """Return the derivatives that the law gives."""
         _, _, n_1, n_2, n_3, n_4, n_5, t_1, t_2, t_3, t_4, t_5 = response
         return (n_1, n_2, n_3, n_4, n_5), (t_1, t_2, t_3, t_4, t_5)
+
+    def stored_energy(self, e: float) -> float:
+        """Return the elastic energy, J."""
+        return 0.0 if self.energy is None else self.energy(e)[0]
+
+    def stored_power(self, e: float, e_dot: float) -> float:
+        """Return the rate of the elastic energy, W."""
+        return 0.0 if self.energy is None else self.energy(e)[1] * e_dot
 
 
 class InterfaceJoint(ClearanceJoint):

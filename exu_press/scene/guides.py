@@ -5,7 +5,7 @@ Those that give way replace the ideal ones of a drawing (A-9): springs and dampe
 
 import math
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import Field, replace
 from typing import Any
@@ -46,19 +46,18 @@ NEEDED = {
 
 
 def guides_of(
-    table: ElasticGuide, names: Iterable[str], mechanism: str
+    table: ElasticGuide, mechanism: Mechanism
 ) -> tuple[ElasticGuide, dict[str, ElasticGuide]]:
     """Return [guide] with complete tables by name, and the guides that are not ideal.
 
     Args:
         table: [guide] of a scene.
-        names: of all guides and slots.
-        mechanism: its name.
+        mechanism: with guides and slots.
 
     Raises:
         InputError: there is no guide of a name, or a key of its table is not allowed.
     """
-    names = list(names)
+    names = [guide.name for guide in mechanism.guides]
     if not (table.soft or table.rubs or table.by_name):
         raise UnusedKeyError(
             "guide",
@@ -71,7 +70,7 @@ def guides_of(
     guides: dict[str, ElasticGuide | None] = dict.fromkeys(names, usual)
     by_name = {}
     for name, own in table.by_name.items():
-        demand_known(f"guide.{name}: {mechanism} has no such guide", name, names)
+        demand_known(f"guide.{name}: {mechanism.name} has no such guide", name, names)
         with _with_guide_named(name):
             by_name[name], guides[name] = _own_guide(shared, own)
     return replace(table, by_name=by_name), {n: guide for n, guide in guides.items() if guide}

@@ -8,8 +8,7 @@ from exu_press.errors import InputError, UnusedKeyError, error_prefix
 from exu_press.mechanism import Mechanism
 from exu_press.scene.custom import CustomJoint
 from exu_press.scene.joint import JOINT_KINDS, SIZES, IdealJoint, Joint
-from exu_press.scene.law_keys import LawKeys
-from exu_press.scene.usage import LAWS, law_kind
+from exu_press.scene.usage import LAWS, LawKeys, law_kind
 from exu_press.schema.checks import nearest, refuse_unknown
 from exu_press.schema.table import (
     Table,
@@ -231,8 +230,6 @@ def _joint(
     keys = [field.name for field in dataclasses.fields(chosen)]
     is_custom = issubclass(chosen, CustomJoint)
     refuse_unknown(path, table, ("kind", *keys) if is_custom else OF_JOINTS)
-    for law in [law for law in LAWS if table.get(law) is not None]:
-        _check_names(path, law, table[law], laws, spherical)
     values: dict[str, Any] = {**sizes, **table}
     if "film" in keys:
         values["film"] = film = _law(path, "film", table.get("film"), laws, spherical)
@@ -262,12 +259,11 @@ def _joint(
     return joint
 
 
-def _check_names(path: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> None:
-    """Raise InputError for the first key of a joint's law that no such law has."""
-    kind = law_kind(law, spherical)
-    if not isinstance(own, Mapping | Table):
+def _law(path: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> Any:
+    """Return a joint's law: the scene's, but for its own keys."""
+    if own is not None and not isinstance(own, Mapping | Table):
         raise InputError(f"{path}.{law} = {own!r:.200}: allowed is a table of keys")
-    keys = given_keys(own)
+    kind, keys = law_kind(law, spherical), given_keys(own)
     if law == "contact" and spherical and keys.get("shape") == "cylindrical":
         raise InputError(
             f"{path}.contact.shape = 'cylindrical': a ball has Hertz's point contact; allowed is "
@@ -276,13 +272,7 @@ def _check_names(path: str, law: str, own: Any, laws: LawKeys, spherical: bool) 
     with error_prefix(f"{path}."):
         merged = changed_table(kind, laws.keys_of(law), keys)
         refuse_unknown_keys([*LAWS[law].values()], law, keys, used_names(kind, law, merged))
-
-
-def _law(path: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> Any:
-    """Return a joint's law: the scene's, but for its own keys."""
-    kind = law_kind(law, spherical)
-    with error_prefix(f"{path}."):
-        return resolve(kind, law, changed_table(kind, laws.keys_of(law), given_keys(own)))
+        return resolve(kind, law, merged)
 
 
 def _unknown(

@@ -27,9 +27,8 @@ from exu_press.scene.bodies import Flexible, bodies_of
 from exu_press.scene.changes import asked_mechanism, by_group, changed_keys, drop, gives_key
 from exu_press.scene.joint import oil_of
 from exu_press.scene.joints import Joints, joints_of
-from exu_press.scene.law_keys import LawKeys
 from exu_press.scene.solver import RPM, Solver
-from exu_press.scene.usage import LAWS, TABLES
+from exu_press.scene.usage import LAWS, TABLES, LawKeys
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import import_kinds, refusal, with_unresolved
 from exu_press.schema.table import Table, demand_keys, given_names, plain, plain_value, table_from
@@ -212,8 +211,7 @@ class Scene(Table):
             return
         from exu_press.scene.guides import guides_of
 
-        drawn = mechanism_of(self)
-        table, guides = guides_of(self.guide, [guide.name for guide in drawn.guides], drawn.name)
+        table, guides = guides_of(self.guide, mechanism_of(self))
         object.__setattr__(self, "guide", table)
         object.__setattr__(self, "guides", guides)
 

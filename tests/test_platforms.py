@@ -41,6 +41,7 @@ def run_command(words, home):
         "USERPROFILE": str(home),
         "PYTHONIOENCODING": "cp1252",
         "PYTHONUTF8": "0",
+        "MPLBACKEND": "nonsense",  # a display that matplotlib does not know is not needed
         "MPLCONFIGDIR": matplotlib.get_configdir(),  # with its list of fonts
     }
     return subprocess.run(

@@ -63,18 +63,6 @@ def test_a_full_disk_under_the_output_is_said(tmp_path):
     )
 
 
-def test_a_display_that_matplotlib_does_not_know_is_not_needed(tmp_path):
-    picture = tmp_path / "drawing.png"
-    done = subprocess.run(
-        [COMMAND, "draw", "slider_crank", "--quiet", "--save", str(picture)],
-        env={**os.environ, "MPLBACKEND": "nonsense"},
-        capture_output=True,
-        timeout=60,
-    )
-    assert (done.returncode, done.stderr) == (0, b"")
-    assert picture.is_file()
-
-
 def test_ctrl_c_while_the_commands_are_loaded():
     code = """
 import os, signal, sys, exu_press.cli

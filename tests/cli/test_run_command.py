@@ -100,18 +100,6 @@ def test_directory_that_cannot_be_written(tmp_path, capsys):
     assert (tmp_path / "file").read_text() == "kept"
 
 
-@pytest.mark.long
-def test_compare_of_a_flexible_scene_has_rigid_ones_beside(tmp_path):
-    arguments = ["--set", "bodies.linkage=linkage", "--set", "revolutions=0.005"]
-    quick = ["--no-pictures", "--no-error", "--quiet", "--out", str(tmp_path)]
-    assert main(["compare", "press", *arguments, *quick]) == 0
-    comparison = json.loads((tmp_path / "comparison.json").read_text())
-    kinds = {f"{bodies} {pin}" for bodies in ("rigid", "flexible") for pin in ("dry", "lubricated")}
-    assert set(comparison) == {"ideal", *kinds}
-    for label, run in comparison.items():
-        assert list(run["scene"].get("bodies", {})) == ["linkage"] * label.startswith("flexible")
-
-
 def test_the_figures_are_printed_before_the_pictures_are_drawn(tmp_path, capsys, monkeypatch):
     def draw(result, directory):
         assert "peak acceleration" in capsys.readouterr().out

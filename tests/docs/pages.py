@@ -38,6 +38,11 @@ class Block:
     text: str
     notes: str
 
+    def note(self, name: str) -> str | None:
+        """Return what a note has behind its name."""
+        named = re.search(rf"<!-- {name}: (.+?) -->", self.notes)
+        return named[1] if named else None
+
     @property
     def long(self) -> bool:
         """Whether it takes minutes."""
@@ -46,26 +51,22 @@ class Block:
     @property
     def file(self) -> str | None:
         """The file that a reader saves it as."""
-        named = re.search(r"<!-- file: (\S+) -->", self.notes)
-        return named[1] if named else None
+        return self.note("file")
 
     @property
     def added_to(self) -> str | None:
         """The mechanism file that a reader may add it to."""
-        named = re.search(r"<!-- added to: (\S+) -->", self.notes)
-        return named[1] if named else None
+        return self.note("added to")
 
     @property
     def printed_by(self) -> str | None:
         """The command that printed it."""
-        named = re.search(r"<!-- printed by: (.+) -->", self.notes)
-        return named[1] if named else None
+        return self.note("printed by")
 
     @property
     def partly_printed_by(self) -> str | None:
         """The command that printed it and more."""
-        named = re.search(r"<!-- part of what this prints: (.+) -->", self.notes)
-        return named[1] if named else None
+        return self.note("part of what this prints")
 
     @property
     def shortened(self) -> list[str]:

@@ -11,6 +11,7 @@ from exu_press import Scene, simulate
 from exu_press.page.blocks import Blocks
 from exu_press.page.curves import PEAKS, curves_of
 from exu_press.page.marks import impacts, peaks, values_on
+from exu_press.page.thinning import Thinning
 from exu_press.quantities.catalogue import find_quantity
 
 
@@ -80,3 +81,17 @@ def test_peaks_are_marked_in_the_part_that_is_read():
     marks = peaks(run, curves_of(run))
     begin = float(np.interp(np.pi / 2, run["crank_angle"], run.time))
     assert marks["drive_torque"] and all(m["at"] >= begin * (1 - 1e-9) for m in marks.values())
+
+
+def test_thinning_keeps_extremes_and_vectors():
+    rng = np.random.default_rng(0)
+    thinned = Thinning(1003, 10)
+    values, vectors = rng.normal(size=1003), rng.normal(size=(1003, 2))
+    found = thinned.extremes(values)
+    assert len(found) == len(thinned.steps) == 202
+    for block in range(101):
+        part = values[10 * block : 10 * block + 10]
+        assert set(found[2 * block : 2 * block + 2]) == {part.min(), part.max()}
+    size = np.linalg.norm(vectors, axis=1)
+    assert np.linalg.norm(thinned.vectors(vectors), axis=1).max() == size.max()
+    assert (np.diff(thinned.steps) >= 0).all() and thinned.steps[-1] == 1002

@@ -8,7 +8,6 @@ from scipy.io import netcdf_file
 from stored_results import rewritten, text_of
 
 from exu_press import InputError, Result, Scene, simulate
-from exu_press.cli import main
 
 
 @pytest.fixture(scope="module")
@@ -96,15 +95,3 @@ def test_channels(original, changed, name, change, message):
         change["values"] = np.broadcast_to(change.get("values", np.zeros(1)), shape).copy()
     with pytest.raises(InputError, match=message):
         Result.load(changed(None, {name: change}))
-
-
-@pytest.mark.long
-def test_hostile_text_is_text_in_a_report(original, changed, tmp_path):
-    """Formulas that cannot be set and a script in the reason of a stop."""
-    why = r"$\frac{$ or $x_$ <script>alert(1)</script>"
-    info = text_of(original.read_bytes(), "info") | {"status": "interrupted", "reason": why}
-    path = changed({"info": json.dumps(info)})
-    assert main(["report", str(path), "--quiet", "--out", str(tmp_path / "page.html")]) == 0
-    page = (tmp_path / "page.html").read_text(encoding="utf-8")
-    assert "<script>alert" not in page
-    assert "&lt;script&gt;" in page and r"$\frac{$ or $x_$" in page

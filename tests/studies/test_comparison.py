@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, simulate
-from exu_press.cli import main
 from exu_press.cli.options import scene_path, shipped_names
 from exu_press.quantities.value import values_of
 from exu_press.studies.compare import variants
@@ -50,16 +49,6 @@ def test_five_variants_of_every_shipped_scene_fit_100_columns(name):
     shown = [line.split() for line in lines]
     for title, *cells in rows:
         assert max(map(len, cells)) <= 11 and [*title.split(), *cells] in shown
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("name", shipped_names())
-def test_the_command_on_every_shipped_scene_fits_100_columns(name, tmp_path, capsys):
-    out = ["--no-pictures", "--set", "revolutions=0.2", "--out", str(tmp_path)]
-    settle = ["--set", "settle=0"] if name == "drag_link_shop" else []
-    assert main(["compare", name, *out, *settle]) in (0, 3)
-    lines = capsys.readouterr().out.splitlines()[:-1]
-    assert max(map(len, lines)) <= 100 and not any("..." in line for line in lines)
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,11 @@
 
 import numpy as np
 import pytest
+from independent.reduced_slider_crank import ReducedSliderCrank
 
+from exu_press import Scene
+from exu_press.mechanism.press import PAPER_LAWS
+from precision.reduced import numbers_of, rate_of, start_of
 from precision.squeezer import END, _start_places, squeezer_attempts, squeezer_errors
 
 
@@ -52,3 +56,33 @@ def test_the_error_follows_the_tolerance(compare):
     compare(name, END, angles, error=None, abs=3e-5, unit="rad")
     for attempt, error in zip(attempts[1:], errors[1:], strict=True):
         assert error < 30.0 * attempt.value, "rad, of 15.8"
+
+
+PINS = {"dry": "lugre_steady", "lubricated": "pinkus"}
+
+
+def scene(pin, **changes):
+    dry = PAPER_LAWS
+    laws = {"film": {"law": "pinkus"}} if pin == "lubricated" else dry
+    joints = {"crank_pin": pin}
+    return Scene(
+        mechanism="slider_crank",
+        joints=joints,
+        revolutions=1.0,
+        **{"start": "centred", **laws, **changes},
+    )
+
+
+def states(pin, count=40):
+    """States around the start: in free flight, in the film and in contact."""
+    reach = 2e-4 if pin == "dry" else 2e-5
+    noise = np.random.default_rng(1).normal(size=(count, 4))
+    return np.array(start_of(numbers_of(scene(pin)))) + noise * [reach, reach, 1e-2, 1e-3]
+
+
+@pytest.mark.parametrize("pin", PINS)
+def test_rates_equal_those_of_the_independent_model(pin):
+    rate = rate_of(scene(pin))
+    other = ReducedSliderCrank(PINS[pin])
+    for x in states(pin):
+        assert rate(1e-5, *x.tolist()) == pytest.approx(other.rate(1e-5, x.tolist()), rel=1e-9)

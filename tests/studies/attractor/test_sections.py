@@ -39,30 +39,17 @@ def test_fixed_steps_end_on_the_section():
     orbit.close()
 
 
-@pytest.fixture(scope="module")
-def turned():
-    return attractor(MOTOR, skip=6, **SHORT)
-
-
 @pytest.mark.long
-def test_a_motor_turns_a_lubricated_press_regularly(turned):
+def test_a_motor_turns_a_lubricated_press_regularly():
+    """More slowly than its speed without load, by its slip; channels are kept on the section."""
+    turned = attractor(MOTOR, skip=6, **SHORT)
     assert turned.period.revolutions == 1
     assert turned.exponent.sign == "regular"
     assert turned.points.shape == (20, 5)
     mean = turned.figures["crank_speed"].mean()
     assert turned.points[:, -1].mean() * MOTOR.angular_speed == pytest.approx(mean, rel=1e-6)
-
-
-@pytest.mark.long
-def test_its_revolutions_take_as_long_as_they_take(turned):
-    """A motor with slip turns more slowly than its speed without load."""
     assert 0.95 * 4.0 < turned.turns < 4.0
     assert turned.per_second[0] == pytest.approx(turned.turns * turned.exponent.value)
-
-
-@pytest.mark.long
-def test_channels_are_kept_on_the_section_with_their_units(turned):
-    assert list(turned.figures) == NAMES
     assert turned.units == {"stroke": "m", "crank_speed": "rad/s", "crank_pin_force.x": "N"}
     assert "crank_pin_force.x, N" in "\n".join(AttractorReport(turned).lines())
 

@@ -7,7 +7,6 @@ from exu_press import InputError, Scene, simulate
 from exu_press.files.output_directory import plain_data
 from exu_press.studies.base import load_study
 from exu_press.studies.fit import Fit, fit
-from exu_press.studies.fit.profile import OPEN
 
 SLIDER, ROD = "slider_crank.slider_mass", "slider_crank.rod_mass"
 SCENE = Scene(
@@ -50,24 +49,6 @@ def test_masses_are_found_from_forces(tmp_path):
     assert any(line.startswith(SLIDER) and " to " in line for line in lines)
     again = fit(study(start={SLIDER: 1000.0}), tmp_path, workers=1)
     assert plain_data(again.to_dict()) == plain_data(report.to_dict())
-
-
-@pytest.mark.long
-def test_a_key_without_effect_is_named(tmp_path):
-    keys = {
-        SLIDER: KEYS[SLIDER],
-        "slider_crank.rod_inertia": {"low": 2.0, "high": 3.0},
-        ROD: KEYS[ROD],
-    }
-    given = measured(
-        ("guides.slider.peak_force", "drive.peak_torque", "joints.crank_pin.peak_force")
-    )
-    for one in given:
-        one["uncertainty"] *= 5.0
-    report = fit(study(keys=keys, measured=given), tmp_path, workers=1)
-    text = "\n".join(report.lines())
-    assert "not determined: slider_crank.rod_inertia; over its whole range" in text
-    assert report.remarks["slider_crank.rod_inertia"] == (OPEN, OPEN)
 
 
 @pytest.mark.long

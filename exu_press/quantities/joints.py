@@ -9,7 +9,7 @@ from exu_press.quantities.quantity import Extreme, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import JointRecord
 from exu_press.scene import IdealJoint, Scene
-from exu_press.scene.film import JournalFilm
+from exu_press.scene.joint import is_fed
 
 __all__ = ["IMPACTS", "JOINTS", "START", "contacts", "share_of_contact"]
 
@@ -46,8 +46,7 @@ def _has_film(scene: Scene, joint: str) -> bool:
 
 
 def _is_fed(scene: Scene, joint: str) -> bool:
-    film = scene.joints[joint].film
-    return isinstance(film, JournalFilm) and film.law.supply_pressure > 0.0
+    return is_fed(scene.joints[joint])
 
 
 def _can_touch(scene: Scene, joint: str) -> bool:

@@ -11,7 +11,7 @@ from exu_press.numerics.piecewise import integral
 from exu_press.result.channel import VECTOR, Channel, Declaration, Declarations
 from exu_press.result.ideal_joints import vectors
 from exu_press.result.recording import Record, Recording
-from exu_press.scene.joint import has_even_gap
+from exu_press.scene.joint import has_even_gap, is_fed
 
 if TYPE_CHECKING:
     from exu_press.model.warm_film import WarmFilm
@@ -71,7 +71,7 @@ def record(run: Recording) -> Record:
             power=states.dissipated_power,
             loss=loss,
         )
-        if states.pump_power.any():
+        if is_fed(model.scene.joints[name]):
             pumped += integral(time, states.pump_power)
             channels |= CHANNELS.record(name, pump_power=states.pump_power)
         if name in model.warm:

@@ -62,6 +62,11 @@ class FilmLaw(CustomKind, Table, ABC):
         return 0.0
 
     @property
+    def ring_pressure(self) -> float:
+        """Pressure of oil in a groove all around, Pa above ambient."""
+        return 0.0
+
+    @property
     def errors(self) -> tuple[float, float]:
         """Relative errors of its forces and of its side flow."""
         return self.error, self.flow_error
@@ -198,6 +203,16 @@ class Film(Table):
         return 0.0
 
     @property
+    def supply_pressure(self) -> float:
+        """Largest pressure at which oil is supplied, Pa above ambient."""
+        return 0.0
+
+    @property
+    def ring_pressure(self) -> float:
+        """Pressure of oil in a groove all around, Pa above ambient."""
+        return 0.0
+
+    @property
     def contact_gap(self) -> float | None:
         """Gap at which the surfaces' asperities touch, m; None without mixed film."""
         return self.at_contact.contact_gap
@@ -251,6 +266,16 @@ class JournalFilm(Film):
     def inclination(self) -> float:
         """Angle between the axes of journal and bearing, rad."""
         return self.law.inclination
+
+    @property
+    def supply_pressure(self) -> float:
+        """Largest pressure at which oil is supplied, Pa above ambient."""
+        return self.law.supply_pressure
+
+    @property
+    def ring_pressure(self) -> float:
+        """Pressure of oil in a groove all around, Pa above ambient."""
+        return self.law.ring_pressure
 
     def check_cooling(self) -> None:
         """Raise InputError for an oil that warms, and of which nothing carries the heat off."""

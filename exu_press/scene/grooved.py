@@ -43,7 +43,7 @@ class SupplyGroove(Table):
         None, "along the axis; all of the bearing's unless given", "m", above=0
     )
     pressure: float | None = key(
-        None, "of its oil, above ambient; ambient unless given", "Pa", at_least=0
+        None, "of its oil, above ambient; ambient unless given", "Pa", at_least=0, at_most=1e8
     )
 
 
@@ -80,6 +80,12 @@ class GroovedLaw(FilmLaw):
     def supply_pressure(self) -> float:
         """Largest pressure of the grooves, Pa above ambient."""
         return max((groove.pressure or 0.0 for groove in self.grooves or ()), default=0.0)
+
+    @property
+    def ring_pressure(self) -> float:
+        """Pressure of oil in a groove all around, Pa above ambient."""
+        around = any(groove.width_deg >= 360.0 for groove in self.grooves or ())
+        return self.supply_pressure if around else 0.0
 
     @property
     def errors(self) -> tuple[float, float]:

@@ -227,6 +227,11 @@ def has_even_gap(joint: Joint) -> bool:
     return joint.worn is None and (joint.film is None or not joint.film.inclination)
 
 
+def is_fed(joint: Joint) -> bool:
+    """Return whether a pump feeds its film, however little."""
+    return joint.film is not None and joint.film.supply_pressure > 0.0
+
+
 def oil_of(joint: Joint) -> "Oil | None":
     """Return the oil of a joint whose film warms, or None."""
     return None if joint.film is None else joint.film.oil

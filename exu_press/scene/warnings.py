@@ -28,6 +28,9 @@ SOFTEST, STIFFEST = 1e9, 1.2e12
 LIGHTEST, HEAVIEST = 100.0, 25000.0
 """kg/m^3: foams, and osmium."""
 
+LARGEST_SUPPLY = 30.0
+"""Pressure of a groove around over that of the rotation, to which its film's errors are 3 %."""
+
 MILLI = 1e-3
 
 MOST_WEAR = 0.05
@@ -42,6 +45,7 @@ def scene_warnings(scene: Scene) -> list[str]:
     return [
         *doubtful_sizes(scene),
         *_film_law(scene),
+        *_supply(scene),
         *_forming(scene),
         *_wear(scene),
         *_brake(scene),
@@ -273,3 +277,18 @@ def _film_law(scene: Scene) -> Iterator[str]:
             f"{table}.law = {better.kind!r} says. The eccentricity ratio comes out too small by a "
             "factor of that order, and the film too thick."
         )
+
+
+def _supply(scene: Scene) -> Iterator[str]:
+    """Yield pressures in grooves all around beside which the film's force is not exact."""
+    for table, joint in _films(scene):
+        pressure = joint.film.ring_pressure
+        slenderness = joint.radius / joint.clearance
+        of_rotation = 12.0 * joint.film.cold_viscosity * slenderness**2 * scene.angular_speed
+        if pressure > LARGEST_SUPPLY * of_rotation:
+            yield (
+                f"{table}.grooves.pressure = {pressure:g} Pa is {pressure / of_rotation:.2g} times "
+                f"12 mu (R/c)^2 omega = {of_rotation:.2g} Pa, the pressure that rotation makes. A "
+                "groove all around bears next to nothing by its pressure: from "
+                f"{LARGEST_SUPPLY:g} times on, the film's force is off by more than 3 %"
+            )

@@ -7,6 +7,7 @@ import pytest
 
 from exu_press import Scene, bearing_coefficients, simulate
 from exu_press.numerics.piecewise import integral
+from exu_press.scene.warnings import scene_warnings
 
 AXIAL = [{"angle_deg": 90.0, "width_deg": 10.0}, {"angle_deg": -90.0, "width_deg": 10.0}]
 RING = [{"width_deg": 360.0, "length": 0.005}]
@@ -70,6 +71,16 @@ def test_coefficients_of_an_inclined_journal():
     assert across.power > 0.0 and across.side_flow > 0.0
 
 
+def test_a_pressure_far_above_that_of_the_rotation_has_a_warning():
+    """Of a groove around, whose pressure bears next to nothing; not of another one."""
+    slow = {"speed_rpm": 0.1}
+    (warning,) = scene_warnings(scene([{**RING[0], "pressure": 1e6}], **slow))
+    assert "film.grooves.pressure = 1e+06 Pa is 6.4e+02 times" in warning
+    assert scene_warnings(scene([{**RING[0], "pressure": 1e6}])) == []
+    pocket = {**AXIAL[0], "length": 0.04, "pressure": 1e6}
+    assert scene_warnings(scene([pocket], **slow)) == []
+
+
 def test_pressures_in_one_ratio_have_one_table():
     """The table is that of the shape, and of the ratios; without a pressure it is the ambient."""
     low, high, swapped = (
@@ -109,3 +120,10 @@ def test_a_run_keeps_its_energy_and_the_film_its_heat(pressure):
     else:
         assert bearing.pump_power == 0.0
         assert simulate(warm).summary()["status"] == "completed"
+
+
+@pytest.mark.long
+def test_the_least_pressure_has_a_pump_too():
+    faint = simulate(scene([{**RING[0], "pressure": 1e-30}], revolutions=0.02))
+    assert faint.summary()["status"] == "completed"
+    assert np.abs(faint["crank_pin_pump_power"]).max() < 1e-9

@@ -94,6 +94,12 @@ class GroovedBearing:
 
     def _refuse_overlaps(self) -> None:
         by_angle = sorted(self.grooves, key=lambda groove: groove.angle % TURN)
+        widest = max(groove.width for groove in self.grooves)
+        if widest > TURN - NARROWEST:
+            raise InputError(
+                f"groove of width_deg = {math.degrees(widest):g}: allowed is a number <= 359, "
+                "which leaves 1 deg of bearing, or 360 for one that goes all around"
+            )
         for first, second in pairwise([*by_angle, by_angle[0]]):
             apart = TURN if len(by_angle) == 1 else (second.angle - first.angle) % TURN
             if apart < 0.5 * (first.width + second.width) + NARROWEST:

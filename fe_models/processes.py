@@ -24,7 +24,7 @@ from typing import Any
 from fe_models import child
 from fe_models.child import ANSWER, DESCRIPTORS, ERRORS, REPORT, Setup, read, run_copy, send
 
-__all__ = ["ONE_THREAD", "Child", "ChildError", "TimeLimitError", "may_copy"]
+__all__ = ["ONE_THREAD", "Child", "ChildError", "TimeLimitError", "may_copy", "why_not_copied"]
 
 ONE_THREAD = {
     f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "BLIS", "NGS")
@@ -199,17 +199,22 @@ class Child(AbstractContextManager["Child", None]):
 
 
 def may_copy() -> bool:
-    """Return whether a copy of this process can run by itself.
+    """Return whether a copy of this process can run by itself."""
+    return not why_not_copied()
+
+
+def why_not_copied() -> str:
+    """Return why a copy of this process cannot run by itself, or nothing.
 
     It has this thread alone, so it never gets a lock that another thread holds; NGSolve has
     threads of its own.
     """
-    return (
-        sys.platform == "linux"
-        and Path(DESCRIPTORS).is_dir()
-        and threading.active_count() == 1
-        and "ngsolve" not in sys.modules
-    )
+    if sys.platform != "linux" or not Path(DESCRIPTORS).is_dir():
+        return f"this is {sys.platform}"
+    if "ngsolve" in sys.modules:
+        return "NGSolve is loaded"
+    threads = threading.active_count()
+    return f"there are {threads} threads" if threads > 1 else ""
 
 
 def _search_path() -> list[str]:

@@ -98,8 +98,8 @@ def _cause(refinement: Refinement) -> str:
 def _small_budget(refinement: Refinement, need: str, steps: int) -> str:
     """Return that the budget was too small for a need, which a level of these steps meets."""
     by_steps, by_time = refinement.budget_left()
-    enough = f"max_steps = {sum(steps for steps, _ in refinement.cost) + 4 * steps}"
+    used = sum(steps for steps, _ in refinement.cost)
+    enough = f"max_steps = {used + 4 * steps}"
     if by_time < by_steps:
-        pace = (refinement.levels or refinement.failures)[-1].pace
-        enough = f"max_time = {refinement.runs.max_time + 4 * steps * pace:.3g}"
+        enough = f"max_time = {refinement.runs.elapsed_time() * (1.0 + 4 * steps / used):.3g}"
     return f"the budget was too small for {need}; {enough} would do"

@@ -1,7 +1,5 @@
 """Runs with constant steps: in copies of the process, on systems of their own, or the user's."""
 
-import sys
-import threading
 import time as clock
 from collections.abc import Callable
 from contextlib import AbstractContextManager
@@ -14,7 +12,7 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.exudyn_systems.samples import MOST_SAMPLES, Samples, Variables
 from exu_press.integrate.task import set_meanwhile
-from fe_models.processes import Child, ChildError, may_copy
+from fe_models.processes import Child, ChildError, why_not_copied
 
 __all__ = ["OUT_OF_TIME", "Level", "Levels"]
 
@@ -34,12 +32,6 @@ class Level:
     iterations: int
     samples: Samples
 
-    @property
-    def pace(self) -> float:
-        """Processor time of a step, s."""
-        taken = (self.end - float(self.samples.times[0])) / self.step
-        return max(self.seconds / max(taken, 1.0), 1e-9)
-
 
 @dataclass
 class Levels:
@@ -54,9 +46,9 @@ class Levels:
     touched: bool = False  # whether the system has been run
     spares: list[Child] = field(default_factory=list)  # from before that, if the last level misses
 
-    def time_left(self) -> float:
-        """Return the time that is left for further levels, s."""
-        return self.begun + self.max_time - clock.monotonic()
+    def elapsed_time(self) -> float:
+        """Return the time since the levels began, s."""
+        return clock.monotonic() - self.begun
 
     def run_earlier(self, numbers: list[int]) -> list[Level]:
         """Return levels that leave no trace on the user's system."""
@@ -96,7 +88,7 @@ class Levels:
             go_on = function is None or bool(function(mbs, time))
             if time >= start + len(rows) * period - 0.5 * step:
                 rows.append(variables.row(time))
-                failure = OUT_OF_TIME if self.time_left() < 0.0 else ""
+                failure = OUT_OF_TIME if self.elapsed_time() > self.max_time else ""
             return go_on and not failure
 
         begun = clock.process_time()
@@ -122,20 +114,17 @@ class Levels:
     def refuse_copy(self) -> None:
         """Refuse a process that cannot be copied safely, with a message that says what to do."""
         container: Any = self.mbs.GetSystemContainer()
-        threads, of_solver = threading.active_count(), int(self.settings.parallel.numberOfThreads)
-        unsafe = "NGSolve is loaded" if "ngsolve" in sys.modules else f"there are {threads} threads"
-        unsafe = unsafe if sys.platform == "linux" else f"this is {sys.platform}"
-        for reason, applies in (
-            ("the renderer is running", container.renderer.IsActive()),
-            (f"settings.parallel.numberOfThreads = {of_solver}", of_solver > 1),
-            (unsafe, not may_copy()),
-        ):
-            if applies:
-                raise InputError(
-                    "mbs: earlier levels run in copies of this process, which is not safe, as "
-                    f"{reason}; pass a function that builds and returns the assembled system "
-                    "instead: solve_dynamic(build, settings)"
-                )
+        threads, reason = int(self.settings.parallel.numberOfThreads), why_not_copied()
+        if threads > 1:
+            reason = f"settings.parallel.numberOfThreads = {threads}"
+        if container.renderer.IsActive():
+            reason = "the renderer is running"
+        if reason:
+            raise InputError(
+                f"mbs: earlier levels run in copies of this process, which is not safe, as {reason}"
+                "; pass a function that builds and returns the assembled system instead: "
+                "solve_dynamic(build, settings)"
+            )
 
 
 def _constant_steps(

@@ -88,9 +88,8 @@ class Refinement:
 
     def budget_left(self) -> tuple[float, float]:
         """Return the number of steps that max_steps allows for, and that the time left does."""
-        pace = (self.levels or self.failures)[-1].pace
-        steps = self.max_steps - sum(steps for steps, _ in self.cost)
-        return steps, self.runs.time_left() / pace
+        used, elapsed = sum(steps for steps, _ in self.cost), self.runs.elapsed_time()
+        return self.max_steps - used, (self.runs.max_time / elapsed - 1.0) * used
 
     def solver_gives_up(self) -> bool:
         """Return whether the solver gave up at the last level, and that had many steps."""

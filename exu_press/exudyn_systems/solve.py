@@ -1,7 +1,6 @@
 """The public `solve_dynamic`: error-controlled steps with clearance joints, else refinement."""
 
 import math
-import time as clock
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -17,7 +16,7 @@ from exu_press.exudyn_systems.refine import Refinement, grid
 from exu_press.exudyn_systems.samples import Variables
 from exu_press.integrate import Outcome, RunError, SolverStatus
 from exu_press.integrate import solve_dynamic as solve_adaptively
-from exu_press.integrate.task import TOLERANCES
+from exu_press.integrate.task import refuse_no_run
 from exu_press.joints import holds_joints
 
 __all__ = ["RefinedOutcome", "solve_dynamic"]
@@ -104,7 +103,7 @@ def solve_dynamic(
             'clearance joints takes, and any other one with method="adaptive"'
         )
     _refuse_unusable(settings, tolerance)
-    integration, begun = settings.timeIntegration, clock.monotonic()
+    integration = settings.timeIntegration
     users, duration = int(integration.numberOfSteps), integration.endTime - integration.startTime
     rows = max(1, round(duration / (settings.solution.sensors.writePeriod or math.inf)))
     coarsest, count = grid(users, rows)
@@ -123,7 +122,7 @@ def solve_dynamic(
         status=SolverStatus.COMPLETED if converged else SolverStatus.NOT_CONVERGED,
         reason=reason,
         end_time=last.end,
-        wall_time=clock.monotonic() - begun,
+        wall_time=runs.elapsed_time(),
         steps=last.steps,
         rejected_steps=0,
         newton_iterations=last.iterations,
@@ -136,23 +135,17 @@ def solve_dynamic(
 
 def _refuse_unusable(settings: exu.SimulationSettings, tolerance: float | None) -> None:
     """Refuse what cannot be refined."""
-    integration, (low, high) = settings.timeIntegration, TOLERANCES
-    solver = str(integration.solverType).rsplit(".", 1)[-1]
-    start, end, at = integration.startTime, integration.endTime, "settings.timeIntegration"
-    number = isinstance(tolerance, float | int) and low <= tolerance <= high
-    fixed = "; mbs.SolveDynamic has fixed steps" * (tolerance is None)
-    checks = {
-        f"tolerance = {tolerance!r}: allowed is a number from {low:g} to {high:g}{fixed}": number,
-        f"{at}.solverType = {solver}: allowed are {' and '.join(IMPLICIT)}; explicit solvers, and "
-        "their control of steps, stay with mbs.SolveDynamic": solver in IMPLICIT,
-        f"{at}.endTime = {end!r}: allowed is a time after startTime = {start!r} s": start < end,
-        "settings.solution.restart.continueIfAvailable = True: allowed is False": (
-            not settings.solution.restart.continueIfAvailable
-        ),
-    }
-    for text, passed in checks.items():
-        if not passed:
-            raise InputError(text)
+    if tolerance is None:
+        raise InputError("tolerance = None: allowed is a number; mbs.SolveDynamic has fixed steps")
+    refuse_no_run(settings, tolerance)
+    solver = str(settings.timeIntegration.solverType).rsplit(".", 1)[-1]
+    if solver not in IMPLICIT:
+        raise InputError(
+            f"settings.timeIntegration.solverType = {solver}: allowed are {' and '.join(IMPLICIT)}"
+            "; explicit solvers, and their control of steps, stay with mbs.SolveDynamic"
+        )
+    if settings.solution.restart.continueIfAvailable:
+        raise InputError("settings.solution.restart.continueIfAvailable = True: allowed is False")
 
 
 def _stated_error(refinement: Refinement) -> RunError | None:

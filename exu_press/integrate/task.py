@@ -18,11 +18,11 @@ from exu_press.integrate.system import System
 
 __all__ = [
     "SAME",
-    "TOLERANCES",
     "SolverTuning",
     "Task",
     "inertia_factor",
     "prepared_settings",
+    "refuse_no_run",
     "refuse_unusable",
     "set_meanwhile",
 ]
@@ -197,17 +197,8 @@ def inertia_factor(solver: Any) -> float:
     return factor
 
 
-def refuse_unusable(
-    settings: exu.SimulationSettings,
-    tolerance: float | None,
-    sample: float | None = None,
-) -> None:
-    """Refuse what cannot be integrated.
-
-    Raises:
-        InputError: the tolerance or the period lies outside its range, the run has no end, or the
-            integrator is not generalized-alpha with a spectral radius that damps.
-    """
+def refuse_no_run(settings: exu.SimulationSettings, tolerance: float | None) -> None:
+    """Refuse a tolerance outside its range, and a run without an end or a duration."""
     integration = settings.timeIntegration
     low, high = TOLERANCES
     a_number = isinstance(tolerance, float | int)
@@ -219,6 +210,22 @@ def refuse_unusable(
             f"settings.timeIntegration.endTime = {end!r}: allowed is a time after startTime = "
             f"{start!r} s"
         )
+
+
+def refuse_unusable(
+    settings: exu.SimulationSettings,
+    tolerance: float | None,
+    sample: float | None = None,
+) -> None:
+    """Refuse what cannot be integrated.
+
+    Raises:
+        InputError: the tolerance or the period lies outside its range, the run has no end, or the
+            integrator is not generalized-alpha with a spectral radius that damps.
+    """
+    refuse_no_run(settings, tolerance)
+    integration = settings.timeIntegration
+    start, end = integration.startTime, integration.endTime
     if end - start < SHORTEST_RUN:
         raise InputError(
             f"settings.timeIntegration.endTime = {end!r}, startTime = {start!r}: allowed is a run "

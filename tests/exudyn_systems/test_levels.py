@@ -11,6 +11,7 @@ from stand_in_system import oscillator
 
 from exu_press import InputError, SolverStatus
 from exu_press.exudyn_systems import solve_dynamic
+from fe_models.processes import why_not_copied
 
 
 class Integral:
@@ -54,7 +55,9 @@ def test_a_function_that_builds_the_system_does_without_copies(monkeypatch):
         return built[-1][0]
 
     copied = solve_dynamic(controlled()[0], settings(2.0, 100))
-    monkeypatch.setattr("exu_press.exudyn_systems.level.may_copy", lambda: False)
+    monkeypatch.setattr(
+        "exu_press.exudyn_systems.level.why_not_copied", lambda: "NGSolve is loaded"
+    )
     outcome = solve_dynamic(build, settings(2.0, 100))
     assert [steps for steps, _ in outcome.levels] == [steps for steps, _ in copied.levels]
     assert outcome.mbs is built[-1][0] and built[-1][1].calls == outcome.steps
@@ -98,7 +101,7 @@ def test_an_error_in_a_function_is_raised():
 
 def refusal(monkeypatch, reason):
     """Let a reason apply for which the process is not copied."""
-    monkeypatch.setattr("exu_press.exudyn_systems.level.may_copy", lambda: False)
+    monkeypatch.setattr("exu_press.exudyn_systems.level.why_not_copied", why_not_copied)
     monkeypatch.delitem(sys.modules, "ngsolve", raising=False)
     if reason == "NGSolve is loaded":
         monkeypatch.setitem(sys.modules, "ngsolve", None)

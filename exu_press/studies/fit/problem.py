@@ -18,7 +18,7 @@ from exu_press.scene import Scene
 from exu_press.studies.base import Range
 from exu_press.studies.base.evaluation import Evaluation, Point, error_in, numbers_in
 from exu_press.studies.curve_file import channel_polynomials
-from exu_press.studies.fit.curve import Curve, RecordedCurve, fit_sensor
+from exu_press.studies.fit.measured import Curve, RecordedCurve, fit_sensor
 from exu_press.studies.fit.study import Fit
 from exu_press.verification.refinement import step_changes
 

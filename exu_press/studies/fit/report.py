@@ -13,8 +13,8 @@ from exu_press.quantities.units import shown_unit, with_unit
 from exu_press.scene import Scene
 from exu_press.studies.base import Range
 from exu_press.studies.base.report import Line, Panel, Report, Table
-from exu_press.studies.fit.curve import Curve, RecordedCurve
 from exu_press.studies.fit.identifiability import Direction, Identifiability
+from exu_press.studies.fit.measured import Curve, RecordedCurve
 from exu_press.studies.fit.minimum import Minimum
 from exu_press.studies.fit.profile import OPEN, interpolate_rise
 from exu_press.studies.fit.study import Fit

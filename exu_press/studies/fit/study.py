@@ -13,8 +13,7 @@ from exu_press.schema.checks import demand_known, key
 from exu_press.schema.table import Table
 from exu_press.studies.base import Range, Study
 from exu_press.studies.base.evaluation import require_key_kinds
-from exu_press.studies.fit.curve import Curve
-from exu_press.studies.fit.measured import MeasuredNumber, dotted_keys
+from exu_press.studies.fit.measured import Curve, MeasuredNumber, dotted_keys
 
 __all__ = ["EVOLUTION", "LEAST_SQUARES", "Fit", "Search"]
 

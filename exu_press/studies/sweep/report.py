@@ -313,7 +313,5 @@ def _scalars(row: Mapping[str, Any]) -> dict[str, Any]:
 
 def _letters(texts: list[str]) -> "np.ndarray[tuple[int, int], np.dtype[np.bytes_]]":
     """Return texts as single bytes, (texts, longest)."""
-    encoded = [text.encode() for text in texts]
-    longest = max(1, *(len(text) for text in encoded))
-    padded = np.array([text.ljust(longest, b"\0") for text in encoded], dtype=f"S{longest}")
-    return padded.view("S1").reshape(len(texts), longest)
+    padded = np.array([text.encode() for text in texts])
+    return padded.view("S1").reshape(len(texts), -1)

@@ -3,7 +3,7 @@
 import dataclasses
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -17,85 +17,12 @@ from exu_press.schema.table import Table
 from exu_press.studies.base import Study
 from exu_press.studies.base.keys import Key, Values
 
-__all__ = ["Sweep", "SweepTable", "grid", "paired_values", "sample"]
+__all__ = ["Sweep", "SweepTable", "points_of"]
 
 Points = tuple[dict[str, Any], ...]
 
 MOST_RUNS = 100_000
 """Runs of one study."""
-
-
-def grid(keys: Mapping[str, Key]) -> Points:
-    """Return every combination; the last key runs fastest.
-
-    >>> grid({"speed_rpm": Values((200, 300)), "crank_pin": Values(("dry",))})
-    ({'speed_rpm': 200, 'crank_pin': 'dry'}, {'speed_rpm': 300, 'crank_pin': 'dry'})
-    """
-    values = _values(keys, "grid")
-    _check_number(math.prod(len(key_values) for key_values in values.values()))
-    return _points(values, itertools.product(*values.values()))
-
-
-def paired_values(keys: Mapping[str, Key]) -> Points:
-    """Return the first values of all keys, the second ones, and so on.
-
-    >>> paired_values({"speed_rpm": Values((200, 300)), "crank_pin": Values(("dry", "ideal"))})
-    ({'speed_rpm': 200, 'crank_pin': 'dry'}, {'speed_rpm': 300, 'crank_pin': 'ideal'})
-    """
-    values = _values(keys, "list")
-    lengths = {name: len(key_values) for name, key_values in values.items()}
-    if len(set(lengths.values())) > 1:
-        text = ", ".join(f"{name} has {length}" for name, length in lengths.items())
-        raise InputError(f'[keys]: {text}; allowed with way = "list" are lists of one length')
-    _check_number(next(iter(lengths.values())))
-    return _points(values, zip(*values.values(), strict=True))
-
-
-def sample(keys: Mapping[str, Key], n: int, seed: int) -> Points:
-    """Return a Latin hypercube of the keys' distributions, of n points, the same for one seed.
-
-    Source: McKay, Beckman, Conover, Technometrics 21 (1979) 239-245; made by SciPy.
-    """
-    for name, variation in keys.items():
-        if isinstance(variation, Values):
-            raise InputError(
-                f'keys.{name} = {variation.plain()!r:.200}: allowed with way = "sample" is '
-                "{low = a, high = b} or {mean = m, deviation = s}"
-            )
-    _check_number(n)
-    from scipy.stats import qmc
-
-    shares = np.asarray(qmc.LatinHypercube(len(keys), rng=seed).random(n))
-    columns = [
-        variation.quantile(column)
-        for variation, column in zip(keys.values(), shares.T, strict=True)
-        if not isinstance(variation, Values)
-    ]
-    return tuple(
-        dict(zip(keys, map(float, row), strict=True)) for row in zip(*columns, strict=True)
-    )
-
-
-def _values(keys: Mapping[str, Key], combination: str) -> dict[str, tuple[Any, ...]]:
-    """Return the values of all keys; raise InputError for a range or a distribution."""
-    values = {}
-    for name, variation in keys.items():
-        if not isinstance(variation, Values):
-            raise InputError(
-                f'keys.{name} = {variation.plain()}: allowed with way = "{combination}" is a list '
-                'of values; [sweep] way = "sample" takes ranges and distributions'
-            )
-        values[name] = variation.values
-    return values
-
-
-def _points(values: Mapping[str, Any], combinations: Any) -> Points:
-    return tuple(dict(zip(values, point, strict=True)) for point in combinations)
-
-
-def _check_number(number: int) -> None:
-    if number > MOST_RUNS:
-        raise InputError(f"{number} runs; allowed are at most {MOST_RUNS}")
 
 
 GRID, LIST, SAMPLE = "grid", "list", "sample"
@@ -122,6 +49,57 @@ class SweepTable(Table):
                 )
 
 
+def points_of(keys: Mapping[str, Key], table: SweepTable) -> Points:
+    """Return the keys' values in each run.
+
+    A grid has every combination, in which the last key runs fastest; a list the first values of all
+    keys, the second ones, and so on; a sample is a Latin hypercube of the keys' distributions, the
+    same for one seed.
+
+    Source: McKay, Beckman, Conover, Technometrics 21 (1979) 239-245; made by SciPy.
+
+    >>> keys = {"speed_rpm": Values((200, 300)), "crank_pin": Values(("dry",))}
+    >>> points_of(keys, SweepTable())
+    ({'speed_rpm': 200, 'crank_pin': 'dry'}, {'speed_rpm': 300, 'crank_pin': 'dry'})
+
+    Raises:
+        InputError: a key varies otherwise than its way takes, lists differ in length, or there are
+            more than MOST_RUNS runs.
+    """
+    is_sample = table.way == SAMPLE
+    forms = 'a list of values; [sweep] way = "sample" takes ranges and distributions'
+    if is_sample:
+        forms = "{low = a, high = b} or {mean = m, deviation = s}"
+    for name, variation in keys.items():
+        if isinstance(variation, Values) is is_sample:
+            raise InputError(
+                f'keys.{name} = {variation.plain()!r:.200}: allowed with way = "{table.way}" is '
+                f"{forms}"
+            )
+    values = [variation.values for variation in keys.values() if isinstance(variation, Values)]
+    lengths = list(map(len, values))
+    if table.way == LIST and len(set(lengths)) > 1:
+        text = ", ".join(f"{n} has {length}" for n, length in zip(keys, lengths, strict=True))
+        raise InputError(f'[keys]: {text}; allowed with way = "list" are lists of one length')
+    number = table.n or (math.prod(lengths) if table.way == GRID else lengths[0])
+    if number > MOST_RUNS:
+        raise InputError(f"{number} runs; allowed are at most {MOST_RUNS}")
+    combinations: Iterable[Sequence[Any]] = zip(*values, strict=True)
+    if table.way == GRID:
+        combinations = itertools.product(*values)
+    elif is_sample:
+        from scipy.stats import qmc
+
+        shares = np.asarray(qmc.LatinHypercube(len(keys), rng=table.seed).random(number))
+        columns = [
+            variation.quantile(column)
+            for variation, column in zip(keys.values(), shares.T, strict=True)
+            if not isinstance(variation, Values)
+        ]
+        combinations = np.column_stack(columns).tolist()
+    return tuple(dict(zip(keys, point, strict=True)) for point in combinations)
+
+
 @dataclasses.dataclass(frozen=True)
 class Sweep(Study):
     """A sweep's file, complete: every scene of it has been validated.
@@ -146,11 +124,7 @@ class Sweep(Study):
     @cached_property
     def points(self) -> Points:
         """Varied keys and their values, one mapping a run, in the study's order."""
-        if self.way == SAMPLE:
-            assert self.sweep.n is not None
-            assert self.sweep.seed is not None
-            return sample(self.keys, self.sweep.n, self.sweep.seed)
-        return (grid if self.way == GRID else paired_values)(self.keys)
+        return points_of(self.keys, self.sweep)
 
     @cached_property
     def scenes(self) -> tuple[Scene, ...]:

@@ -8,7 +8,7 @@ import pytest
 from exu_press import InputError, Scene, simulate
 from exu_press.numerics.piecewise import eno_cubic, evaluate
 from exu_press.studies.curve_file import CurveFile, channel_polynomials, factor_to, read_curve
-from exu_press.studies.fit.curve import Curve, fit_sensor
+from exu_press.studies.fit.measured import Curve, fit_sensor
 
 AT = np.linspace(0.0, 2.0, 4001)
 PLACES = np.linspace(1.0, 1.9, 120)

@@ -5,13 +5,16 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
+import numpy as np
+
 from exu_press.errors import InputError, error_prefix
+from exu_press.numerics.arrays import Array
 from exu_press.scene import Scene
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import import_kinds
 from exu_press.schema.table import Table, table_from
 from exu_press.schema.toml import read_toml
-from exu_press.studies.base.keys import Key, keys_from
+from exu_press.studies.base.keys import Key, Values, keys_from
 
 __all__ = ["Study", "load_study", "names_in"]
 
@@ -84,6 +87,15 @@ class Study(Table):
         for name, variation in self.keys.items():
             for value in variation.ends:
                 self.scene_at({name: value})
+
+    def point_of(self, shares: Array) -> dict[str, float]:
+        """Return the keys' quantiles at shares of their ranges or distributions, (keys,)."""
+        pairs = zip(self.keys.items(), np.clip(shares, 0.0, 1.0), strict=True)
+        return {
+            name: float(variation.quantile(share))
+            for (name, variation), share in pairs
+            if not isinstance(variation, Values)
+        }
 
     def scene_at(self, point: Mapping[str, Any]) -> Scene:
         """Return the scene at a point: with keys at these values.

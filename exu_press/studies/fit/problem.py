@@ -56,7 +56,6 @@ class Problem:
         self.study = study
         self.evaluation = Evaluation(study, (), run)
         self._directory = directory
-        self._keys = {n: varied for n, varied in study.keys.items() if isinstance(varied, Range)}
         under = [*(m.under for m in study.measured), *(c.under for c in study.curve)]
         self._under: list[Point] = [u for n, u in enumerate(under) if u not in under[:n]]
         # with the number of their conditions
@@ -73,16 +72,11 @@ class Problem:
         curves = sum(curve.count - curve.nuisances for curve in self.study.curve)
         return len(self.study.measured) + curves
 
-    def point(self, x: Array) -> dict[str, float]:
-        """Return the keys' values at a scaled point."""
-        return {
-            name: float(varied.quantile(np.asarray(min(max(share, 0.0), 1.0))))
-            for (name, varied), share in zip(self._keys.items(), x, strict=True)
-        }
-
     def scale(self, name: str, value: float) -> float:
         """Return the scaled value of a key."""
-        return float(self._keys[name].share(np.asarray(value)))
+        varied = self.study.keys[name]
+        assert isinstance(varied, Range)
+        return float(varied.share(np.asarray(value)))
 
     def __call__(self, points: Array) -> Array:
         """Return residuals, (points, numbers); NaN in all of a row if one of its runs failed.
@@ -103,7 +97,7 @@ class Problem:
 
     def _of_runs(self, points: Array, **finer: float) -> Array:
         """Return residuals in units of the measured uncertainties, as `__call__`."""
-        keys = [{**self.point(x), **under, **finer} for x in points for under in self._under]
+        keys = [{**point, **finer} for x in points for point in self._points(x)]
         rows = self.evaluation.rows_of(keys)
         number = len(self._under)
         return np.array(
@@ -113,13 +107,17 @@ class Problem:
             ]
         )
 
+    def _points(self, x: Array) -> list[Point]:
+        """Return all keys of a scaled point, for each condition of measurement."""
+        return [{**self.study.point_of(x), **under} for under in self._under]
+
     def scenes(self, x: Array) -> list[Scene]:
         """Return the scenes of a point, one for each condition of measurement."""
-        return [self.study.scene_at({**self.point(x), **under}) for under in self._under]
+        return list(map(self.study.scene_at, self._points(x)))
 
     def compute(self, x: Array) -> tuple[list[float], list[tuple[Array, RecordedCurve | None]]]:
         """Return the numbers at a point, and each curve as measured and as computed, SI."""
-        rows = self.evaluation.rows_of([{**self.point(x), **under} for under in self._under])
+        rows = self.evaluation.rows_of(self._points(x))
         scenes = self.scenes(x)
         numbers = [numbers_in(rows[n], [entry.quantity])[0] for entry, n in self._measured]
         return numbers, [self._fit_sensor(curve, scenes[n]) for curve, n in self._curves]

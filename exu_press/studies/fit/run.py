@@ -131,7 +131,7 @@ def _report(
     def value(number: int, share: float) -> float:
         x = best.x.copy()
         x[number] = share
-        return problem.point(x)[names[number]]
+        return study.point_of(x)[names[number]]
 
     numbers, curves = problem.compute(best.x)
     profiles = {}
@@ -140,7 +140,7 @@ def _report(
         profiles[name] = np.column_stack([[value(n, s) for s in table[:, 0]], table[:, 1]])
     return FitReport(
         study=study,
-        values=problem.point(best.x),
+        values=study.point_of(best.x),
         low={name: value(n, intervals[n].low.value) for n, name in enumerate(names)},
         high={name: value(n, intervals[n].high.value) for n, name in enumerate(names)},
         remarks={

@@ -9,7 +9,7 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import Row
-from exu_press.studies.base import Range, Runs
+from exu_press.studies.base import Runs
 from exu_press.studies.base.command import StudyCommand
 from exu_press.studies.base.evaluation import (
     Evaluation,
@@ -113,32 +113,27 @@ def _search(study: Optimise, trials: Evaluation, run_with_errors: Any) -> tuple[
         search_front(ask, keys, number, settings.trials, method, settings.seed)
         _demand_movement(study, trials)
         return method, why
-    names, ranges = list(keys), [key for key in keys.values() if isinstance(key, Range)]
-
-    def point(x: Array) -> dict[str, float]:
-        shares = np.clip(x, 0.0, 1.0)
-        return {n: float(r.quantile(s)) for n, r, s in zip(names, ranges, shares, strict=True)}
-
-    first = spread_points(len(names), settings.trials // SCREEN, settings.seed)
-    values, violations = ask([point(x) for x in first])
+    first = spread_points(len(keys), settings.trials // SCREEN, settings.seed)
+    values, violations = ask([study.point_of(x) for x in first])
     if not np.isfinite(values).any():
         return NELDER_MEAD if method == AUTO else method, "no run gave numbers"
     _demand_movement(study, trials)
     spread = float(np.nanmax(values) - np.nanmin(values))
 
     def judge(points: Array) -> Array:
-        objectives, excess = ask([point(x) for x in points])
+        objectives, excess = ask([study.point_of(x) for x in points])
         return merit(objectives[:, 0], excess, spread)
 
     why = "asked for"
     if method == AUTO:
-        error = error_in(run_with_errors([point(first[0])])[0], study.objective[0].quantity)
+        (row,) = run_with_errors([study.point_of(first[0])])
+        error = error_in(row, study.objective[0].quantity)
         share = np.inf if error is None else error / spread
         method = EVOLUTION if share > ROUGH else NELDER_MEAD
         why = f"a run's error is {100 * share:.2g} % of the objective's spread"
     remaining = settings.trials - len(first)
     if method == EVOLUTION:
-        evolve(judge, len(names), remaining, settings.seed)
+        evolve(judge, len(keys), remaining, settings.seed)
     else:
         start = first[int(merit(values[:, 0], violations, spread).argmin())]
         simplex(judge, start, remaining)

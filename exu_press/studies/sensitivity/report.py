@@ -99,7 +99,7 @@ class SensitivityReport(Report):
         These presses are drawn from the distributions, and no key is the same in two of them.
         """
         shares = np.concatenate(self.sample.shares)
-        points = [self.study.point_at(share) for share in shares]
+        points = [self.study.point_of(share) for share in shares]
         keys = {name: [point[name] for point in points] for name in self.study.keys}
         names = self.study.sensitivity.quantities
         return keys | dict(zip(names, self.sample.values.tolist(), strict=True))

@@ -31,7 +31,7 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Sensit
         evaluation = Evaluation(study, settings.quantities, runs.run_scenes)
 
         def evaluate(shares: Array) -> Array:
-            return evaluation([study.point_at(share) for share in shares])
+            return evaluation([study.point_of(share) for share in shares])
 
         middle, bars = tornado(evaluate, len(keys))
         values = sample(evaluate, len(keys), settings.samples, settings.seed)
@@ -40,7 +40,7 @@ def sensitivity(study: Sensitivity, directory: str | Path, **how: Any) -> Sensit
                 f"{evaluation.summary_line()}: too few for {settings.samples} samples; the cure "
                 "is narrower distributions, or what the runs' reasons say"
             )
-    medians = study.scene_at(study.point_at(np.full(len(keys), 0.5)))
+    medians = study.scene_at(study.point_of(np.full(len(keys), 0.5)))
     (checked,) = with_errors_of(study, directory, [medians], **how)
     report = SensitivityReport(
         study,

@@ -5,11 +5,10 @@ from types import MappingProxyType
 from typing import Any, cast
 
 from exu_press.errors import InputError
-from exu_press.numerics.arrays import Array
 from exu_press.quantities import quantity_of
 from exu_press.schema.checks import key
 from exu_press.schema.table import Table
-from exu_press.studies.base import Normal, Range, Study, Values
+from exu_press.studies.base import Normal, Range, Study
 from exu_press.studies.base.evaluation import require_key_kinds
 from exu_press.studies.base.study import names_in
 
@@ -57,11 +56,3 @@ class Sensitivity(Study):
         require_key_kinds(self, "sensitivity", (Range, Normal))
         for name in self.sensitivity.quantities:
             quantity_of(self.scene, name)
-
-    def point_at(self, shares: Array) -> dict[str, float]:
-        """Return the keys' quantiles at these shares of their distributions, (keys,)."""
-        point = {}
-        for (name, varied), share in zip(self.keys.items(), shares, strict=True):
-            assert not isinstance(varied, Values)
-            point[name] = float(varied.quantile(share))
-        return point

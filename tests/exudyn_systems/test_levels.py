@@ -36,11 +36,11 @@ def controlled():
 
 def test_functions_that_remember_begin_afresh():
     mbs, function, sensor = controlled()
-    outcome = solve_dynamic(mbs, settings(2.0, 100))
+    outcome = solve_dynamic(mbs, settings(1.0, 50))
     assert outcome.status is SolverStatus.COMPLETED
     assert function.calls == outcome.steps  # those of other levels are in copies
     once, _, _ = controlled()
-    constant = settings(2.0, outcome.steps)
+    constant = settings(1.0, outcome.steps)
     constant.timeIntegration.adaptiveStep = False
     once.SolveDynamic(constant)
     ours, theirs = (np.array(one.GetSensorStoredData(sensor)) for one in (mbs, once))
@@ -54,11 +54,11 @@ def test_a_function_that_builds_the_system_does_without_copies(monkeypatch):
         built.append(controlled())
         return built[-1][0]
 
-    copied = solve_dynamic(controlled()[0], settings(2.0, 100))
+    copied = solve_dynamic(controlled()[0], settings(1.0, 50))
     monkeypatch.setattr(
         "exu_press.exudyn_systems.level.why_not_copied", lambda: "NGSolve is loaded"
     )
-    outcome = solve_dynamic(build, settings(2.0, 100))
+    outcome = solve_dynamic(build, settings(1.0, 50))
     assert [steps for steps, _ in outcome.levels] == [steps for steps, _ in copied.levels]
     assert outcome.mbs is built[-1][0] and built[-1][1].calls == outcome.steps
     assert outcome.error.motion == pytest.approx(copied.error.motion, rel=1e-9)

@@ -89,7 +89,7 @@ def test_velocities_follow_the_tolerance(tolerance):
 def test_velocities_of_an_ideal_mechanism_follow_the_tolerance(mechanism):
     for tolerance in (1e-4, 1e-5, 2e-6):
         scene = Scene(
-            mechanism=mechanism, joints={}, revolutions=0.5, solver={"tolerance": tolerance}
+            mechanism=mechanism, joints={}, revolutions=0.25, solver={"tolerance": tolerance}
         )
         run = simulate(scene)
         assert run.completed

@@ -47,6 +47,13 @@ def test_restitution_of_meets_its_equation_and_its_limits() -> None:
     assert restitution_of(1e6) == pytest.approx(1e-6)
 
 
+def test_default_press_contact_is_a_dashpot() -> None:
+    """Spec 2: with the printed c_max almost nothing rebounds."""
+    contact = step_damping(hertz(2.5545e10), damping_max=2.5545e8, damping_depth=1e-5)
+    for mass, delivered in ((1347.0, 9.350e-5), (200.0, 1.2245e-4)):
+        assert delivered_restitution(contact, mass, 0.1) == pytest.approx(delivered, rel=1e-3)
+
+
 @pytest.mark.validation(
     "closed form",
     "impact of a sphere without damping",

@@ -43,7 +43,7 @@ speeds = st.floats(-20.0, 20.0)
 impacts = st.floats(0.0, 20.0)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(contact=contacts, depth=depths, rate=speeds, impact=impacts)
 def test_contact_is_finite_and_dissipative(contact, depth, rate, impact):
     response = contact.force(depth, rate, impact)
@@ -55,7 +55,7 @@ def test_contact_is_finite_and_dissipative(contact, depth, rate, impact):
     assert contact.dissipated_power(depth, rate, impact) >= -1e-12 * elastic * abs(rate)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(contact=contacts, depth=depths, rate=speeds, impact=impacts)
 def test_contact_is_continuous(contact, depth, rate, impact):
     here = contact.force(depth, rate, impact)[0]
@@ -82,7 +82,7 @@ frictions = st.one_of(
 slidings = st.one_of(speeds, logarithmic(1e-12, 1.0), logarithmic(1e-12, 1.0).map(lambda v: -v))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(friction=frictions, v=slidings)
 def test_friction_is_finite_dissipative_and_odd(friction, v):
     mu, slope = friction(v)
@@ -92,7 +92,7 @@ def test_friction_is_finite_dissipative_and_odd(friction, v):
     assert friction(-v)[0] == -mu
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(friction=frictions, v=slidings)
 def test_friction_is_continuous(friction, v):
     here, largest = friction(v)[0], abs(friction(30.0)[0]) + 100.0
@@ -110,7 +110,7 @@ bristles = st.builds(
 )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(bristle=bristles, v=slidings, bent=st.floats(-1.0, 1.0), h=st.floats(0.0, 1e-2))
 def test_bristle_stays_within_its_largest_deflection(bristle, v, bent, h):
     """|z| <= mu_s / sigma_0 once is so for ever, at any step; everything is finite."""
@@ -163,7 +163,7 @@ def work_on_a_bristle(friction, v_start, v, z, h):
     return work, z
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(passive_bristles, histories)
 def test_a_bristle_makes_no_energy(friction, history):
     """In any history, reversals within a step included, whatever the size of its steps."""

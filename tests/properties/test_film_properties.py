@@ -35,7 +35,7 @@ rates = st.floats(-1e8, 1e8).filter(lambda rate: rate == 0.0 or abs(rate) > 1e-1
 
 
 @EVERY
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(gap=gaps, eps_dot=rates, eps_w=rates)
 def test_finite_and_dissipative(law, gap, eps_dot, eps_w):
     force = law(1.0 - gap, eps_dot, eps_w)
@@ -45,7 +45,7 @@ def test_finite_and_dissipative(law, gap, eps_dot, eps_w):
 
 
 @EVERY
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(gap=gaps, eps_dot=rates, eps_w=rates, way=st.tuples(*[st.floats(-1.0, 1.0)] * 3))
 def test_continuous(law, gap, eps_dot, eps_w, way):
     """A step of 1e-7 of the gap and of the speeds changes the force by about as little."""
@@ -61,7 +61,7 @@ def test_continuous(law, gap, eps_dot, eps_w, way):
 
 
 @pytest.mark.parametrize("law", MIXED.values(), ids=MIXED.keys())
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(eps=st.floats(0.0, 1e6), eps_dot=rates, eps_w=rates)
 def test_mixed_film_holds_at_any_penetration(law, eps, eps_dot, eps_w):
     force = law(eps, eps_dot, eps_w)
@@ -71,7 +71,7 @@ def test_mixed_film_holds_at_any_penetration(law, eps, eps_dot, eps_w):
 
 
 @pytest.mark.parametrize("law", FILMS.values(), ids=FILMS.keys())
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(
     eps=st.one_of(st.floats(1.0, 1e9), st.floats(-1e9, -1e-300), st.just(math.nan)),
     eps_dot=rates,

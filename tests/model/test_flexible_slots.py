@@ -116,6 +116,7 @@ GUIDEWAY = {
 SPRINGS = {"lateral_stiffness": 1e8, "length": 0.06, "damping_ratio": 0.5}
 
 LONG = pytest.mark.long
+MOTION = "slider_position", "slider_velocity"
 
 
 @pytest.mark.parametrize(
@@ -137,14 +138,15 @@ def test_stiff_it_is_the_rigid_body(drawn, case, body, guide):
     flexible, rigid, channel = drawn(case, body, guide=guide)
     result, other = simulate(flexible), simulate(rigid)
     assert result.completed and other.completed, result.info["reason"] + other.info["reason"]
-    compared = ["slider_position", "slider_velocity", f"{channel}_force"]
+    compared = [*MOTION, f"{channel}_force"]
     compared += [
         n for n in (f"{channel}_{of}" for of in ("friction", "loss", "moment")) if n in other
     ]
     for name in compared:
         there = np.interp(result.time, other.time, other[name])
         difference = np.abs(result[name] - there).max()
-        assert 0.0 < difference < 3e-3 * np.abs(there).max(), name
+        exact = name in MOTION or (body["modes"] == 0 and "lateral_stiffness" not in (guide or {}))
+        assert 0.0 < difference < (2e-5 if exact else 1e-3) * np.abs(there).max(), name
 
 
 def test_bent_its_pin_stays_in_the_slot(drawn):

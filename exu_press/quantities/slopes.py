@@ -15,6 +15,9 @@ __all__ = ["SLOPES", "slope_warnings"]
 THIN = 0.5
 """Film at an end over that in the middle, below which a parallel journal is no good model."""
 
+SMOOTH = 1e-9
+"""Film of smooth surfaces that touch, m: less than any that is."""
+
 
 def _can_slope(scene: Scene, joint: str) -> bool:
     """Return whether a flexible body holds a journal or its bearing."""
@@ -39,12 +42,17 @@ def slope_warnings(run: Reading) -> Iterator[str]:
         sides = (lengths(joint.eccentricity + sign * at_end) for sign in (1.0, -1.0))
         end = joint.clearance - np.maximum(*sides)
         middle = joint.clearance - joint.distance
-        share = np.where(middle > 0.0, end / np.where(middle > 0.0, middle, 1.0), 1.0)
+        least = film.contact_gap or SMOOTH  # that asperities leave where the middle touches
+        share = 1.0 - (middle - end) / np.maximum(middle, least)
         worst = int(np.argmin(share))
         if share[worst] < THIN:
             slope, thin, thick = (
                 1e6 * float(values[worst])
-                for values in (lengths(result[f"{name}_slope"]), np.maximum(end, 0.0), middle)
+                for values in (
+                    lengths(result[f"{name}_slope"]),
+                    np.maximum(end, 0.0),
+                    np.maximum(middle, 0.0),
+                )
             )
             yield (
                 f"{name.replace('_', ' ')}: the shaft's slope of {slope:.3g} urad leaves "

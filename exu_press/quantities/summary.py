@@ -101,11 +101,15 @@ def run_warnings(run: Reading) -> list[str]:
         )
     for name, joint in run.result.joints.items():
         if joint.kind == "lubricated":
-            ratio = float(joint.distance.max() / joint.clearance)
+            film = scene.joints[name].film
+            inclined = film is not None and film.inclination > 0.0
+            nearest = joint.clearance - joint.gap if inclined else joint.distance
+            ratio = float(nearest.max() / joint.clearance)
             if ratio > NEARLY_TOUCHING:
+                at_end = " at an end of the bearing" if inclined else ""
                 texts.append(
-                    f"{name.replace('_', ' ')}: eccentricity ratio up to {ratio:.3f}; film laws "
-                    "for smooth surfaces are hardly valid there"
+                    f"{name.replace('_', ' ')}: eccentricity ratio up to {ratio:.3f}{at_end}; film "
+                    "laws for smooth surfaces are hardly valid there"
                 )
         texts += _penetration_warnings(name, joint, scene.joints[name])
     if scene.drive is not None and scene.drive.stops and still_turns(run):

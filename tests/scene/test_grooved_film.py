@@ -44,6 +44,15 @@ def test_an_inclined_journal_runs_and_is_thinnest_at_its_end():
     assert (film >= 1e-4 - end - 1e-12).all()
     assert (film < 1e-4 - np.hypot(eccentricity[:, 0], eccentricity[:, 1])).all()
     assert result.quantity("joints.crank_pin.min_film").value == film.min()
+    assert not any("at an end" in text for text in result.summary()["warnings"])
+
+
+def test_an_inclined_journal_near_an_end_has_a_warning():
+    """Though its middle is far from the wall."""
+    result = simulate(inclined(tilt=3.85e-3).replace({"revolutions": 0.002}))
+    (warning,) = (text for text in result.summary()["warnings"] if "at an end" in text)
+    assert "crank pin: eccentricity ratio up to 0.9" in warning
+    assert result.joints["crank_pin"].distance.max() < 0.5e-4
 
 
 def test_coefficients_of_an_inclined_journal():

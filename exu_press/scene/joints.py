@@ -230,9 +230,11 @@ def _joint(
     keys = [field.name for field in dataclasses.fields(chosen)]
     is_custom = issubclass(chosen, CustomJoint)
     refuse_unknown(path, table, ("kind", *keys) if is_custom else OF_JOINTS)
+    given_laws = [law for law in LAWS if table.get(law) is not None]
+    own = {law: _law(path, law, table[law], laws, spherical) for law in given_laws}
     values: dict[str, Any] = {**sizes, **table}
     if "film" in keys:
-        values["film"] = film = _law(path, "film", table.get("film"), laws, spherical)
+        values["film"] = film = own.get("film") or _law(path, "film", None, laws, spherical)
         if film.contact_gap is None:
             keys = [key for key in keys if key not in TOUCHING]
     for unused in [key for key in table if key not in ("kind", *keys)]:
@@ -240,7 +242,7 @@ def _joint(
         reason = "film.at_contact is 'stop'" if stops else f"{path} is {kind!r}"
         raise UnusedKeyError(f"{path}.{unused}", f"{path}.{unused}", reason)
     for law in [key for key in keys if key in TOUCHING]:
-        values[law] = _law(path, law, table.get(law), laws, spherical)
+        values[law] = own.get(law) or _law(path, law, None, laws, spherical)
     if table.get("worn") is not None:
         if spherical:
             raise UnusedKeyError(f"{path}.worn", f"{path}.worn", f"{path} is a ball")

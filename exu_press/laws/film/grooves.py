@@ -29,6 +29,10 @@ FAINT = 1e-3
 """Part of the supply pressure whose flow through a cell counts like its source for `ROUNDING`."""
 
 
+COARSEST = 36, 5
+"""Cells of the grid whose refinements have each of its cells divided, around and along."""
+
+
 class FilmFlow(NamedTuple):
     """What Reynolds' equation says of a film.
 
@@ -346,7 +350,7 @@ def _angles(bearing: GroovedBearing, eps: float, angle: float, cells: int) -> Ar
     at_edges = np.interp(ring, theta, even)
     pieces = []
     for i, (begin, end) in enumerate(pairwise(at_edges)):
-        count = max(2, round(cells * (end - begin) / TURN))
+        count = _nested_count(cells, (end - begin) / TURN, COARSEST[0], 1)
         piece = np.interp(np.linspace(begin, end, count + 1)[:-1], even, theta)
         piece[0] = ring[i]
         pieces.append(piece)
@@ -360,11 +364,19 @@ def _heights(bearing: GroovedBearing, cells: int) -> Array:
         return np.sin(0.5 * math.pi * np.linspace(0.0, 1.0, cells + 1))
     pieces = [np.zeros(1)]
     for begin, end in pairwise([0.0, *ends, 1.0]):
-        count = max(3, round(cells * math.sqrt(end - begin)))
+        count = _nested_count(cells, math.sqrt(end - begin), COARSEST[1], 2)
         step = np.linspace(0.0, 1.0, count + 1)[1:]
         even = np.sin(0.5 * math.pi * step) if begin == 0.0 else np.sin(0.5 * math.pi * step) ** 2
         pieces.append(begin + (end - begin) * even)
     return np.concatenate(pieces)
+
+
+def _nested_count(cells: int, share: float, coarsest: int, least: int) -> int:
+    """Return the cells of a part, twice as many where the grid has twice as many."""
+    refined = 1
+    while cells % 2 == 0 and cells > coarsest:
+        cells, refined = cells // 2, 2 * refined
+    return refined * max(least, round(cells * share))
 
 
 def _groove_pressures(bearing: GroovedBearing, theta: Array, zeta: Array) -> Array:

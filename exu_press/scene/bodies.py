@@ -101,12 +101,10 @@ OF_ANY = (*OF_A_JOINT, "x", "y")
 class Flexible(Table):
     """A flexible body: a shipped part or STEP file with material and mesh, or matrices; modes."""
 
-    exclusive_with: ClassVar[Mapping[str, str]] = {
-        "flexible": "matrices",
-        "matrices": "flexible",
-        "flexibility_error": "modes",
-        "modes": "flexibility_error",
-    }
+    exclusive: ClassVar[tuple[tuple[str, str], ...]] = (
+        ("matrices", "flexible"),
+        ("modes", "flexibility_error"),
+    )
     flexible: str | None = key(None, "a shipped part, or the path of a STEP file")
     matrices: str | None = key(
         None, "instead of flexible: path of the description (.toml) of another code's matrices"

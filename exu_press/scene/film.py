@@ -2,7 +2,6 @@
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -184,7 +183,7 @@ class Film(Table):
     """Film of a lubricated joint."""
 
     table: ClassVar[str] = "film"
-    exclusive_with: ClassVar[Mapping[str, str]] = {"oil": "viscosity", "viscosity": "oil"}
+    exclusive: ClassVar[tuple[tuple[str, str], ...]] = (("viscosity", "oil"),)
     length: Any
     viscosity: float
     at_contact: StopAtContact | MixedFilm

@@ -54,7 +54,7 @@ class Load(CustomKind, Table, ABC):
     point beside the middle of these moves with their mean motion.
     """
 
-    exclusive_with: ClassVar[Mapping[str, str]] = {"offset": "joint", "face": "joint"}
+    exclusive: ClassVar[tuple[tuple[str, str], ...]] = (("joint", "offset"), ("joint", "face"))
     over: ClassVar[Any] = ""
     closing: ClassVar[Any] = False
     body: str | None = key(None, "body that it acts on; the mechanism's output unless given")

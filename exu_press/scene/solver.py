@@ -1,7 +1,6 @@
 """[solver]: the time integration."""
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -44,7 +43,7 @@ class Solver(Table):
     """Exudyn's generalized-alpha, with steps that follow a tolerance or with fixed ones."""
 
     table: ClassVar[str] = "solver"
-    exclusive_with: ClassVar[Mapping[str, str]] = {"step": "tolerance", "tolerance": "step"}
+    exclusive: ClassVar[tuple[tuple[str, str], ...]] = (("tolerance", "step"),)
     steps: FixedSteps | ControlledSteps = alternatives(
         {"step": "scene.solver:FixedSteps", "": "scene.solver:ControlledSteps"}
     )

@@ -1,7 +1,7 @@
 """The keys of [drive] for a press that starts and stops: clutch, brake, and when they act."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, ClassVar
@@ -43,7 +43,7 @@ class Stops(Table):
     """Commands to stop."""
 
     table: ClassVar[str] = "drive"
-    exclusive_with: ClassVar[Mapping[str, str]] = {"stop_angle_deg": "stop_time"}
+    exclusive: ClassVar[tuple[tuple[str, str], ...]] = (("stop_time", "stop_angle_deg"),)
     stop_time: tuple[float, ...] | None = key(None, "commands to stop", "s", numbers=0)
     stop_angle_deg: float | None = key(
         None,

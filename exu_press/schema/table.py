@@ -68,8 +68,8 @@ class Table:
 
     table: ClassVar[str] = ""
 
-    exclusive_with: ClassVar[Mapping[str, str]] = {}
-    """Key -> the key that it stands instead of; a table has one of the two at most."""
+    exclusive: ClassVar[tuple[tuple[str, str], ...]] = ()
+    """Pairs of keys, of each of which a table has one at most."""
 
     required: ClassVar[tuple[str, ...]] = ()
     """Keys without a default."""
@@ -117,10 +117,10 @@ class Table:
                 if value is None and field.name in self.required:
                     raise InputError(f"{name}: missing; allowed is {allowed_text(field)}")
             object.__setattr__(self, field.name, value)
-        for first, second in self.exclusive_with.items():
-            if None not in (getattr(self, first, None), getattr(self, second, None)):
-                names = dotted_name(self.table, second), dotted_name(self.table, first)
-                raise InputError(f"{' and '.join(names)}: allowed is one of the two")
+        for pair in self.exclusive:
+            if None not in (getattr(self, key, None) for key in pair):
+                names = " and ".join(dotted_name(self.table, key) for key in pair)
+                raise InputError(f"{names}: allowed is one of the two")
 
     def refuse_unused(self, keys: Collection[str], reason: str) -> None:
         """Raise UnusedKeyError for the first of some keys that is given, all without default."""
@@ -423,9 +423,9 @@ def changed_table(
         else:
             changed[path] = value
     names = {path.partition(".")[0] for path, value in changes.items() if value is not None}
-    for first, second in kind.exclusive_with.items():
-        if first in names and second not in names:
-            changed.pop(second, None)
+    for first, second in kind.exclusive:
+        if (first in names) != (second in names):
+            changed.pop(second if first in names else first, None)
     for key in _replaced_keys(kind, names):
         changed.pop(key, None)
     return changed

@@ -211,7 +211,7 @@ film.grooves = [{width_deg = 1e-20}] -> film.grooves.width_deg = 1e-20
 film.grooves = [{width_deg = 5.0, angle_deg = 1e30}] -> film.grooves.angle_deg = 1e
 film.grooves = [{width_deg = 9, angle_deg = 90}, {width_deg = 9, angle_deg = 90}] -> at 90 and 90 de
 film.grooves = [{width_deg = 9, angle_deg = 90}, {width_deg = 9, angle_deg = 98}] -> at 90 and 98
-film.grooves = [{width_deg = 359.9999}] -> 1 deg of bearing between them
+film.grooves = [{width_deg = 359.9999}] -> <= 359, which leaves 1 deg of bearing
 film.grooves = [{width_deg = 361.0}] -> film.grooves.width_deg = 361.0
 film.grooves = [{width_deg = 10.0, length = 0.051}] -> film.grooves.0.length = 0.051
 film.grooves = [{width_deg = 360, length = 5e-3, pressure = -1}] -> film.grooves.pressure = -1.0

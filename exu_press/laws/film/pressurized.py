@@ -22,7 +22,7 @@ with the conductance G of the journal at rest: it is positive whatever the table
 
 import math
 from operator import add
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -71,6 +71,8 @@ RATIO = 0.4
 
 SLOWEST = 1e-6
 """Speeds over lambda Pi below which the force is that of this speed, for its derivatives."""
+
+Ratio = TypeVar("Ratio", float, Array)
 
 CHANNELS = 8
 """g_r, g_t and that of the side flow, chi, ln G, H_r, H_t and that of the side flow."""
@@ -138,9 +140,10 @@ def _responses(bearing: GroovedBearing, eps: float, angle: float, cells: tuple[i
     return rows
 
 
-def _stiffness(bearing: GroovedBearing, eps: float) -> float:
+def _stiffness(bearing: GroovedBearing, eps: Ratio) -> Ratio:
     """Return lambda, of psi."""
-    return float(((1.0 - eps) * (1.0 + eps)) ** 1.5 * (1.0 + bearing.length_to_diameter**-2))
+    stiffness: Ratio = ((1.0 - eps) * (1.0 + eps)) ** 1.5 * (1.0 + bearing.length_to_diameter**-2)
+    return stiffness
 
 
 class PressurizedFilm(GroovedFilm):
@@ -219,9 +222,8 @@ class PressurizedFilm(GroovedFilm):
             return ambient
         values = np.array([self._interpolate_supply(*state)[0] for state in states])
         inside = np.minimum(eps, -math.expm1(-LAST))
-        s2 = (1.0 - inside) * (1.0 + inside)
-        scale = np.hypot(eps_dot, 0.5 * np.sqrt(s2) * eps_w)
-        scale /= s2**1.5 * (1.0 + self.bearing.length_to_diameter**-2)
+        s = np.sqrt((1.0 - inside) * (1.0 + inside))
+        scale = np.hypot(eps_dot, 0.5 * s * eps_w) / _stiffness(self.bearing, inside)
         return np.asarray(ambient + self.supply * values[:, 7] + scale * values[:, 2])
 
     def _interpolate_supply(

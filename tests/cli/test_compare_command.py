@@ -99,13 +99,8 @@ def test_no_variant_is_dropped_or_overwritten(names, mine, tmp_path, monkeypatch
     expected = [100.0 + [*dict.fromkeys(names)].index(name) for name in names]
     assert speeds(tmp_path / "inside") == [(speed, speed) for speed in expected]
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*before, "inside"])
-
-
-def test_a_folder_without_out_is_inside_out(mine, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "...toml").write_text(mine.read_text())
-    assert main(["run", "...toml", *QUICK, "--quiet"]) == 0
-    assert (tmp_path / "out" / "_.." / "run.nc").is_file()
+    assert main(["run", names[0], *QUICK, "--quiet"]) == 0  # without --out it is inside out
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*before, "inside", "out"])
 
 
 def test_a_kill_loses_only_the_run_that_is_under_way(mine, tmp_path, monkeypatch):

@@ -20,6 +20,7 @@ def result():
         revolutions=0.1,
         joints={"crank_pin": {"kind": "dry", "clearance": 1e-4}},
         output={"readings": READINGS},
+        solver={"tolerance": 1e-2},
     )
     return simulate(scene, errors=True)
 

@@ -24,12 +24,10 @@ def test_every_step_is_seen_exactly_once(runs):
     ("options", "message"),
     [
         ({"start": -1.0}, "--from -1: the record goes from 0 to 0.075 s"),
-        ({"stop": 1.0}, "--to 1: the record"),
         ({"start": 0.02, "stop": 0.01}, "--from 0.02 --to 0.01"),
         ({"fps": 0.0}, "--fps 0: allowed is 1 to 120"),
         ({"slow": -2.0}, "--slow -2: allowed is a number > 0"),
         ({"slow": 2.0, "frames": 3}, "allowed is one of the two"),
-        ({"frames": 1}, "1 frames: allowed is 2 to"),
         ({"slow": 1e30}, "frames: allowed is 2 to"),
         ({"slow": float("nan")}, "--slow nan"),
         ({"start": float("nan")}, "--from nan"),

@@ -100,10 +100,6 @@ class GuidewayContact(InterfaceJoint):
         n_x, n_y, _, _ = self._directions
         return along_n * n_x - along_t * n_y, along_n * n_y + along_t * n_x
 
-    def _moments(self) -> tuple[float, float]:
-        """Return the moment on the body at the last `add_force`, N m; the frame takes any."""
-        return super()._moments()[0], 0.0
-
 
 class SpatialGuidewayContact(SpatialRevolute):
     """The same for bodies in space and flexible ones: a joint whose normal stays."""

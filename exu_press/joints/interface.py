@@ -489,7 +489,7 @@ class InterfaceJoint(ClearanceJoint):
             if load is not None:
                 m_j += load[2]
                 m_b += load[3]
-        return m_j, m_b
+        return m_j, m_b if self._turns else 0.0  # a guideway takes any
 
     def begin_step(self, step: float, accepted: bool) -> None:
         """Start a step of size `step` (s), after the last one was accepted or is repeated."""

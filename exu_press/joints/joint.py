@@ -86,8 +86,6 @@ class ClearanceJoint:
         largest_eccentricity: up to which its contact laws hold, m; infinite without contact.
         lubricated: whether it has a film.
         path: of the journal.
-        orientation: with grooves, angle of the eccentricity in the bearing, rad, and power of the
-            pump that feeds the film, W, at the last `add_force`; else empty.
     """
 
     def __init__(
@@ -104,7 +102,6 @@ class ClearanceJoint:
         self.largest_eccentricity = largest_eccentricity
         self.lubricated = lubricated
         self.path = Path()
-        self.orientation: Vector = ()
         self._step = 0.0
 
     @property
@@ -130,6 +127,11 @@ class ClearanceJoint:
     @property
     def rubbing(self) -> Vector:
         """Normal force of the contact, N, and sliding velocity, m/s, where they can be recorded."""
+        return ()
+
+    @property
+    def orientation(self) -> Vector:
+        """Angle of the eccentricity in the bearing, rad, and power of the pump, W, with grooves."""
         return ()
 
     @property

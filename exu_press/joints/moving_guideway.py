@@ -102,7 +102,3 @@ class MovingGuidewayContact(InterfaceJoint):
         """Return a vector across and along the walls in the global frame."""
         n_x, n_y = self._normal
         return along_n * n_x - along_t * n_y, along_n * n_y + along_t * n_x
-
-    def _moments(self) -> tuple[float, float]:
-        """Return the moment on the body about its point, N m; rates count from the other body."""
-        return super()._moments()[0], 0.0

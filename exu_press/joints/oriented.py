@@ -3,7 +3,14 @@
 from collections.abc import Sequence
 from math import atan2
 
-from exu_press.joints.interface import FilmInterface, InterfaceLaw, Load, Partials, Response
+from exu_press.joints.interface import (
+    FilmInterface,
+    InterfaceLaw,
+    Load,
+    Motion,
+    Partials,
+    Response,
+)
 from exu_press.joints.planar import PlanarEnd, PlanarJoint
 from exu_press.laws.film.grooved_table import GroovedFilm
 from exu_press.laws.film.tilted import TiltedFilm
@@ -36,9 +43,7 @@ class GroovedInterface(FilmInterface):
         assert isinstance(self.law, GroovedFilm)
         return self.law.side_flow(eps, eps_dot, eps_w, angle)
 
-    def turn_partials(
-        self, load: Load, motion: tuple[float, float, float, float, float]
-    ) -> tuple[float, float, float, float]:
+    def turn_partials(self, load: Load, motion: Motion) -> tuple[float, float, float, float]:
         """Return the derivatives of f_n, f_t and both moments by the angle, by a difference."""
         angle = self.law.angle
         self.law.angle = angle + TURNED
@@ -106,9 +111,7 @@ class TiltedInterface(GroovedInterface):
         by_e += 0.5 * p * (response[11] + 0.5 * response[14] * (omega_j + omega_b))
         return by_e, by_spin + 0.25 * p * self.clearance * response[12]
 
-    def turn_partials(
-        self, load: Load, motion: tuple[float, float, float, float, float]
-    ) -> tuple[float, float, float, float]:
+    def turn_partials(self, load: Load, motion: Motion) -> tuple[float, float, float, float]:
         """Return the derivatives of f_n, f_t and both moments by the angle."""
         by_n, by_t, by_couple, by_shear = load[4][15:]
         e, p = motion[0], self.scale
@@ -141,21 +144,21 @@ class OrientedJoint(PlanarJoint):
                 bearing's item, rad.
         """
         super().__init__(journal, bearing, interfaces)
-        self.orientation = 0.0, 0.0
+        self._angle = 0.0  # of the eccentricity in the bearing, rad
         self._turned = bearing.reference[2] + bearing_turned
 
-    def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
-        """Add the joint's generalised forces to `out`."""
-        x, y, _, _, motion = self._move(q, q_t)
-        angle = atan2(y, x) - self._turned - q[self.indices[5]]
+    def _move(self, q: list[float], q_t: list[float]) -> tuple[float, float, float, float, Motion]:
+        """Turn the arms, and tell the films the angle; return what `PlanarJoint` does."""
+        moved = super()._move(q, q_t)
+        self._angle = atan2(moved[1], moved[0]) - self._turned - q[self.indices[5]]
         for interface in self.interfaces:
-            interface.orient(angle)
-        n_x, n_y = self._directions[0], self._directions[1]
-        for load in self._load(motion):
-            if load is not None:
-                f_n, f_t, m_j, m_b, _ = load
-                self._exert(f_n * n_x - f_t * n_y, f_n * n_y + f_t * n_x, m_j, m_b, out)
-        self.orientation = angle, sum(interface.pump_power for interface in self.interfaces)
+            interface.orient(self._angle)
+        return moved
+
+    @property
+    def orientation(self) -> tuple[float, ...]:
+        """The angle of the eccentricity in the bearing, rad, and the pump's power, W."""
+        return self._angle, sum([interface.pump_power for interface in self.interfaces])
 
     def _jacobian_of(self, i: int, load: Load, by_q: float, by_q_t: float) -> list[float]:
         """Return one interface's part of the Jacobian, with the change over the angle."""

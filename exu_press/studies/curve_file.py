@@ -51,6 +51,11 @@ class CurveFile:
     unit: str
     values: Array
 
+    @property
+    def axis_label(self) -> str:
+        """Label of its axis, with its unit."""
+        return f"{self.over.replace('_', ' ')}, {OVER[self.over]}"
+
 
 def read_curve(path: Path) -> CurveFile:
     """Return the curve of a file.

@@ -10,7 +10,7 @@ from exu_press.plots.panels import figure_with_panels, grid_rows, legend_above
 from exu_press.plots.style import GREY, line_of, with_style
 from exu_press.plots.typesetting import plain, typeset
 from exu_press.studies.curve_comparison import CurveComparison
-from exu_press.studies.curve_file import OVER, CurveFile
+from exu_press.studies.curve_file import CurveFile
 
 __all__ = ["curve_panel", "measured_figure"]
 
@@ -40,6 +40,6 @@ def curve_panel(
     for index, (label, values) in enumerate(computed.items()):
         axes.plot(curve.at, values, **line_of(index), label=plain(label))
     axes.set_title(plain(f"Curve {name}"))
-    axes.set_xlabel(f"{curve.over.replace('_', ' ')}, {OVER[curve.over]}")
+    axes.set_xlabel(curve.axis_label)
     axes.set_ylabel(plain(typeset(f"{curve.name.replace('_', ' ')}, {unit}")))
     legend_above(axes)

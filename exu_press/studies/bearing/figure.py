@@ -57,7 +57,7 @@ def _pressure(panel: Axes, report: BearingReport) -> None:
 
 def _largest_pressure(report: BearingReport, row: BearingCoefficients) -> tuple[Array, Array]:
     """Return angles in the drawing, deg, and the largest pressure over the length there, Pa."""
-    kind, sizes = journal_joint(report.scene, row.joint)
+    kind, sizes = journal_joint(report.study.scene, row.joint)
     length, radius = sizes.length, kind.radius
     eps, turning = min(row.eccentricity_ratio, 0.999), row.speed_rpm * math.tau / 60.0
     direction = math.atan2(row.eccentricity[1], row.eccentricity[0])
@@ -83,13 +83,13 @@ def _largest_pressure(report: BearingReport, row: BearingCoefficients) -> tuple[
 def _locus(panel: Axes, report: BearingReport) -> None:
     """Draw the journal's centre over the loads that it bears, in the circle of its clearance."""
     first = report.rows[0]
-    clearance = journal_joint(report.scene, first.joint)[0].clearance
+    clearance = journal_joint(report.study.scene, first.joint)[0].clearance
     path = []
     for share in LOCUS.tolist():
         load = share * first.load[0], share * first.load[1]
         try:
             bearing = bearing_coefficients(
-                report.scene, first.joint, load=load, speed_rpm=first.speed_rpm
+                report.study.scene, first.joint, load=load, speed_rpm=first.speed_rpm
             )
         except InputError:
             if share > 1.0:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from exu_press.plots.words import ONE_LINE, describe
-from exu_press.scene import Scene
 from exu_press.scene.film import MixedFilm
 from exu_press.schema.csv_table import Value
 from exu_press.studies.base.report import Column, Points, Report, Table
@@ -47,19 +46,14 @@ class BearingReport(Report):
     rows: Sequence[BearingCoefficients]
 
     @property
-    def scene(self) -> Scene:
-        """The scene."""
-        return self.study.scene
-
-    @property
     def title(self) -> str:
         """Heading of the page."""
-        return f"Bearing {self.study.joint}: {describe([self.scene], ONE_LINE)}"
+        return f"Bearing {self.study.joint}: {describe([self.study.scene], ONE_LINE)}"
 
     @property
     def subtitle(self) -> str:
         """The bearing's sizes and law."""
-        kind, film = journal_joint(self.scene, self.study.joint)
+        kind, film = journal_joint(self.study.scene, self.study.joint)
         tilt = film.inclination
         inclined = f", tilt {1e3 * tilt:g} mrad" if tilt else ""
         return (
@@ -69,7 +63,7 @@ class BearingReport(Report):
 
     def warnings(self) -> list[str]:
         """Return also which films are thinner than rough surfaces leave."""
-        _, film = journal_joint(self.scene, self.study.joint)
+        _, film = journal_joint(self.study.scene, self.study.joint)
         rough = MixedFilm()
         thin = [row for row in self.rows if row.min_film < rough.contact_gap]
         if film.contact_gap is not None or not thin:

@@ -14,7 +14,7 @@ from exu_press.scene import Scene
 from exu_press.studies.base import Range
 from exu_press.studies.base.report import Line, Panel, Report, Table
 from exu_press.studies.fit.identifiability import Direction, Identifiability
-from exu_press.studies.fit.measured import Curve, RecordedCurve
+from exu_press.studies.fit.measured import RecordedCurve
 from exu_press.studies.fit.minimum import Minimum
 from exu_press.studies.fit.profile import OPEN, interpolate_rise
 from exu_press.studies.fit.study import Fit
@@ -147,7 +147,7 @@ class FitReport(Report):
         panels = [
             Panel(
                 f"Curve {curve.name}",
-                _axis_label(curve),
+                curve.read.axis_label,
                 f"{curve.read.name}, {model.unit}",
                 [
                     Line("measured", curve.read.at.tolist(), measured.tolist(), points=True),
@@ -214,7 +214,7 @@ class FitReport(Report):
                 curve.name: {
                     "channel": curve.read.name,
                     "unit": model.unit,
-                    "across": _axis_label(curve),
+                    "across": curve.read.axis_label,
                     "at": curve.read.at,
                     "measured": measured,
                     "computed": model.values,
@@ -335,7 +335,3 @@ def _digits(best: float, low: float, high: float) -> int:
     if half <= 0.0 or best == 0.0:
         return 3
     return min(max(2, 2 + math.ceil(math.log10(abs(best) / half) - 1e-9)), 7)
-
-
-def _axis_label(curve: Curve) -> str:
-    return "time, s" if curve.read.over == "time" else "crank angle, deg"

@@ -115,7 +115,7 @@ def test_a_run_that_is_out_of_time_in_its_first_levels_blames_the_budget(system)
 
 
 def test_a_run_that_is_out_of_time_in_a_later_level_says_which_time_would_do():
-    outcome = refused_result(double_pendulum(0.1), settings(4.0, 50_000), max_time=1.0)
+    outcome = refused_result(double_pendulum(0.1), settings(6.0, 50_000), max_time=1.0)
     assert outcome.wall_time < 20.0
     assert float(re.search(r"max_time = (\S+) would do", outcome.reason)[1]) > 1.0
 

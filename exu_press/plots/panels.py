@@ -2,6 +2,7 @@
 
 import textwrap
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -93,7 +94,7 @@ def lowest_panels(panels: Sequence[Axes]) -> list[Axes]:
     ]
 
 
-def legend_above(axes: Axes, columns: int = 4) -> None:
+def legend_above(axes: Axes, columns: int = 4, **legend: Any) -> None:
     """Put a panel's legend over its right end, where no data is."""
     columns = min(columns, 2) if picture_format().stacks and columns > 3 else columns
     axes.legend(
@@ -103,6 +104,7 @@ def legend_above(axes: Axes, columns: int = 4) -> None:
         columnspacing=1.3,
         handletextpad=0.5,
         borderpad=0.0,
+        **legend,
     )
 
 

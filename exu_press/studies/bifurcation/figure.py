@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.panels import figure_with_panels, grid_rows
+from exu_press.plots.panels import figure_with_panels, grid_rows, legend_above
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, SHADE, colour_of, with_style
 from exu_press.plots.sweep_words import in_unit, label_with_unit
@@ -140,9 +140,7 @@ def _periods(panel: Axes, rows: list[list[Row]], longest: int) -> None:
               if n >= longest else meanings[n], linewidth=0.4)
         for n in there
     ]  # fmt: skip
-    panel.legend(
-        handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.08), ncols=4, borderaxespad=0.0
-    )
+    legend_above(panel, handles=handles)
 
 
 def _colour_index(row: Row, longest: int) -> int:

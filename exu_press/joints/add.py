@@ -22,12 +22,12 @@ from exu_press.joints.spherical import SpatialSpherical
 from exu_press.joints.spherical_film import SphericalFilm
 from exu_press.joints.user_force import user_force_of
 from exu_press.laws.contact import NormalContact
-from exu_press.laws.contact_parameters import positive
 from exu_press.laws.film.asperities import pad_with_asperities
 from exu_press.laws.film.ball import BallFilm
 from exu_press.laws.film.contract import FilmLaw, film_scale
 from exu_press.laws.film.plane_pad import plane_pad
 from exu_press.laws.friction import Friction, LuGre, no_friction
+from exu_press.laws.parameters import positive
 
 if TYPE_CHECKING:
     from exu_press.joints.worn import WornSurfaces

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import copysign, exp, expm1, sqrt, tanh
 
-from exu_press.laws.contact_parameters import demand, not_negative, positive
+from exu_press.laws.parameters import demand, not_negative, positive
 
 __all__ = ["Friction", "LuGre", "coulomb", "lugre_steady", "no_friction", "stribeck"]
 

@@ -7,7 +7,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from math import sqrt
 
-from exu_press.laws.contact_parameters import demand, positive
+from exu_press.laws.parameters import demand, positive
 
 __all__ = ["MotorLaw", "kloss", "torque_table"]
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from exu_press.errors import InputError, error_prefix
-from exu_press.laws.contact_damping import DAMPING_LAWS, NormalContact
-from exu_press.laws.contact_stiffness import Stiffness, cylindrical, hertz, hertz_stiffness
+from exu_press.laws.contact.damping import DAMPING_LAWS, NormalContact
+from exu_press.laws.contact.stiffness import Stiffness, cylindrical, hertz, hertz_stiffness
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind
 from exu_press.schema.registry import Registry, alternatives, choice

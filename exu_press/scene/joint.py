@@ -12,7 +12,7 @@ from exu_press.schema.registry import Registry
 from exu_press.schema.table import Table, demand_keys, key_values, plain
 
 if TYPE_CHECKING:
-    from exu_press.laws.contact_damping import NormalContact
+    from exu_press.laws.contact.damping import NormalContact
     from exu_press.laws.film.contract import FilmLaw
     from exu_press.scene.contact import BallContact, JournalContact
     from exu_press.scene.film import BallFilm, JournalFilm

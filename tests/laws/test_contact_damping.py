@@ -10,7 +10,7 @@ from exu_press.laws.contact import (
     restitution_of,
     step,
 )
-from exu_press.laws.contact_damping import Approach
+from exu_press.laws.contact.damping import Approach
 
 
 def test_adams_step_at_its_ends() -> None:

@@ -2,9 +2,9 @@
 
 import math
 
-from exu_press.laws.contact_parameters import demand, positive
 from exu_press.laws.film.contract import FilmForce, FilmLaw
 from exu_press.laws.film.plane_pad import PadFilm, PadLaw
+from exu_press.laws.parameters import demand, positive
 
 __all__ = ["effective_ratio", "pad_with_asperities", "with_asperities"]
 

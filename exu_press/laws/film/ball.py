@@ -5,10 +5,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from exu_press.laws.contact_parameters import demand
 from exu_press.laws.film.asperities import effective_ratio, with_asperities
 from exu_press.laws.film.contract import FilmLaw
 from exu_press.laws.film.tabulated import interpolation_table, tabulated_law
+from exu_press.laws.parameters import demand
 
 __all__ = ["NARROWEST_CAP", "WIDEST_CAP", "BallFilm", "ball", "socket_drag"]
 

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from typing import Final
 
-from exu_press.laws.contact_parameters import positive
+from exu_press.laws.parameters import positive
 
 __all__ = ["AROUND", "AT_REST", "OUTSIDE", "FilmForce", "FilmLaw", "dissipated_power", "film_scale"]
 

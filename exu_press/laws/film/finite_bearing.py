@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from exu_press.laws.contact_parameters import demand
 from exu_press.laws.film.contract import FilmLaw
 from exu_press.laws.film.tabulated import interpolation_table, tabulated_law
+from exu_press.laws.parameters import demand
 
 __all__ = ["finite"]
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from itertools import pairwise
 from typing import Final
 
-from exu_press.laws.contact_parameters import demand, positive
+from exu_press.laws.parameters import demand, positive
 
 __all__ = ["PadFilm", "PadLaw", "plane_pad"]
 

@@ -2,8 +2,8 @@
 
 import math
 
-from exu_press.laws.contact_parameters import positive
 from exu_press.laws.film.contract import AROUND, AT_REST, OUTSIDE, FilmForce, FilmLaw
+from exu_press.laws.parameters import positive
 
 __all__ = ["short"]
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exu_press.laws.contact_parameters import demand, positive
+from exu_press.laws.parameters import demand, positive
 from exu_press.numerics.arrays import Array
 
 __all__ = ["SideFlow", "finite_flow", "no_flow", "short_flow"]

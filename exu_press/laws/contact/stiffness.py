@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import asinh, inf, pi, sinh, sqrt
 
-from exu_press.laws.contact_parameters import demand, positive
+from exu_press.laws.parameters import demand, positive
 
 __all__ = ["Stiffness", "cylindrical", "hertz", "hertz_stiffness"]
 

@@ -7,8 +7,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from exu_press.laws.contact_parameters import demand, not_negative, positive
-from exu_press.laws.contact_stiffness import Stiffness
+from exu_press.laws.contact.stiffness import Stiffness
+from exu_press.laws.parameters import demand, not_negative, positive
 
 __all__ = [
     "DAMPING_LAWS",
@@ -173,13 +173,13 @@ def step_damping(
     Notes
     -----
     Range: no restitution is given; the one delivered depends on mass and speed
-    (`exu_press.laws.contact_restitution.delivered_restitution`).
+    (`exu_press.laws.contact.restitution.delivered_restitution`).
 
     Examples
     --------
     285.602 N elastic, and c_max / 2 * 1e-5 m/s of damping:
 
-    >>> from exu_press.laws.contact_stiffness import hertz
+    >>> from exu_press.laws.contact.stiffness import hertz
     >>> contact = step_damping(hertz(2.5545e10), damping_max=2.5545e8, damping_depth=1e-5)
     >>> round(contact.force(5e-6, 1e-5, 0.0)[0], 3)
     1562.852
@@ -230,7 +230,7 @@ def hysteretic(
 
     Notes
     -----
-    Range: any f and any mass; `exu_press.laws.contact_restitution.restitution_of` gives the
+    Range: any f and any mass; `exu_press.laws.contact.restitution.restitution_of` gives the
     restitution that chi delivers.
     A contact that begins at rest (v_0 = 0) has a finite, light damping through `slowest_impact`,
     and the restitution tends to one with the speed, as it does in reality.
@@ -239,14 +239,14 @@ def hysteretic(
     --------
     807.804 N elastic, which closing at the speed of first touch raises by chi = 0.5:
 
-    >>> from exu_press.laws.contact_stiffness import hertz
+    >>> from exu_press.laws.contact.stiffness import hertz
     >>> contact = hysteretic(hertz(2.5545e10), restitution=0.5, chi=lambda e: 1.0 - e)
     >>> round(contact.force(10e-6, 0.1, 0.1)[0], 3)
     1211.706
 
     What chi of the laws below, in their order, delivers where 0.5 is wanted:
 
-    >>> from exu_press.laws.contact_restitution import restitution_of
+    >>> from exu_press.laws.contact.restitution import restitution_of
     >>> e = 0.5
     >>> chis = 1.5 * (1 - e), 0.75 * (1 - e**2), 1.6 * (1 / e - 1), 1 / e - e, 1.5 * (1 / e - 1)
     >>> [round(restitution_of(chi), 3) for chi in chis]

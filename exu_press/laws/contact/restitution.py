@@ -2,8 +2,8 @@
 
 from math import expm1, log1p
 
-from exu_press.laws.contact_damping import NormalContact
-from exu_press.laws.contact_parameters import not_negative, positive
+from exu_press.laws.contact.damping import NormalContact
+from exu_press.laws.parameters import not_negative, positive
 
 __all__ = ["delivered_restitution", "restitution_of"]
 

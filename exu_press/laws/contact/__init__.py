@@ -5,11 +5,10 @@
 >>> round(force, 3)
 27.461
 
-Stiffness in `contact_stiffness`, damping in `contact_damping`, what a law delivers in
-`contact_restitution`.
+Stiffness in `stiffness`, damping in `damping`, what a law delivers in `restitution`.
 """
 
-from exu_press.laws.contact_damping import (
+from exu_press.laws.contact.damping import (
     DAMPING_LAWS,
     Approach,
     NormalContact,
@@ -22,8 +21,8 @@ from exu_press.laws.contact_damping import (
     step,
     step_damping,
 )
-from exu_press.laws.contact_restitution import delivered_restitution, restitution_of
-from exu_press.laws.contact_stiffness import Stiffness, cylindrical, hertz, hertz_stiffness
+from exu_press.laws.contact.restitution import delivered_restitution, restitution_of
+from exu_press.laws.contact.stiffness import Stiffness, cylindrical, hertz, hertz_stiffness
 
 __all__ = [
     "DAMPING_LAWS",

@@ -11,7 +11,7 @@ from exu_press.scene.load import ATTACHMENT, COLUMNS, LOAD_KINDS, Load
 from exu_press.scene.solver import RPM
 from exu_press.schema.checks import demand_known, demand_name
 from exu_press.schema.registry import choice
-from exu_press.schema.table import Table, table_from
+from exu_press.schema.table import Table, declared_keys, table_from
 
 __all__ = ["changed_load", "loads_of", "with_files_beside"]
 
@@ -108,6 +108,11 @@ def _load(where: str, table: Any) -> Load:
             raise InputError(f"file and {both[0]}: allowed is one of the two")
         with error_prefix("file: "):
             keys |= kind.read_file(Path(path))
+    own = ["kind", *declared_keys(kind)]
+    for key, value in keys.items():
+        if key in own or any(key in declared_keys(known) for known in LOAD_KINDS.values()):
+            continue
+        demand_known(f"{where}.{key} = {value!r:.200}: unknown key of kind {name!r}", key, own)
     return table_from(OneLoad, where, {"kind": name, **keys}).kind
 
 

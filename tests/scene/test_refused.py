@@ -263,7 +263,8 @@ load.a.kind = 'blanking' -> load.a.force: missing
 = load.a = {kind = 'blanking', force = 1e4}
 load.a = {start_angle_deg = 9, end_angle_deg = 10} -> start_angle_deg and end_angle_deg: allowed is
 load.a.time = [0, 1] -> load.a.time = [0, 1]: not used by this scene
-load.a.rize = 1.0 -> load.a.rize = 1.0: unknown key (did you mean 'rise'?)
+load.a.rize = 1.0 -> load.a.rize = 1.0: unknown key of kind 'blanking' (did you mean 'rise'?)
+load.a.peak = 1.0 -> load.a.peak = 1.0: unknown key of kind 'blanking'; allowed are kind, body,
 load.a.body = 'slidr' -> press has no such body (did you mean 'slider'?)
 load.a.body = 'frame' -> load.a.body = 'frame': press has no such body
 load.a.offset = [0, 'x'] -> allowed is a list of 2 numbers

@@ -99,7 +99,7 @@ def _unresolved_kind(base: Any, name: UnresolvedName, keys: tuple[str, ...]) -> 
         raise InputError(f"{name!r}: {refusal(name)}")
 
     metadata = key(None, "of the kind", also=object).metadata
-    known = {field.name for field in dataclasses.fields(base)}
+    known = {"kind", *(field.name for field in dataclasses.fields(base))}
     fields: list[Any] = [
         (name, Any, dataclasses.field(default=None, hash=False, metadata=metadata))
         for name in keys

@@ -96,6 +96,7 @@ def test_with_permission_they_run_are_stored_and_shown_without_being_imported(
     assert stored.has_unresolved_kinds and stored.to_dict() == complete
     assert not stored.joints["shaft"].resolved
     assert stored.joints["shaft"].stiffness == 2e8
+    assert keys_of(stored)["joints.shaft.kind"].default == "ideal"
     assert stored.joints["ball_left"].contact.damping.constant == 2e4
     assert result.quantity("joints.shaft.peak_force").value > 0.0
     shorter = stored.replace({"revolutions": 0.01, "joints.shaft.stiffness": 3e8})

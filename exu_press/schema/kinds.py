@@ -21,6 +21,7 @@ __all__ = [
     "custom_modules",
     "describe_own_error",
     "import_kinds",
+    "is_loaded",
     "kind_modules",
     "kind_name",
     "loaded_kinds",
@@ -98,7 +99,7 @@ def custom_class(key: str, name: object, base: Any) -> type[Any] | None:
         kind = _loaded_kind(name, base)
         if kind is None and ":" in name:
             derived = f"allowed is a dataclass derived from {base.__name__}"
-            why = refusal(name) if _loaded_kind(name, CustomKind) is None else derived
+            why = derived if is_loaded(name) else refusal(name)
             raise InputError(f"{key} = {name!r}: {why}")
         if kind is None:
             from exu_press.schema.registered import registered_class  # seldom needed
@@ -120,7 +121,7 @@ def import_kinds(data: Mapping[str, Any]) -> None:
     """
     for key, name in _kinds_in(data):
         module, colon, inside = name.partition(":")
-        if not colon or _loaded_kind(name, CustomKind) is not None:
+        if not colon or is_loaded(name):
             continue
         if module.partition(".")[0] in sys.stdlib_module_names or "__main__" in module.split("."):
             raise InputError(
@@ -136,7 +137,7 @@ def import_kinds(data: Mapping[str, Any]) -> None:
                 f"{key} = {name!r}: {_error_text(error)}; allowed is a module that Python finds "
                 "(PYTHONPATH names further folders) and one of its classes"
             ) from None
-        if _loaded_kind(name, CustomKind) is None:
+        if not is_loaded(name):
             what = f"module {module!r} has no attribute {inside!r}"
             if isinstance(kind, type) and issubclass(kind, CustomKind):
                 what = f"this class is {kind_name(kind)!r}"
@@ -171,7 +172,7 @@ def _with_unresolved(
             for name, value in data.items()
         }
     home = _home_of(path) if isinstance(data, str) else None
-    if home is None or data in load_object(home) or _loaded_kind(data, CustomKind):
+    if home is None or data in load_object(home) or is_loaded(data):
         return data
     tables: list[Any] = [beside if path[-1] == "kind" else {}]
     if home in LAWS.values():
@@ -237,6 +238,11 @@ def _loaded_kind(name: str, base: type[Kind]) -> type[Kind] | None:
     """Return the class of a name among those that Python has made by now; the last one counts."""
     kinds = [kind for kind in loaded_kinds(base) if kind_name(kind) == name]
     return kinds[-1] if kinds else None
+
+
+def is_loaded(name: str) -> bool:
+    """Return whether Python has made the class of a name by now."""
+    return _loaded_kind(name, CustomKind) is not None
 
 
 def loaded_kinds(base: Any) -> list[type[Any]]:

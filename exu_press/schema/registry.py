@@ -13,6 +13,7 @@ from exu_press.schema.kinds import (
     CustomKind,
     UnresolvedName,
     custom_class,
+    is_loaded,
     kind_name,
     loaded_kinds,
     refusal,
@@ -78,7 +79,7 @@ class Registry(Mapping[Any, type[Any]]):
         """
         if name in self:
             return self[name]
-        if isinstance(name, UnresolvedName) and self._base:
+        if isinstance(name, UnresolvedName) and self._base and not is_loaded(name):
             return _unresolved_kind(
                 load_object(self._base), name, tuple(sorted(name.keys & {*keys}))
             )

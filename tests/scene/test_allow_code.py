@@ -87,6 +87,10 @@ def test_a_repeated_run_needs_permission_and_the_code_that_it_had(hostile, capsy
     hostile.unlink()
     assert main(["rerun", "out"]) == 2
     assert "names code, the module 'own_kinds'" in capsys.readouterr().err
+    assert not hostile.exists()
+    assert main(["rerun", "out", "--allow-code", "--quiet"]) == 0
+    forget()
+    hostile.unlink()
     code = Path("own_kinds.py")
     code.write_text(code.read_text() + "# edited\n")
     assert main(["rerun", "out", "--allow-code"]) == 2

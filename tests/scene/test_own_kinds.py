@@ -118,6 +118,7 @@ def test_with_permission_they_run_are_stored_and_shown_without_being_imported(
             refused()
     assert not mark.exists()
     assert simulate(Scene.load("shorter.toml", allow_code=True)).completed
+    assert Scene.from_dict(complete) == Scene.from_dict(stored.to_dict())  # loaded now
 
 
 def test_their_keys_are_checked_and_explained(mark):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene
+from exu_press.plots.format import PictureFormat, drawn_as
 from exu_press.studies.fit import Fit, fit
 from exu_press.studies.fit.figure import fit_figure, profiles_figure
 from exu_press.studies.optimise import Optimise, optimise
@@ -30,6 +31,9 @@ def test_a_fit(tmp_path):
     assert [label.get_text() for label in panel.get_yticklabels()] == list(FORCES)
     drawn = panel.containers[0].lines[0].get_xdata()
     assert drawn == pytest.approx([(x - 2e4) / 300.0 for x in report.numbers])
+    with drawn_as(PictureFormat(width=3.3)):
+        narrow = fit_figure(report)
+    assert narrow.axes[0].get_position().height * narrow.get_figheight() > 0.3
     (panel,) = profiles_figure(report).axes
     curve, points = panel.lines[:2]
     assert curve.get_ydata().min() == pytest.approx(0.0, abs=0.05)

@@ -20,13 +20,16 @@ __all__ = ["fit_figure", "profiles_figure"]
 
 MOST_ACROSS = 3
 
+LOWEST = 1.7
+"""inch of a panel, whose numbers have room beside title and labels on narrow paper, too."""
+
 
 @with_style
 def fit_figure(report: FitReport) -> Figure:
     """Return the residuals of numbers in uncertainties, and each curve beside the computed one."""
     study = report.study
     number, curves = len(study.measured), len(study.curve)
-    heights = [0.8 + 0.32 * number] * (number > 0) + [2.8] * curves
+    heights = [max(LOWEST, 0.8 + 0.32 * number)] * (number > 0) + [2.8] * curves
     text = f"{describe([report.scene], 110)}\nchi-square {significant(report.chi_square, 3)} with "
     text += f"{report.freedom:g} degree{'s' * (report.freedom != 1)} of freedom"
     figure, axes = figure_with_panels(

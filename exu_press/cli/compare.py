@@ -95,9 +95,11 @@ def execute(options: argparse.Namespace) -> int:
     require_common_window(compared)  # before anything is run or written
     if len(stored) > 1:
         with_equal_windows(stored)
-    if options.csv is not None and not options.csv.parent.is_dir():
-        raise InputError(f"--csv {options.csv}: allowed is a file in a folder that there is")
     target = directory_of(options, options.given[0] if len(options.given) == 1 else "compare")
+    if options.csv is not None and not options.csv.parent.is_dir():
+        folder = options.csv.parent
+        if folder.resolve() != target.resolve():  # which is made for the results
+            raise InputError(f"--csv {options.csv}: there is no folder {folder}; make it first")
     with lock_directory(output_directory(target)) as directory:
         results, summaries = _run_all(compared, directory, options)
         comparison = Comparison(results)

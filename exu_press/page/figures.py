@@ -240,7 +240,7 @@ def _parallel() -> Any:
         "y",
         "text",
         source=texts,
-        text_align="center",
+        text_align="align",
         text_baseline="middle",
         text_font_size="11px",
         name="parallel-labels",

@@ -217,7 +217,7 @@ class CylindricalContact(CustomKind, Table):
         1.1538e11, "equivalent modulus of both surfaces", "Pa", above=0, source=STEEL
     )
     length: float | None = key(
-        None, "length of the bearing; a film's unless given", "m", above=0, example=0.05
+        None, "bearing length; that of the joint's film unless given", "m", above=0, example=0.05
     )
 
     def elastic_force(self, radius: float, clearance: float, length: float | None) -> Stiffness:

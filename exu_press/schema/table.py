@@ -381,8 +381,9 @@ def demand_keys(path: str, table: Table, keys: Collection[str], law: str, where:
             if isinstance(example, float):
                 example = f"{example:g}"
             example_text = "" if example is None else f", as in {name} = {example}"
+            unit = f"; in {meta['unit']}" if meta["unit"] else ""
             raise InputError(
-                f"{path} needs {dotted_name(law, name)} ({meta['meaning']}, {meta['unit']}), "
+                f"{path} needs {dotted_name(law, name)} ({meta['meaning']}{unit}), "
                 f"which decides its result and has no default; give it in {where}{example_text}"
             )
 

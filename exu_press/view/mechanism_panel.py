@@ -63,7 +63,11 @@ class MechanismPanel:
             xlim=(lowest_x - 0.03 * unit, high[0] + 0.33 * unit),
             ylim=(low[1] - 0.03 * unit, high[1] + 0.03 * unit),
         )
-        self._leaders = _draw_labels(axes, mechanism, self._poses, float(high[0]), unit)
+        self._middles = {
+            name: _middle_of_outline(shape.outline, self._poses[name])
+            for name, shape in front.shapes.items()
+        }
+        self._leaders = _draw_labels(axes, mechanism, self._middles, float(high[0]), unit)
         self._bodies: dict[str, Polygon] = {}
         self._slots: dict[str, list[Polygon]] = {}
         for name in sorted(front.shapes, key=front.layer):
@@ -119,7 +123,7 @@ class MechanismPanel:
             for corners, slot in zip(self._shapes[name].slots, self._slots[name], strict=True):
                 slot.set_xy(transform_points(corners, pose))
         for name, (line, (x, y)) in self._leaders.items():
-            line.set_data(*np.array([self._poses[name][frame][:2], (x, y)]).T)
+            line.set_data(*np.array([self._middles[name][frame], (x, y)]).T)
         for spring, spring_points, line in self._springs:
             ends = np.array([self._point(frame, *end) for end in spring_points])
             line.set_data(*spring.outline(ends, self._unit).T)
@@ -148,6 +152,12 @@ def poses(result: Result, mechanism: Mechanism, instants: Instants) -> dict[str,
     return pose_of_body
 
 
+def _middle_of_outline(outline: Array, body_poses: Array) -> Array:
+    """Return the positions (m, 2) of a drawn body's middle; its centre of mass may be elsewhere."""
+    middle = 0.5 * (outline.min(axis=0) + outline.max(axis=0))
+    return np.array([transform_points(middle[None], pose)[0] for pose in body_poses])
+
+
 def _draw_frame(axes: Axes, mechanism: Mechanism, front: FrontView) -> None:
     """Draw the guides beside their bodies, pitch circles, and the pivots in the frame."""
     for rail in front.rails():
@@ -170,7 +180,7 @@ def _draw_dead_centres(axes: Axes, ends: Sequence[Mark], unit: float) -> None:
 
 
 def _draw_labels(
-    axes: Axes, mechanism: Mechanism, places: dict[str, Array], right: float, unit: float
+    axes: Axes, mechanism: Mechanism, middles: dict[str, Array], right: float, unit: float
 ) -> dict[str, tuple[Line2D, Point]]:
     """Name the bodies at the right, each once; return by body the line to it and where it begins.
 
@@ -184,7 +194,7 @@ def _draw_labels(
         for body in mechanism.bodies
         if not body.name.endswith("_left")
     }
-    means = np.array([places[name][:, 1].mean() for name in named])
+    means = np.array([middles[name][:, 1].mean() for name in named])
     heights = spread(np.clip(means, min(edges), max(edges)), LINE * drawn)
     leaders: dict[str, tuple[Line2D, Point]] = {}
     for (name, words), y in zip(named.items(), heights, strict=True):

@@ -47,7 +47,9 @@ def test_scenes_and_a_result(mine, tmp_path, capsys):
 
 
 def test_variants_of_the_joints_that_a_scene_has(mine, tmp_path, capsys):
-    assert main(["compare", str(mine), *QUICK, "--out", str(tmp_path)]) == 0
+    tmp_path, table = tmp_path / "new", tmp_path / "new" / "table.csv"
+    assert main(["compare", str(mine), *QUICK, "--out", str(tmp_path), "--csv", str(table)]) == 0
+    assert "ideal" in table.read_text()
     shown = capsys.readouterr()
     assert "flexible: left out" in shown.err
     assert ["ideal", "dry", "lubricated"] in [line.split() for line in shown.out.splitlines()]
@@ -208,6 +210,7 @@ def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
         ([str(result)], "a result alone; allowed are two or more, or a scene alone"),
         ([str(curve)], "a measurement alone; allowed are scenes or results beside it"),
         ([str(result)] * 2 + ["--set", "gravity=0"], "--set gravity=0: changes scenes, and none"),
+        (["press", "--csv", str(tmp_path / "no" / "a.csv")], "no; make it first"),
         (["press", "drag_link_shop"], "press is read from 0 to 2, drag_link_shop is read from 2"),
     ):
         assert main(["compare", *arguments, "--out", str(out)]) == 2

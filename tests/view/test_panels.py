@@ -41,6 +41,8 @@ def test_bodies_are_drawn_at_their_poses(runs, animation):
     slider = panel._bodies["slider"].get_xy()[:4].mean(axis=0)
     height = result["slider_position"][-1] + mechanism_of(result.scene).output.origin[1]
     assert slider == pytest.approx([0.0, height], abs=1e-6)
+    line, _ = panel._leaders["slider"]
+    assert line.get_xydata()[0] == pytest.approx(slider), "the name's line ends in the body"
     names = {text.get_text() for text in picture.figure.axes[0].texts}
     assert {"crank", "linkage", "slider", "counterweight", "link 5", "TDC", "BDC"} <= names
 

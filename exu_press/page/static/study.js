@@ -168,7 +168,8 @@ class Study {
 
   // Draw the parallel axes with their names and ends.
   axes() {
-    const side = this.data.side.map(name => this.columns.get(name)), x = [], y = [], text = [];
+    const side = this.data.side.map(name => this.columns.get(name)), x = [], y = [], text = [], align = [];
+    const inwards = k => k === 0 ? "left" : k === side.length - 1 ? "right" : "center";
     side.forEach((column, k) => {
       const last = name => name.split(".").slice(-2).join(".");
       const end = value => column.texts.length ? column.texts[value] ?? "" : inWords(value);
@@ -176,8 +177,9 @@ class Study {
       x.push(k, k, k);
       y.push(k % 2 ? 1.185 : 1.12, 1.045, -0.05);
       text.push(asText(label), asText(end(column.largest)), asText(end(column.least)));
+      align.push(inwards(k), "center", "center");
     });
-    this.model("parallel-words").data = {x, y, text};
+    this.model("parallel-words").data = {x, y, text, align};
     this.model("parallel-axes").data = {
       x: side.map((_, k) => k), low: side.map(() => 0), high: side.map(() => 1),
     };

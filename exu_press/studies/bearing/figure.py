@@ -27,6 +27,9 @@ __all__ = ["bearing_figure"]
 MOST_CURVES = 6
 """Of the pressure."""
 
+STYLES = ("-", "--", "-.", ":")
+"""Of lines of several speeds."""
+
 LOCUS = np.geomspace(0.02, 50.0, 25)
 """Loads of the locus over the first row's."""
 
@@ -39,8 +42,8 @@ def bearing_figure(report: BearingReport) -> Figure:
     pressure, locus, stiffness, damping = panels
     _pressure(pressure, report)
     _locus(locus, report)
-    _matrix(stiffness, report, "stiffness", 1e-6, "MN/m")
-    _matrix(damping, report, "damping", 1e-3, "kN s/m")
+    _matrix(stiffness, report, "stiffness", "N/m")
+    _matrix(damping, report, "damping", "N s/m")
     return figure
 
 
@@ -101,21 +104,30 @@ def _locus(panel: Axes, report: BearingReport) -> None:
         panel.plot(*(e / clearance for e in row.eccentricity), "o", color=COLOURS["vermilion"])
     turn = np.linspace(0.0, math.tau, 181)
     panel.plot(np.cos(turn), np.sin(turn), color=GREY)
-    panel.set_title(f"journal's centre / clearance,\n{first.speed_rpm:g} rpm")
+    panel.set_title(f"journal's centre / clearance,\nline: {first.speed_rpm:g} rpm")
     panel.set(xlabel="x", ylabel="y", aspect="equal")
     panel.margins(0.05)
 
 
-def _matrix(panel: Axes, report: BearingReport, name: str, scale: float, unit: str) -> None:
-    """Draw the entries of a matrix over what varies, in a unit that is its scale times SI's."""
-    loads = [math.hypot(*row.load) for row in report.rows]
+def _matrix(panel: Axes, report: BearingReport, name: str, unit: str) -> None:
+    """Draw the entries of a matrix over the load, a line style for each speed; else over speed."""
+    loads = np.array([math.hypot(*row.load) for row in report.rows])
+    speeds = np.array([row.speed_rpm for row in report.rows])
     over_load = len(set(loads)) > 1 or len(report.rows) == 1
-    across = loads if over_load else [row.speed_rpm for row in report.rows]
+    across = loads if over_load else speeds
     entries = np.array([getattr(row, name).ravel() for row in report.rows])
-    order = np.argsort(across)
-    for k, axes in enumerate(AXES):
-        values = scale * entries[order, k]
-        panel.plot(np.array(across)[order], values, "o-", color=colour_of(k), ms=3, label=axes)
+    prefix, scale = ("M", 1e-6) if np.abs(entries).max() > 1e6 else ("k", 1e-3)
+    unit = prefix + unit
+    several = over_load and len(set(speeds)) > 1
+    for index, speed in enumerate(sorted(set(speeds)) if several else [None]):
+        rows = np.flatnonzero(speeds == speed) if several else np.arange(len(speeds))
+        order = rows[np.argsort(across[rows])]
+        style = STYLES[index % len(STYLES)]
+        for k, axes in enumerate(AXES):
+            (line,) = panel.plot(across[order], scale * entries[order, k], "o", ms=3)
+            line.set(color=colour_of(k), linestyle=style, label="_" if index else axes)
+        if several:
+            panel.plot([], [], color=GREY, linestyle=style, label=f"{speed:g} rpm")
     panel.set_title(name)
     panel.set(xlabel="load, N" if over_load else "speed, rpm", ylabel=unit)
     panel.margins(0.05)

@@ -9,7 +9,10 @@ import pytest
 from exu_press import InputError, Scene, bearing_coefficients
 from exu_press.cli import main
 from exu_press.studies.bearing.coefficients import critical_mass
+from exu_press.studies.bearing.figure import bearing_figure
 from exu_press.studies.bearing.journal import Journal
+from exu_press.studies.bearing.report import BearingReport
+from exu_press.studies.bearing.study import BearingStudy
 
 RADIUS, CLEARANCE, LENGTH, VISCOSITY, SPEED = 0.05, 1e-4, 0.05, 0.05, 300.0
 TURNING = SPEED * math.tau / 60.0
@@ -189,3 +192,18 @@ def test_the_locus_ends_where_the_bearing_bears_no_more(tmp_path):
     command = ["bearing", "press", "crank_pin", *words, "--speed", "240", "--out", str(tmp_path)]
     assert main(command) == 0
     assert (tmp_path / "bearing.png").is_file()
+
+
+def test_the_picture_has_a_line_for_each_speed():
+    """Stiffness over the load: no line goes from one speed to another."""
+    scene, loads, speeds = scene_with("short"), (1e3, 4e3), (60.0, 200.0)
+    rows = [
+        bearing_coefficients(scene, "crank_pin", load=(0.0, -load), speed_rpm=speed)
+        for speed in speeds
+        for load in loads
+    ]
+    report = BearingReport(BearingStudy(scene, joint="crank_pin", loads=loads, speeds=speeds), rows)
+    stiffness = bearing_figure(report).axes[2]
+    lines = [line.get_xdata() for line in stiffness.lines if len(line.get_xdata())]
+    assert [list(line) for line in lines] == [list(loads)] * 8
+    assert {"60 rpm", "200 rpm"} <= {t.get_text() for t in stiffness.get_legend().texts}

@@ -47,6 +47,7 @@ MODULES = [
     "joints/path",
     "joints/planar",
     "joints/spatial",
+    "joints/spherical",
     "joints/states",
     "joints/guideway",
     "joints/guideway_film",

@@ -1,4 +1,8 @@
-"""A spherical clearance joint between bodies of any kind (Eqs. 12-22), dry or with a film."""
+"""A spherical clearance joint between bodies of any kind (Eqs. 12-22), dry or with a film.
+
+Arrays stand before the floats that they are multiplied by: compiled code takes float * array for a
+float.
+"""
 
 import math
 from typing import Any
@@ -125,8 +129,8 @@ class SpatialSpherical(ClearanceJoint):
         if self._touching:
             force, couple = self._normal_force + self._drag, _cross(self._n, self._drag)
             reach = self._radius + self._e
-            self.ball.add_forces(_vector(force), _vector(self._radius * couple), out)
-            self.socket.add_forces(_vector(-force), _vector(-reach * couple), out)
+            self.ball.add_forces(_vector(force), _vector(couple * self._radius), out)
+            self.socket.add_forces(_vector(-force), _vector(couple * -reach), out)
         if self._film is not None:
             force, (on_ball, on_socket) = self._film.force, self._film.moments
             self.ball.add_forces(_vector(force), _vector(on_ball), out)
@@ -143,7 +147,7 @@ class SpatialSpherical(ClearanceJoint):
         rates[3:6, : ball.shape[1]] = ball_omega
         rates[6:, ball.shape[1] :] = socket_omega
         by_place, by_rates = self._film.partials()
-        matrix = -rates.T @ (by_q * by_place @ rates[:3] + by_q_t * by_rates @ rates)
+        matrix = -rates.T @ (by_place * by_q @ rates[:3] + by_rates * by_q_t @ rates)
         entries = np.asarray(matrix).ravel()
         return entries + self._of_contact(by_q, by_q_t) if self._touching else entries
 
@@ -152,24 +156,24 @@ class SpatialSpherical(ClearanceJoint):
         n, e = self._n, self._e
         normal, stiffness, damping = self._law
         across = np.eye(3) - np.outer(n, n)
-        by_normal = stiffness * n + damping * (across @ self._relative) / e  # dN by e
+        by_normal = n * stiffness + (across @ self._relative) * damping / e  # dN by e
         slipping = (  # sliding by the direction n
-            across @ cross_matrix(self._swirl) - float(n @ self._surface) * np.eye(3)
+            across @ cross_matrix(self._swirl) - np.eye(3) * float(n @ self._surface)
         ) - np.outer(n, self._surface)
-        by_e = -np.outer(n, by_normal) - normal / e * across
-        by_v = -damping * np.outer(n, n)
+        by_e = -np.outer(n, by_normal) - across * (normal / e)
+        by_v = np.outer(n, n) * -damping
         drag_by_e = -np.outer(self._mu, by_normal) + self._drag_by_sliding @ slipping @ across / e
-        drag_by_v = -np.outer(self._mu, damping * n)
+        drag_by_v = -np.outer(self._mu, n * damping)
         centre, surface = self._rates()
-        matrix = centre.T @ ((by_q * by_e + by_q_t * by_v) @ centre)
-        matrix += surface.T @ ((by_q * drag_by_e + by_q_t * drag_by_v) @ centre)
-        matrix += surface.T @ (by_q_t * (self._drag_by_sliding @ across) @ surface)
+        matrix = centre.T @ ((by_e * by_q + by_v * by_q_t) @ centre)
+        matrix += surface.T @ ((drag_by_e * by_q + drag_by_v * by_q_t) @ centre)
+        matrix += surface.T @ ((self._drag_by_sliding @ across) * by_q_t @ surface)
         return np.asarray(-matrix).ravel()
 
     @property
     def eccentricity(self) -> tuple[float, ...]:
         """Journal centre - bearing centre at the last `add_force`, m."""
-        return tuple((self._e * self._n).tolist())
+        return tuple((self._n * self._e).tolist())
 
     @property
     def relative_velocity(self) -> tuple[float, ...]:
@@ -193,7 +197,7 @@ class SpatialSpherical(ClearanceJoint):
             elastic = self._contact.stiffness.force(pressed)[0] if pressed > 0.0 else 0.0
             energy = self._contact.elastic_energy(pressed)
         moments = np.concatenate(
-            [self._radius * _cross(self._n, self._drag), -reach * _cross(self._n, self._drag)]
+            [_cross(self._n, self._drag) * self._radius, _cross(self._n, self._drag) * -reach]
         )
         if self._film is not None:
             moments = moments + self._film.moments.ravel()
@@ -224,7 +228,7 @@ class SpatialSpherical(ClearanceJoint):
             return 0.0
         z, speed = self._next_bristle, float(np.linalg.norm(self._sliding))
         relaxes = self._friction.rate(speed, 1.0) - speed
-        rate = self._sliding + relaxes * z
+        rate = self._sliding + z * relaxes
         return self._normal * self._friction.sigma_0 * float(z @ rate)
 
     def _move(self, q: list[float], q_t: list[float]) -> None:
@@ -246,7 +250,7 @@ class SpatialSpherical(ClearanceJoint):
         if not self._touching and not self._stateful:
             return
         reach = self._radius + e
-        self._swirl = self._radius * self._omegas[:3] - reach * self._omegas[3:]
+        self._swirl = self._omegas[:3] * self._radius - self._omegas[3:] * reach
         self._surface = self._relative + _cross(self._swirl, n)
         sliding = self._surface - n * (n @ self._surface)
         rate = float(n @ self._relative)
@@ -257,9 +261,9 @@ class SpatialSpherical(ClearanceJoint):
         if self._touching and self._contact is not None:
             self._law = self._contact.force(penetration, rate, speed)
             self._normal = self._law[0]
-            self._normal_force = -self._normal * n
-            self._drag = -self._law[0] * self._mu
-            self._drag_by_sliding = -self._law[0] * by_sliding
+            self._normal_force = n * -self._normal
+            self._drag = self._mu * -self._law[0]
+            self._drag_by_sliding = by_sliding * -self._law[0]
 
     def _rates(self) -> tuple[Array, Array]:
         """Return velocities of the centres and of the surfaces past each other by all rates."""
@@ -268,7 +272,7 @@ class SpatialSpherical(ClearanceJoint):
         outward = cross_matrix(self._n)
         centre = np.hstack([ball, -socket])
         reach = self._radius + self._e
-        omegas = np.hstack([-self._radius * outward @ ball_omega, reach * outward @ socket_omega])
+        omegas = np.hstack([outward * -self._radius @ ball_omega, outward * reach @ socket_omega])
         return centre, centre + omegas
 
     def _coefficient(self, sliding: Array) -> tuple[Array, Array, Array]:
@@ -283,7 +287,7 @@ class SpatialSpherical(ClearanceJoint):
             mu, slope = self._friction(speed)
             secant = mu / speed if speed > 0.0 else slope
             turning = np.eye(3) - np.outer(along, along)
-            return mu * along, slope * np.outer(along, along) + secant * turning, self._bristle
+            return along * mu, np.outer(along, along) * slope + turning * secant, self._bristle
         friction, step = self._friction, self._step
         bristle = self._bristle - self._n * (self._n @ self._bristle)
         deflection = float(along @ bristle)
@@ -291,10 +295,10 @@ class SpatialSpherical(ClearanceJoint):
         mu, slope, end = friction.advance(speed, deflection, step, start)
         _, _, decay = friction.advance(speed, 1.0, step, start)
         _, _, rest = friction.advance(speed, 0.0, step, start)
-        aside = (bristle - deflection * along) * (decay - rest)
+        aside = (bristle - along * deflection) * (decay - rest)
         rate = aside * (friction.rate(speed, 1.0) - speed)
-        vector = mu * along + friction.sigma_0 * aside + friction.damping(speed)[0] * rate
-        return vector, slope * np.eye(3), end * along + aside
+        vector = along * mu + aside * friction.sigma_0 + rate * friction.damping(speed)[0]
+        return vector, np.eye(3) * slope, along * end + aside
 
 
 def _vector(values: Array) -> Vector:

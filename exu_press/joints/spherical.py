@@ -196,9 +196,8 @@ class SpatialSpherical(ClearanceJoint):
             pressed = self._e - self.contact_onset - self.path.drift
             elastic = self._contact.stiffness.force(pressed)[0] if pressed > 0.0 else 0.0
             energy = self._contact.elastic_energy(pressed)
-        moments = np.concatenate(
-            [_cross(self._n, self._drag) * self._radius, _cross(self._n, self._drag) * -reach]
-        )
+        couple = _cross(self._n, self._drag)
+        moments = np.concatenate([couple * self._radius, couple * -reach])
         if self._film is not None:
             moments = moments + self._film.moments.ravel()
         return JointState(

@@ -11,14 +11,7 @@ from exu_press.mechanism.drawing import Drawing, require_kind
 from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.kinematics import kinematics_of
 from exu_press.mechanism.motion import Motion
-from exu_press.mechanism.parts import (
-    GROUND,
-    Body,
-    Guide,
-    Joint,
-    Output,
-    Point,
-)
+from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point
 from exu_press.mechanism.planar_constraints import PlanarConstraints, planar_constraints
 from exu_press.mechanism.springs import SpringBetween
 from exu_press.numerics.arrays import Array

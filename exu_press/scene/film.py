@@ -37,8 +37,27 @@ AT_CONTACT_MEANING = "at eccentricity ratio 1: stop, or film and contact (A-13)"
 AT_CONTACT = Registry({"stop": "scene.film:StopAtContact", "mixed": "scene.film:MixedFilm"})
 
 
+class AlignedAmbientFilm:
+    """A film whose oil has ambient pressure, of a journal that is not inclined."""
+
+    @property
+    def inclination(self) -> float:
+        """Angle between the axes of journal and bearing, rad."""
+        return 0.0
+
+    @property
+    def supply_pressure(self) -> float:
+        """Largest pressure at which oil is supplied, Pa above ambient."""
+        return 0.0
+
+    @property
+    def ring_pressure(self) -> float:
+        """Pressure of oil in a groove all around, Pa above ambient."""
+        return 0.0
+
+
 @dataclass(frozen=True)
-class FilmLaw(CustomKind, Table, ABC):
+class FilmLaw(CustomKind, AlignedAmbientFilm, Table, ABC):
     """Base of the film laws of journals, also of your own.
 
     The derived dataclass declares its keys, which stand in [film], by
@@ -54,16 +73,6 @@ class FilmLaw(CustomKind, Table, ABC):
     """The same of the side flow."""
     flows_out: ClassVar[bool] = False
     """Whether oil flows out at the ends."""
-
-    @property
-    def supply_pressure(self) -> float:
-        """Largest pressure at which oil is supplied, Pa above ambient."""
-        return 0.0
-
-    @property
-    def ring_pressure(self) -> float:
-        """Pressure of oil in a groove all around, Pa above ambient."""
-        return 0.0
 
     @property
     def errors(self) -> tuple[float, float]:
@@ -89,11 +98,6 @@ class FilmLaw(CustomKind, Table, ABC):
         """
         law = self.film(length / (2.0 * radius))
         return law if gap_ratio is None else with_asperities(law, gap_ratio)
-
-    @property
-    def inclination(self) -> float:
-        """Angle between the axes of journal and bearing, rad."""
-        return 0.0
 
     def suits(self, length_to_diameter: float) -> bool:
         """Return whether L/D lies in the range that the law is meant for."""
@@ -179,7 +183,7 @@ class MixedFilm(CustomKind, Table):
         return self.roughness * self.asperity_onset
 
 
-class Film(Table):
+class Film(AlignedAmbientFilm, Table):
     """Film of a lubricated joint."""
 
     table: ClassVar[str] = "film"
@@ -195,21 +199,6 @@ class Film(Table):
         if self.oil is not None:
             return self.oil.viscosity(self.oil.supply_celsius)
         return self.viscosity
-
-    @property
-    def inclination(self) -> float:
-        """Angle between the axes of journal and bearing, rad."""
-        return 0.0
-
-    @property
-    def supply_pressure(self) -> float:
-        """Largest pressure at which oil is supplied, Pa above ambient."""
-        return 0.0
-
-    @property
-    def ring_pressure(self) -> float:
-        """Pressure of oil in a groove all around, Pa above ambient."""
-        return 0.0
 
     @property
     def contact_gap(self) -> float | None:

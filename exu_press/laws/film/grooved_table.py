@@ -134,7 +134,7 @@ def _responses(
     s = math.sqrt((1.0 - eps) * (1.0 + eps))
     state, guess, responses = GroovedFilmState(bearing, eps, angle, cells), None, []
     for u, v in speeds:
-        f_r, f_t, flow, _, guess = state.solve(v, u, guess=guess)
+        f_r, f_t, flow, _, guess, _ = state.solve(v, u, guess=guess)
         power, b = f_t * u - f_r * v, s * u
         ln_e, m = math.log(power / (v * v + b * b)), (-f_r * b - f_t * v / s) / power
         responses.append((ln_e, m, 0.5 * flow))

@@ -28,7 +28,6 @@ ROUNDING = 1e-9
 FAINT = 1e-3
 """Part of the supply pressure whose flow through a cell counts like its source for `ROUNDING`."""
 
-
 COARSEST = 36, 5
 """Cells of the grid whose refinements have each of its cells divided, around and along."""
 
@@ -42,6 +41,7 @@ class FilmFlow(NamedTuple):
         feed: out of the grooves, each by its pressure over the largest, over L R c, 1/s. Times the
             largest pressure it is the power of the pump.
         pressures: of each speed and the supply alone, where the film is unbroken.
+        pressure: of all together, over 12 mu R^2 / c^2, (n m,), 1/s.
     """
 
     f_r: float
@@ -49,6 +49,7 @@ class FilmFlow(NamedTuple):
     side_flow: float
     feed: float
     pressures: Pressures
+    pressure: Array
 
 
 @dataclass(frozen=True)
@@ -259,7 +260,7 @@ class GroovedFilmState:
         pressures = self._matrix.solve(self._sources, speeds, rounding, self._land, guess)
         p = speeds @ pressures.by_speed + supply * self._share
         feed = float(self._share @ (self._matrix.net(p) - source)) if supply else 0.0
-        return FilmFlow(*self._loads(p), feed, pressures)
+        return FilmFlow(*self._loads(p), feed, pressures, p)
 
     def unbroken_loads(self, eps_dot: float, half_w: float) -> tuple[float, float, float]:
         """Return f_r, f_t and side flow of a film that bears negative pressures too, as `solve`."""
@@ -283,9 +284,7 @@ class GroovedFilmState:
 
         Arguments as of `solve`; the pressure is over 12 mu R^2 / c^2, 1/s.
         """
-        by_speed = self.solve(eps_dot, half_w, supply).pressures.by_speed
-        speeds = np.array([eps_dot, half_w, supply])[: len(by_speed)]
-        p = speeds @ by_speed + supply * self._share
+        p = self.solve(eps_dot, half_w, supply).pressure
         return self._local, p.reshape(len(self._local), -1).max(axis=1)
 
 

@@ -54,7 +54,7 @@ def test_one_that_is_ahead_has_not(run):
 
 
 @pytest.mark.parametrize(("ratio", "parted"), [(0.5, True), (0.25, False), (9.0, False)])
-def test_errors_go_with_the_root_of_the_tolerance(run, ratio, parted):
+def test_errors_go_with_a_power_of_the_tolerance(run, ratio, parted):
     found = horizon(run, {ratio: moved(run, ACROSS, 0.33 * DIVERGED * PLAY)})
     assert (found is not None) is parted
 
@@ -81,7 +81,7 @@ def test_a_run_at_half_the_tolerance_vouches_for_less_where_a_coarser_one_has_di
 
 
 def test_a_run_that_was_beside_by_chance_vouches_for_less_still(run):
-    """When the coarser one diverged, its distance told an error fourteen times the other's."""
+    """When the coarser one diverged, its distance told an error twelve times the other's."""
     near, away = (moved(run, ACROSS, part * PLAY) for part in (0.035, 10.0 * DIVERGED))
     found = divergence(run, {0.5: near, 8.0: away})
     part = 0.035 / (10.0 * DIVERGED)  # of the coarser one's distance, at all times

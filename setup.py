@@ -53,7 +53,6 @@ MODULES = [
     "joints/guideway_film",
     "joints/moving_guideway",
     "joints/oriented",
-    "joints/pressurized",
     "joints/worn",
     "laws/contact/damping",
     "laws/contact/stiffness",

@@ -13,10 +13,11 @@ from exu_press.joints.interface import (
 )
 from exu_press.joints.planar import PlanarEnd, PlanarJoint
 from exu_press.laws.film.grooved_table import GroovedFilm
+from exu_press.laws.film.pressurized import PressurizedFilm
 from exu_press.laws.film.tilted import TiltedFilm
 from exu_press.numerics.arrays import Array
 
-__all__ = ["GroovedInterface", "OrientedJoint", "TiltedInterface"]
+__all__ = ["GroovedInterface", "OrientedJoint", "PressurizedInterface", "TiltedInterface"]
 
 TURNED = 1e-5
 """rad, over which the force's change with the angle is differenced."""
@@ -54,6 +55,38 @@ class GroovedInterface(FilmInterface):
         changes = f_n - n_0, f_t - t_0, m_j - j_0, m_b - b_0
         by_n, by_t, by_j, by_b = (change / TURNED for change in changes)
         return by_n, by_t, by_j, by_b
+
+
+class PressurizedInterface(GroovedInterface):
+    """A film between journal and bearing that a pump feeds, and which bears a journal at rest.
+
+    Its power is that of `FilmInterface`, and the pump's beside it.
+    """
+
+    bears_at_rest = True
+    law: PressurizedFilm
+
+    def __init__(
+        self, law: PressurizedFilm, scale: float, clearance: float, supply_force: float
+    ) -> None:
+        """Fill the gap between two surfaces.
+
+        Args:
+            law, scale, clearance: as of `FilmInterface`.
+            supply_force: largest pressure of the grooves times length times radius, N.
+        """
+        super().__init__(law, scale, clearance)
+        self._supply_force = supply_force
+
+    def orient(self, angle: float) -> None:
+        """Take the angle of the eccentricity in the bearing, rad, before `load`."""
+        self.law.angle = angle
+        self.law.supply = self._supply_force / (12.0 * self.scale)
+
+    @property
+    def pump_power(self) -> float:
+        """Power that the pump puts in, W, at the last `load`."""
+        return self.scale * self.clearance * self.law.pump_power
 
 
 class TiltedInterface(GroovedInterface):

@@ -21,7 +21,6 @@ from exu_press.model.drive import (
 from exu_press.model.guides import add_guide
 from exu_press.model.ideal_joints import add_ideal_joint
 from exu_press.model.model import Model, count_items
-from exu_press.model.stall import stall_of
 from exu_press.model.system import System
 from exu_press.scene import IdealJoint, Scene
 from exu_press.scene.applied import holding_torque
@@ -33,6 +32,7 @@ if TYPE_CHECKING:
     from exu_press.model.flexible_body import FrameStart
     from exu_press.model.loads import ActingLoad
     from exu_press.model.placed_part import PlacedPart
+    from exu_press.model.stall import Stall
     from exu_press.model.start_stop import StartStop
     from exu_press.model.warm_film import WarmFilm
 
@@ -113,7 +113,12 @@ def _assemble(
     friction = _guide_friction(system)
     crank_angle = crank_angle_of(system)
     start_stop: StartStop | None = None
+    stall: Stall | None = None
     motor = system.scene.drive
+    if motor is not None:
+        from exu_press.model.stall import stall_of
+
+        stall = stall_of(motor, system.scene.speed_rpm)
     if motor is not None and motor.clutch is not None:
         from exu_press.model.start_stop import add_flywheel, add_start_stop
 
@@ -154,7 +159,7 @@ def _assemble(
         parts=system.parts,
         warm=_warm_films(system, clearance),
         states=_states(system.scene, clearance, guideways),
-        stall=stall_of(system.scene),
+        stall=stall,
         scene_items=count_items(system.mbs),
     )
 

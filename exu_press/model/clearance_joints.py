@@ -74,22 +74,22 @@ def _film_interface(kind: LubricatedJoint) -> FilmInterface:
     law, sizes = kind.film_law(), (kind.film_scale, kind.clearance)
     if kind.film.length is None or kind.film.law.kind != "grooved":
         return FilmInterface(law, *sizes)
-    from exu_press.joints.oriented import GroovedInterface, TiltedInterface
+    from exu_press.joints.oriented import (
+        GroovedInterface,
+        PressurizedInterface,
+        TiltedInterface,
+    )
     from exu_press.laws.film.grooved_table import GroovedFilm
+    from exu_press.laws.film.pressurized import PressurizedFilm
     from exu_press.laws.film.tilted import TiltedFilm
-    from exu_press.model.film_tables import film_table
+    from exu_press.model.film_tables import film_table, supply_table
 
     if isinstance(law, TiltedFilm):
         return TiltedInterface(law, *sizes)
     assert isinstance(law, GroovedFilm)
     law.set_table(film_table(law.bearing))
-    if not law.bearing.is_pressurized:
+    if not isinstance(law, PressurizedFilm):
         return GroovedInterface(law, *sizes)
-    from exu_press.joints.pressurized import PressurizedInterface
-    from exu_press.laws.film.pressurized import PressurizedFilm
-    from exu_press.model.film_tables import supply_table
-
-    assert isinstance(law, PressurizedFilm)
     law.set_supply_table(supply_table(law.bearing))
     force = kind.film.law.supply_pressure * kind.film.length * kind.radius
     return PressurizedInterface(law, *sizes, force)

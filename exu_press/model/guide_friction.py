@@ -5,6 +5,7 @@ import numpy as np
 from exu_press.joints.guide_friction import GuideFriction, HeldSide, SideForce, SpringSide
 from exu_press.joints.guide_line import FixedLine, GuideLine
 from exu_press.mechanism import Guide
+from exu_press.model.guides import turning_line
 from exu_press.model.system import System
 
 __all__ = ["add_guide_friction"]
@@ -16,8 +17,6 @@ def add_guide_friction(system: System, guide: Guide) -> GuideFriction:
     line: GuideLine
     normal = np.array(guide.normal)
     if not guide.is_rail:
-        from exu_press.model.moving_guides import turning_line
-
         nodes = [system.rigid[name].node for name in system.in_guide(guide)]
         line = turning_line(system, guide)
     elif guide.body in system.flexible:

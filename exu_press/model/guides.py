@@ -1,6 +1,7 @@
 """The guides of a system without clearance: constraints where they are ideal, or springs."""
 
 import math
+from typing import TYPE_CHECKING
 
 import exudyn as exu
 import numpy as np
@@ -19,7 +20,10 @@ from exu_press.model.ideal_joints import hold_direction
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
 
-__all__ = ["add_guide"]
+if TYPE_CHECKING:
+    from exu_press.joints.guide_line import TurningLine
+
+__all__ = ["add_guide", "turning_line"]
 
 
 def add_guide(system: System, guide: Guide) -> None:
@@ -30,9 +34,7 @@ def add_guide(system: System, guide: Guide) -> None:
     body, on = system.in_guide(guide)
     holds_across, holds_angle = system.constraints.guides[guide.name]
     if guide.lateral is not None and guide.tilting is not None and not guide.is_rail:
-        from exu_press.model.moving_guides import add_springs_on_body
-
-        add_springs_on_body(system, guide, guide.lateral, guide.tilting)
+        _add_springs_on_body(system, guide, guide.lateral, guide.tilting)
         return
     if guide.lateral is not None:
         _add_lateral_spring(system, guide, guide.lateral)
@@ -134,3 +136,33 @@ def _add_lateral_spring(system: System, guide: Guide, spring: Spring) -> None:
     )
     number = system.mbs.AddObject(connector)
     system.record(guide.key, "force", number, exu.OutputVariableType.ForceLocal)
+
+
+def turning_line(system: System, guide: Guide) -> "TurningLine":
+    """Return the line of a guide on a moving body, by the coordinates of both."""
+    from exu_press.joints.guide_line import TurningLine  # few scenes have one
+
+    mechanism = system.mechanism
+    body, base = mechanism.body(guide.body), mechanism.body(guide.on)
+    guided, on = (system.rigid[name] for name in system.in_guide(guide))
+    return TurningLine(
+        guided.reference,
+        on.reference,
+        base.local(body.centre_of_mass),
+        math.atan2(guide.normal[1], guide.normal[0]) - base.angle,
+    )
+
+
+def _add_springs_on_body(system: System, guide: Guide, lateral: Spring, tilting: Spring) -> None:
+    """Add the springs of a guide on a moving body; their forces follow from the recorded motion."""
+    from exu_press.joints.guide_springs import GuideSprings
+
+    mechanism = system.mechanism
+    GuideSprings(
+        system.mbs,
+        [system.rigid[name].node for name in system.in_guide(guide)],
+        turning_line(system, guide),
+        (lateral.stiffness, lateral.damping),
+        (tilting.stiffness, tilting.damping),
+        mechanism.body(guide.body).angle - mechanism.body(guide.on).angle,
+    )

@@ -12,7 +12,6 @@ import numpy as np
 from exu_press.integrate import ARRIVED, Outcome, SolverTuning
 from exu_press.model.drive import CrankAngle
 from exu_press.model.rigid_body import RigidBody
-from exu_press.model.stall import Stall, stall_message
 from exu_press.scene.applied import holding_torque
 from exu_press.solving import DEFAULTS, SolvableModel, solve
 
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
     from exu_press.mechanism.section import Section
     from exu_press.model.loads import ActingLoad, CurvePosition
     from exu_press.model.placed_part import PlacedPart
+    from exu_press.model.stall import Stall
     from exu_press.model.start_stop import StartStop
     from exu_press.model.warm_film import WarmFilm
 
@@ -42,7 +42,7 @@ class Model(SolvableModel):
         drive: object number of the item that turns the crank.
         crank_angle: returns the crank's angle and angular velocity in the current state.
         start_stop: clutch, brake and their schedule, if there is a clutch.
-        stall: detects that the press has stalled.
+        stall: detects that a press with a motor has stalled.
         loads: name -> acting load.
         clocks: of pulses and sheets of loads, each with a function that reads its coordinate.
         ahead: [angle, rad, of a crank at constant speed at time 0 from its start].
@@ -60,7 +60,7 @@ class Model(SolvableModel):
     drive: int
     crank_angle: CrankAngle
     start_stop: "StartStop | None"
-    stall: Stall
+    stall: "Stall | None"
     loads: Mapping[str, "ActingLoad"]
     clocks: "list[tuple[Clock, CurvePosition]]"
     ahead: list[float]
@@ -145,7 +145,7 @@ class Model(SolvableModel):
         for clock, state in self.clocks:
             clock.accept(time, *state(time))
         motor, start_stop = self.scene.drive, self.start_stop
-        if motor is None:
+        if motor is None or self.stall is None:
             return ""
         if start_stop is not None:
             start_stop.accept(time)
@@ -163,7 +163,7 @@ class Model(SolvableModel):
         available = motor.torque.law(self.scene.speed_rpm)(speed)[0]
         if slips and motor.clutch is not None:
             available = motor.clutch.clutch_torque
-        return stall_message(time, angle, needed, available, slips=slips)
+        return self.stall.message(time, angle, needed, available, slips=slips)
 
 
 def _is_same(a: float, b: float) -> bool:

@@ -2,9 +2,10 @@
 
 import math
 
-from exu_press.scene import Scene
+from exu_press.scene.motor import Motor
+from exu_press.scene.solver import RPM
 
-__all__ = ["Stall", "stall_message", "stall_of"]
+__all__ = ["Stall", "stall_of"]
 
 SLOW = 0.01
 """Speed over that in operation, or without load, below which a running crank has stalled: under a
@@ -54,34 +55,30 @@ class Stall:
             self._fastest, self._since = speed, time
         return driven and self._starts and time - self._since > self._patience
 
+    @staticmethod
+    def message(time: float, angle: float, needed: float, available: float, *, slips: bool) -> str:
+        """Return the message about a press that has stalled.
 
-def stall_of(scene: Scene) -> Stall:
-    """Return the detection of a press that stalls."""
-    motor, speed = scene.drive, scene.angular_speed
-    slower = speed if motor is None else min(speed, motor.torque.fastest(scene.speed_rpm))
-    return Stall(slower, 60.0 / scene.speed_rpm)
+        Args:
+            time: s.
+            angle: of the crank, rad.
+            needed: torque at the crank that balances loads, springs and weights, N m.
+            available: torque of the motor, or of a clutch that slips, N m.
+            slips: whether the clutch slips.
+        """
+        source, cure = "the motor", "a larger drive.inertia, or a motor of a larger torque"
+        if slips:
+            source, cure = "the clutch, which slips,", "a larger drive.clutch_torque"
+        friction = available - needed
+        rubs = f"; friction holds at least {friction:.4g} N m" if friction > 0.0 else ""
+        degrees = math.degrees(angle) % 360.0
+        return (
+            f"the press stalled at t = {time:.6g} s, crank angle {degrees:.2f} deg: loads "
+            f"and weights, without friction, want {needed:.4g} N m there, and {source} has "
+            f"{available:.4g} N m{rubs}; try {cure}"
+        )
 
 
-def stall_message(
-    time: float, angle: float, needed: float, available: float, *, slips: bool
-) -> str:
-    """Return the message that a press has stalled.
-
-    Args:
-        time: s.
-        angle: of the crank, rad.
-        needed: torque at the crank that balances loads, springs and weights, N m.
-        available: torque of the motor, or of a clutch that slips, N m.
-        slips: whether the clutch slips.
-    """
-    source, cure = "the motor", "a larger drive.inertia, or a motor of a larger torque"
-    if slips:
-        source, cure = "the clutch, which slips,", "a larger drive.clutch_torque"
-    friction = available - needed
-    rubs = f"; friction holds at least {friction:.4g} N m" if friction > 0.0 else ""
-    degrees = math.degrees(angle) % 360.0
-    return (
-        f"the press stalled at t = {time:.6g} s, crank angle {degrees:.2f} deg: loads "
-        f"and weights, without friction, want {needed:.4g} N m there, and {source} has "
-        f"{available:.4g} N m{rubs}; try {cure}"
-    )
+def stall_of(motor: Motor, speed_rpm: float) -> Stall:
+    """Return the detection of a press with a motor, of a nominal speed, that stalls."""
+    return Stall(min(speed_rpm * RPM, motor.torque.fastest(speed_rpm)), 60.0 / speed_rpm)

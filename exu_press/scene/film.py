@@ -242,8 +242,8 @@ class JournalFilm(Film):
 
     def film_law(self, radius: float, clearance: float) -> JournalLaw:
         """Return the law of a journal of a radius and a clearance, m, also beyond contact."""
+        gap_ratio = self.contact_gap_ratio(clearance)
         with error_prefix("film."):
-            gap_ratio = self.contact_gap_ratio(clearance)
             return self.law.law_of_size(self.length, radius, clearance, gap_ratio)
 
     def side_flow(self, radius: float) -> SideFlow:

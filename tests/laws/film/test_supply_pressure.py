@@ -7,7 +7,7 @@ import pytest
 from scipy.special import ellipk
 from test_grooves import assert_derivatives, states
 
-from exu_press.joints.pressurized import PressurizedInterface
+from exu_press.joints.oriented import PressurizedInterface
 from exu_press.laws.film import dissipated_power, grooved_table, pressurized
 from exu_press.laws.film.grooves import Groove, GroovedBearing, GroovedFilmState, solve_grooved
 from exu_press.laws.film.pressurized import CHANNELS, INTERVALS, PressurizedFilm

@@ -283,9 +283,8 @@ def _checked_keys(
     for key, value in table.items():
         if isinstance(value, float) and math.isnan(value):  # `ROD`: in a file, omit the key
             raise InputError(f"{where}.{key} = {value!r}: allowed is a number")
-    for key in required:
-        if key not in table:
-            raise InputError(f"{f'{where}.{key}' if where else key}: missing")
+    if missing := ", ".join(key for key in required if key not in table):
+        raise InputError(f"{f'{where}.{missing}' if where else missing}: missing")
     return {key: _value(value) if where else value for key, value in table.items()}
 
 

@@ -13,6 +13,9 @@ from exu_press.schema.checks import demand_known, demand_number
 
 __all__ = ["Gear", "check_gears"]
 
+LARGEST_RATIO = 1000.0
+"""More than a train of a press has; angles keep twelve digits up to it."""
+
 
 @dataclass(frozen=True)
 class Gear:
@@ -52,8 +55,8 @@ def check_gears(gears: Sequence[Gear], bodies: Collection[str], crank: str) -> N
                 "that it turns"
             )
         demand_number(f"{where}.ratio", gear.ratio)
-        if gear.ratio == 0.0 or gear.ratio != round(gear.ratio):
+        if not 1.0 <= abs(gear.ratio) <= LARGEST_RATIO or gear.ratio != round(gear.ratio):
             raise InputError(
-                f"{where}.ratio = {gear.ratio!r}: allowed is an integer, not 0, such as -1 for a "
-                "shaft that turns against the other one"
+                f"{where}.ratio = {gear.ratio!r}: allowed is an integer, not 0, of at most "
+                f"{LARGEST_RATIO:g}, such as -1 for a shaft that turns against the other one"
             )

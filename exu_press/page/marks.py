@@ -9,6 +9,7 @@ from exu_press.numerics.arrays import Array, lengths
 from exu_press.page.curves import Curve
 from exu_press.quantities.alternating import LOADS, remove_alternation
 from exu_press.quantities.dead_centre import bottom_dead_centres
+from exu_press.quantities.joints import contact_onsets
 from exu_press.quantities.value import values_of
 from exu_press.result import Result
 from exu_press.result.windows import settled_part
@@ -31,10 +32,10 @@ def impacts(result: Result) -> tuple[list[dict[str, Any]], int]:
         joint, described = result.joints[name], result.scene.joints[name]
         if described.onset is None:
             continue
-        touching = described.onset - joint.gap > 0.0
-        edges = np.flatnonzero(np.diff(touching.astype(int), prepend=0, append=0))
-        size = lengths(joint.force)
-        for begin, end in zip(edges[::2], edges[1::2], strict=True):
+        depth, size = described.onset - joint.gap, lengths(joint.force)
+        apart = np.append(np.flatnonzero(depth <= 0.0), len(depth))
+        for begin in contact_onsets(depth):
+            end = apart[np.searchsorted(apart, begin)]
             peak = begin + int(np.argmax(size[begin:end]))
             impact_list.append(
                 {

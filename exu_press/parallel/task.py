@@ -129,9 +129,12 @@ def row_of_task(task: Task, only_imports: bool = False) -> Row:
         ) from None
     here = _versions_when_imported(task.function, *task.modules)
     if here != task.versions:
-        raise InputError(
-            f"a worker has {here}; allowed are the versions here, {dict(task.versions)}"
-        )
+        differences = [
+            "other sources" if name == "sources" else f"{name} {here.get(name)}, not {version}"
+            for name, version in task.versions.items()
+            if here.get(name) != version
+        ]
+        raise InputError(f"a worker has {', '.join(differences)}; allowed are the versions here")
     return {} if only_imports else row_of(function, json.loads(task.arguments))
 
 

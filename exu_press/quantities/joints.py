@@ -1,6 +1,7 @@
 """Quantities of joints: eccentricity, force, film and contact."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.quantities.kind import COUNT, ENERGY, LOAD, MEASURE, MOTION, SHARE
@@ -11,13 +12,17 @@ from exu_press.result import JointRecord
 from exu_press.scene import IdealJoint, Scene
 from exu_press.scene.joint import is_fed
 
-__all__ = ["IMPACTS", "JOINTS", "START", "contacts", "share_of_contact"]
+__all__ = ["IMPACTS", "JOINTS", "START", "contact_onsets", "share_of_contact"]
 
 
-def contacts(depth: Array) -> int:
-    """Return how often surfaces begin to touch, by their penetration beyond the onset, (n,), m."""
+def contact_onsets(depth: Array) -> NDArray[np.intp]:
+    """Return the instants, by number, at which surfaces begin to touch that did not before.
+
+    Args:
+        depth: (n,), m, of the penetration beyond the contact onset.
+    """
     touching = depth > 0.0
-    return int(np.count_nonzero(touching[1:] & ~touching[:-1])) + int(touching[0])
+    return np.flatnonzero(touching[1:] & ~touching[:-1]) + 1
 
 
 def share_of_contact(time: Array, depth: Array) -> float:
@@ -88,8 +93,8 @@ START = Quantity(
 )  # fmt: skip
 
 IMPACTS = Quantity(
-    "impacts", "", "number of times that the surfaces begin to touch",
-    COUNT, lambda run, joint: contacts(_depth(run, joint)), Owner.JOINT, _can_touch,
+    "impacts", "", "number of times that surfaces apart begin to touch",
+    COUNT, lambda run, joint: len(contact_onsets(_depth(run, joint))), Owner.JOINT, _can_touch,
     title="impacts", cumulative=True,
 )  # fmt: skip
 

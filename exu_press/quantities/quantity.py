@@ -7,6 +7,7 @@ from typing import Any
 
 from exu_press.quantities.kind import Kind
 from exu_press.quantities.reading import Reading
+from exu_press.quantities.uncertain import UNDERFLOW
 from exu_press.scene import Scene
 
 __all__ = ["Extreme", "Owner", "Quantity", "always"]
@@ -120,7 +121,8 @@ class Quantity:
         ['kN', 'N', 'mN', 'MN']
         """
         largest = max(map(abs, values), default=0.0)
-        if self.unit not in SCALED_UNITS or LEAST <= largest * self.scale < MOST or not largest:
+        is_usual = LEAST <= largest * self.scale < MOST or largest < UNDERFLOW
+        if self.unit not in SCALED_UNITS or is_usual:
             return self
         prefixes = sorted(["", *SCALED_UNITS[self.unit]], key=lambda prefix: PREFIXES[prefix])
         prefix = next((p for p in prefixes if largest * PREFIXES[p] >= 1.0), prefixes[-1])

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-__all__ = ["BRACKETS", "CELL", "bracket_text", "significant", "uncertain"]
+__all__ = ["BRACKETS", "CELL", "UNDERFLOW", "bracket_text", "significant", "uncertain"]
 
 MOST_DIGITS = 6
 """Significant digits of a figure in a narrow cell."""
@@ -20,6 +20,9 @@ BRACKETS = (
     "between these at 95 %; =5: exact; -: has none; without brackets: error not known."
 )
 """What the forms of `bracket_text` mean."""
+
+UNDERFLOW = 1e-30
+"""SI: a smaller figure is what a fading force has left, and is shown as 0."""
 
 LARGEST_WRITTEN_OUT = 1e12
 """Larger numbers keep their exponent."""
@@ -56,9 +59,12 @@ def uncertain(
     '5 exact'
     >>> uncertain(5, {**stated, "determined": False, "low": 4, "high": 7})
     '5 (4 to 7, not determined)'
+    >>> uncertain(9.41e-94, None), uncertain(9.41e-94, {**stated, "error": 1e-95})
+    ('0', '0 exact')
     """
     if value is None:
         return "-"
+    value, error = _without_underflow(value, error)
     if error is None or error["error"] is None:
         return str(value) if isinstance(value, int) else significant(value * scale, digits)
     if not error["determined"]:
@@ -94,6 +100,7 @@ def bracket_text(
     """
     if value is None:
         return "-"
+    value, error = _without_underflow(value, error)
     scaled, whole = value * scale, isinstance(value, int)
     if error is not None and error["error"] is None:
         error = None
@@ -108,6 +115,16 @@ def bracket_text(
     forms += [(True, most) for most in range(MOST_DIGITS, 0, -1)]
     texts = (_with_last_digit(scaled, spread, most, power) for power, most in forms)
     return next(text for text in texts if len(text) <= CELL)
+
+
+def _without_underflow(
+    value: float, error: Mapping[str, Any] | None
+) -> tuple[float, Mapping[str, Any] | None]:
+    """Return a figure and its error, both 0 where they are smaller than any figure."""
+    stated = 0.0 if error is None or error["error"] is None else error["error"]
+    if abs(value) + stated >= UNDERFLOW:
+        return value, error
+    return 0 * value, {**error, "error": 0.0} if error is not None and stated else error
 
 
 def _with_last_digit(value: float, spread: float, most: int, power: bool) -> str:

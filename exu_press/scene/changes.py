@@ -15,7 +15,8 @@ from exu_press.mechanism import (
     shipped_mechanism,
 )
 from exu_press.scene.bodies import changed_body
-from exu_press.scene.joints import joint_keys
+from exu_press.scene.joint import JOINT_KINDS
+from exu_press.scene.joints import joint_keys, keys_of_kind
 from exu_press.scene.usage import TABLES
 from exu_press.schema.checks import nearest
 from exu_press.schema.table import RENAMED, changed_table, changed_tables, given_keys
@@ -68,11 +69,11 @@ def changed_keys(
             raise InputError(f"{table}.{key} = {value!r}: {why}")
         data[table] = changed_table(TABLES[table], current, keys)
     if bodies and isinstance(data.get("bodies", {}), Mapping):
-        data["bodies"] = changed_tables(data.get("bodies", {}), bodies, changed_body)
+        data["bodies"] = changed_tables("bodies", data.get("bodies", {}), bodies, changed_body)
     if loads:
         from exu_press.scene.loads import changed_load
 
-        data["load"] = changed_tables(data.get("load", {}), loads, changed_load)
+        data["load"] = changed_tables("load", data.get("load", {}), loads, changed_load)
     if "joints" not in changes:
         data["joints"] = _changed_joints(data["joints"], groups, joints)
     elif joints:
@@ -95,14 +96,20 @@ def _changed_joints(
         keys = joint_keys(name, value) if is_whole and value is not None else value
         for member in groups.get(name, (name,)):
             by_member[member if is_whole else f"{member}.{key or 'kind'}"] = keys
-    return changed_tables(joints, by_member, _changed_joint)
+    return changed_tables("joints", joints, by_member, _changed_joint)
 
 
 def _changed_joint(
     name: str, joint: Mapping[str, Any] | None, changes: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Return the keys of a joint with others, also with those of its laws."""
+    """Return the keys of a joint with others, also with those of its laws.
+
+    Those that only its former kind has give way to another kind.
+    """
     keys = dict(joint or {})
+    if (kind := changes.get("kind")) is not None:
+        known = keys_of_kind(JOINT_KINDS.choose(f"joints.{name}.kind", kind, keys))
+        keys = {key: value for key, value in keys.items() if key in known}
     for path, value in changes.items():
         key, dot, inner = path.partition(".")
         if not dot:

@@ -200,7 +200,7 @@ class GuidewaySupport(Table):
         "the two ends of the body carry its tilting moment, and [contact] has their damping"
     )
     lateral_stiffness: float = key(
-        1e9, "of both ends of a body together", "N/m", above=0, source="assumed"
+        1e9, "of both ends of a body together", "N/m", above=0, source="estimated: 1 um per kN"
     )
     length: float = key(0.5, "of every guide with stiffness", "m", above=0, at_most=100)
     clearance: float = key(

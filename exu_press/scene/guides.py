@@ -73,7 +73,19 @@ def guides_of(
         demand_known(f"guide.{name}: {mechanism.name} has no such guide", name, names)
         with _with_guide_named(name):
             by_name[name], guides[name] = _own_guide(shared, own)
+    _refuse_overridden(table, names)
     return replace(table, by_name=by_name), {n: guide for n, guide in guides.items() if guide}
+
+
+def _refuse_overridden(table: ElasticGuide, names: Collection[str]) -> None:
+    """Raise UnusedKeyError for a key of [guide] that no guide has from there."""
+    own = [table.by_name.get(name, {}) for name in names]
+    for name, value, field in key_values(table):
+        if name in table.by_name or value in (None, field.default):
+            continue
+        if all(name in keys or name in KINDS.get(keys.get("kind", ""), ()) for keys in own):
+            path = f"guide.{name}"
+            raise UnusedKeyError(path, f"{path} = {value!r}", "every guide has its own")
 
 
 def _own_guide(

@@ -22,7 +22,7 @@ from exu_press.schema.table import (
     used_names,
 )
 
-__all__ = ["Joints", "joint_keys", "joints_of"]
+__all__ = ["Joints", "joint_keys", "joints_of", "keys_of_kind"]
 
 OF_JOINTS = ("kind", "clearance", "radius", *LAWS, "worn")
 """Keys that some kind of joint has."""
@@ -217,6 +217,12 @@ def joint_keys(name: str, table: Any) -> dict[str, Any]:
     return dict(table)
 
 
+def keys_of_kind(kind: type[Joint]) -> tuple[str, ...]:
+    """Return the keys of a kind of the user's own, or those that some kind of ours has."""
+    own = ("kind", *(field.name for field in dataclasses.fields(kind)))
+    return own if issubclass(kind, CustomJoint) else OF_JOINTS
+
+
 def _joint(
     name: str,
     table: Mapping[str, Any],
@@ -228,8 +234,7 @@ def _joint(
     path, kind = f"joints.{name}", table.get("kind")
     chosen = JOINT_KINDS.choose(f"{path}.kind", kind, table)
     keys = [field.name for field in dataclasses.fields(chosen)]
-    is_custom = issubclass(chosen, CustomJoint)
-    refuse_unknown(path, table, ("kind", *keys) if is_custom else OF_JOINTS)
+    refuse_unknown(path, table, keys_of_kind(chosen))
     given_laws = [law for law in LAWS if table.get(law) is not None]
     own = {law: _law(path, law, table[law], laws, spherical) for law in given_laws}
     values: dict[str, Any] = {**sizes, **table}

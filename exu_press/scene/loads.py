@@ -11,7 +11,7 @@ from exu_press.scene.load import ATTACHMENT, COLUMNS, LOAD_KINDS, Load
 from exu_press.scene.solver import RPM
 from exu_press.schema.checks import demand_known, demand_name
 from exu_press.schema.registry import choice
-from exu_press.schema.table import Table, declared_keys, table_from
+from exu_press.schema.table import Table, declared_keys, set_key, table_from
 
 __all__ = ["changed_load", "loads_of", "with_files_beside"]
 
@@ -59,16 +59,17 @@ def loads_of(
     return loads
 
 
-def changed_load(_: str, load: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
+def changed_load(name: str, load: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return the keys of a load with others; one of another kind keeps where it acts."""
     keys = load.to_dict() if isinstance(load, Load) else dict(load or {})
     if "kind" in changes and keys.get("kind") != changes["kind"]:
         keys = {key: value for key, value in keys.items() if key in ATTACHMENT}
-    for name, value in changes.items():
-        for key in INSTEAD.get(name, ()):
+    for path, value in changes.items():
+        for key in INSTEAD.get(path, ()):
             if key not in changes:
                 keys.pop(key, None)
-        keys[name] = value
+        with error_prefix(f"load.{name}."):
+            set_key(keys, path, value)
     return keys
 
 

@@ -223,6 +223,10 @@ class Scene(Table):
         object.__setattr__(self, "joints", None)
         _require_turning(mechanism)
         laws = LawKeys(self.laws, usual, self._law_tables(tables))
+        if not self.shipped_name:  # a drawing of the user's own, which may hold what no joint uses
+            for law in LAWS.keys() & usual.keys():
+                with error_prefix("defaults."):
+                    laws.keys_of(law)
         joints = joints_of(tables, mechanism, laws)
         object.__setattr__(self, "joints", joints)
         unused = joints.unused_laws()
@@ -287,8 +291,8 @@ class Scene(Table):
                 reason = reason or self.joints.unused_reason(
                     law, name, laws.keys_of(law), self.joints
                 )
-                path = f"{law}.{name}"
-                raise UnusedKeyError(path, f"{path} = {laws.keys_of(law)[name]!r}", reason)
+                path, value = f"{law}.{name}", plain_value(laws.keys_of(law)[name])
+                raise UnusedKeyError(path, f"{path} = {value!r}", reason)
         keys = {name: laws.keys_of(law).get(name, field.default) for name, field in used.items()}
         keys = {name: value for name, value in keys.items() if value is not None}
         object.__setattr__(self, law, keys if used else None)

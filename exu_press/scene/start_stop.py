@@ -107,7 +107,7 @@ class Clutch(Table):
         "deg",
         above=0,
         at_most=5,
-        source="assumed",
+        source="estimated",
     )
     start: Starts | None = alternatives({"start_time": "scene.start_stop:Starts"})
     stop: Stops | None = alternatives(

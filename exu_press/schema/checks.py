@@ -212,16 +212,25 @@ MOST_NAMES, LIKE = 24, 8
 """Names that a message lists; with more of them so many that are like the one in question."""
 
 
-def demand_known(text: str, name: Any, known: Iterable[str]) -> None:
+def demand_known(
+    text: str, name: Any, known: Iterable[str], allowed: Collection[str] | None = None
+) -> None:
     """Raise InputError, with the nearest and all known names behind it, unless a name is known.
 
-    Of many known names only some that are most like it.
+    Of many names only some that are most like it.
+
+    Args:
+        text: begins the message.
+        name: that is to be known.
+        known: names.
+        allowed: those of the known names that the message lists; all of them unless given.
     """
     if name not in (names := list(known)):
-        listed, rest = names, ""
-        if len(names) > MOST_NAMES:
-            listed = difflib.get_close_matches(str(name), names, n=LIKE, cutoff=0.3) or names[:LIKE]
-            rest = f" and {len(names) - len(listed)} others"
+        listed, rest = names if allowed is None else [n for n in names if n in allowed], ""
+        if (count := len(listed)) > MOST_NAMES:
+            like = difflib.get_close_matches(str(name), listed, n=LIKE, cutoff=0.3)
+            listed = like or listed[:LIKE]
+            rest = f" and {count - len(listed)} others"
         raise InputError(f"{text}{nearest(name, names)}; allowed are {', '.join(listed)}{rest}")
 
 

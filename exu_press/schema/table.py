@@ -6,9 +6,9 @@ import typing
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any, ClassVar, Self, TypeVar
 
-from exu_press.errors import InputError, UnusedKeyError
+from exu_press.errors import InputError, UnusedKeyError, error_prefix
 from exu_press.lazy import load_object
-from exu_press.schema.checks import allowed_text, checked_value, demand_known
+from exu_press.schema.checks import allowed_text, checked_value, demand_known, nearest
 from exu_press.schema.kinds import UnresolvedName
 from exu_press.schema.registry import Alternatives
 
@@ -29,6 +29,7 @@ __all__ = [
     "plain_value",
     "refuse_unknown_keys",
     "resolve",
+    "set_key",
     "table_from",
     "tables_by_name",
     "unused_reason",
@@ -102,7 +103,8 @@ class Table:
         return keys
 
     def __post_init__(self) -> None:
-        """Check every key; raise InputError for the first one that is not allowed."""
+        """Check every key; raise InputError for the first wrong one, or all that are missing."""
+        missing: list[Field] = []
         for field in _fields(type(self)):
             name = dotted_name(self.table, field.name)
             value, meta = getattr(self, field.name), field.metadata
@@ -115,8 +117,12 @@ class Table:
             elif "meaning" in meta:
                 value = _value_of_key(field, name, value)
                 if value is None and field.name in self.required:
-                    raise InputError(f"{name}: missing; allowed is {allowed_text(field)}")
+                    missing.append(field)
             object.__setattr__(self, field.name, value)
+        if missing:
+            names = dotted_name(self.table, ", ".join(field.name for field in missing))
+            allowed = ", ".join(map(allowed_text, missing))
+            raise InputError(f"{names}: missing; allowed is {allowed}")
         for pair in self.exclusive:
             if None not in (getattr(self, key, None) for key in pair):
                 names = " and ".join(dotted_name(self.table, key) for key in pair)
@@ -180,6 +186,8 @@ def table_from(kind: type[T], name: str, data: Any) -> T:
         if key not in used and value is not None:
             path = dotted_name(name, key)
             reason = unused_reason(table, key, lambda key: dotted_name(table.table, key)) or ""
+            if isinstance(value, list | tuple) and not value:
+                reason = "an empty list is as good as none"
             raise UnusedKeyError(path, f"{path} = {value!r}", reason)
     return table
 
@@ -285,7 +293,7 @@ def refuse_unknown_keys(
         if key not in known and {path, key} & RENAMED.keys():
             now = RENAMED.get(path) or RENAMED[key]
             raise InputError(f"{path} = {value!r:.200}: is {now} now")
-        demand_known(f"{path} = {value!r:.200}: unknown key", key, dict.fromkeys(known))
+        demand_known(f"{path} = {value!r:.200}: unknown key", key, dict.fromkeys(known), used)
 
 
 def unused_reason(table: Table, key: str, place_of: Callable[[str], str]) -> str | None:
@@ -366,7 +374,7 @@ def declared_keys(kind: type[Table]) -> Mapping[str, Field]:
 
 
 def demand_keys(path: str, table: Table, keys: Collection[str], law: str, where: str) -> None:
-    """Raise InputError for the first of some keys that a table does not have.
+    """Raise InputError for those of some keys that a table does not have.
 
     Args:
         path: that needs them.
@@ -375,17 +383,31 @@ def demand_keys(path: str, table: Table, keys: Collection[str], law: str, where:
         law: name of the table in the message, if it has one.
         where: they may be given.
     """
-    for name, value, field in key_values(table):
-        if value is None and (name in keys or name in _needed_keys(table)):
-            meta, example = field.metadata, field.metadata.get("example")
-            if isinstance(example, float):
-                example = f"{example:g}"
-            example_text = "" if example is None else f", as in {name} = {example}"
-            unit = f"; in {meta['unit']}" if meta["unit"] else ""
-            raise InputError(
-                f"{path} needs {dotted_name(law, name)} ({meta['meaning']}{unit}), "
-                f"which decides its result and has no default; give it in {where}{example_text}"
-            )
+    needed = {*keys, *_needed_keys(table)}
+    missing = {
+        name: field.metadata
+        for name, value, field in key_values(table)
+        if value is None and name in needed
+    }
+    if not missing:
+        return
+    names, examples = [], []
+    for name, meta in missing.items():
+        unit, example = f"; in {meta['unit']}" if meta["unit"] else "", meta.get("example")
+        names.append(f"{dotted_name(law, name)} ({meta['meaning']}{unit})")
+        if example is not None:
+            value = f"{example:g}" if isinstance(example, float) else example
+            examples.append(f"{name} = {value}")
+    decides, it = (
+        ("decides its result and has", "it")
+        if len(names) == 1
+        else ("decide its result and have", "them")
+    )
+    example_text = f", as in {', '.join(examples)}" if examples else ""
+    raise InputError(
+        f"{path} needs {', '.join(names)}, which {decides} no default; "
+        f"give {it} in {where}{example_text}"
+    )
 
 
 def _needed_keys(table: Table) -> set[str]:
@@ -422,7 +444,8 @@ def changed_table(
         elif dot and has_names:
             changed[name] = changed_table(kind, given_keys(changed.get(name)), change)
         else:
-            changed[path] = value
+            with error_prefix(f"{kind.table}." * bool(kind.table)):
+                set_key(changed, path, value)
     names = {path.partition(".")[0] for path, value in changes.items() if value is not None}
     for first, second in kind.exclusive:
         if (first in names) != (second in names):
@@ -432,7 +455,28 @@ def changed_table(
     return changed
 
 
+def set_key(keys: dict[str, Any], path: str, value: Any) -> None:
+    """Set a key of a table; "KEY.0" is the first entry of a list, "KEY.0.key" a key of that.
+
+    Raises:
+        InputError: the list has no such entry.
+    """
+    name, dot, rest = path.partition(".")
+    entries = keys.get(name)
+    if not dot or not isinstance(entries, list | tuple):
+        keys[path] = value
+        return
+    number, dot, inner = rest.partition(".")
+    if not number.isdecimal() or int(number) >= len(entries):
+        raise InputError(
+            f"{path} = {value!r:.200}: allowed behind {name} is a number below {len(entries)}"
+        )
+    keys[name] = [*entries]
+    keys[name][int(number)] = {**given_keys(entries[int(number)]), inner: value} if dot else value
+
+
 def changed_tables(
+    table: str,
     tables: Mapping[str, Any],
     changes: Mapping[str, Any],
     change: Callable[[str, Any, Mapping[str, Any]], Any],
@@ -440,17 +484,24 @@ def changed_tables(
     """Return tables by name with others, or with other keys.
 
     Args:
+        table: that they stand in, for messages.
         tables: name -> its keys.
         changes: "NAME" -> all keys, None leaves the table out; "NAME.key" -> a value.
         change: function of a name, the keys or None, and other keys that returns the new ones.
+
+    Raises:
+        InputError: a table is to be left out that is not there.
     """
     changed, inner = dict(tables), dict[str, dict[str, Any]]()
     for path, value in changes.items():
         name, dot, key = path.partition(".")
         if dot:
             inner.setdefault(name, {})[key] = value
-        elif value is None and name in changed:
-            del changed[name]
+        elif value is None:
+            if name not in tables:
+                near = nearest(name, tables)
+                raise InputError(f"{table}.{name} = None: there is none to leave out{near}")
+            changed.pop(name, None)
         else:
             changed[name] = value
     return changed | {name: change(name, changed.get(name), keys) for name, keys in inner.items()}

@@ -101,6 +101,7 @@ def test_a_file_has_its_gears():
         ({"body": "frame"}, r"gears\.planet\.body = 'frame': unknown"),
         ({"to": "plane"}, r"gears\.planet\.to = 'plane': unknown.*planet"),
         ({"ratio": 0}, r"gears\.planet\.ratio = 0: allowed is an integer, not 0"),
+        ({"ratio": -1e20}, r"ratio = -1e\+20: allowed is an integer, not 0, of at most 1000"),
         ({"ratio": 1.5}, r"gears\.planet\.ratio = 1\.5: allowed is an integer"),
     ],
 )

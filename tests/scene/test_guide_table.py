@@ -34,7 +34,9 @@ def test_without_stiffness_guides_stay_ideal_and_rub():
 
 
 def test_an_assumed_stiffness_is_said():
-    assert "guide.lateral_stiffness = 1e+09 N/m (assumed)" in assumed_values(Scene(guide=LOOSE))
+    assert "guide.lateral_stiffness = 1e+09 N/m (estimated: 1 um per kN)" in assumed_values(
+        Scene(guide=LOOSE)
+    )
     given = Scene(guide={**LOOSE, "lateral_stiffness": 2e9})
     assert not any("lateral_stiffness" in line for line in assumed_values(given))
 

@@ -73,7 +73,9 @@ def test_another_mechanism_does_not_take_the_papers_laws_over():
     ],
 )
 def test_what_decides_the_result_is_asked_for(given, key):
-    with pytest.raises(InputError, match=rf"joints.knuckle needs {key} .* as in \w+ = \S+$"):
+    example = r"\w+ = \S+"
+    words = rf"joints.knuckle needs {key} .* as in {example}(, {example})*$"
+    with pytest.raises(InputError, match=words):
         scene(**given)
 
 
@@ -113,6 +115,12 @@ def test_a_mechanism_file_gives_sizes_and_laws_for_all_its_scenes(tmp_path):
     assert Scene.from_dict(loaded.to_dict()) == loaded
     given = Scene(mechanism=own, joints={"knuckle": {"kind": "dry", "clearance": 5e-5}})
     assert given.joints["knuckle"].clearance == 5e-5
+
+
+def test_a_law_that_there_is_not_is_refused_where_no_joint_has_it():
+    own = dataclasses.replace(FOUR_BAR, defaults={"film": {"law": "nope"}})
+    with pytest.raises(InputError, match=r"^defaults\.film\.law = 'nope': allowed is one of"):
+        Scene(mechanism=own)
 
 
 @pytest.mark.parametrize(

@@ -100,6 +100,7 @@ def test_with_permission_they_run_are_stored_and_shown_without_being_imported(
     assert stored.joints["ball_left"].contact.damping.constant == 2e4
     assert result.quantity("joints.shaft.peak_force").value > 0.0
     shorter = stored.replace({"revolutions": 0.01, "joints.shaft.stiffness": 3e8})
+    assert "shaft" in stored.replace({"joints.shaft": "ideal"}).joints.ideal
     assert shorter.joints["shaft"].stiffness == 3e8
     assert shorter.to_dict()["contact"] == complete["contact"]
     shorter.save("shorter.toml")

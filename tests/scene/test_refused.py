@@ -31,6 +31,9 @@ NEEDED = {
 CASES = """
 =
 speed_rpm = 0 -> speed_rpm = 0.0: allowed is a number > 0
+film.grooves = [{width_deg = 9}] -> film.grooves = [{'angle_deg': 0.0, 'width_deg': 9.0}]: not used
+film = {at_contact = 'mixed', roughness = 4e-5} -> film.roughness * film.asperity_onset = 0.00012
+friction.velocity = 1.0 -> allowed are law, mu_kinetic, regularisation_velocity, mu_static, strib
 revolutions = 2e-4; speed_rpm = 2.4e5 -> revolutions = 0.0002 at speed_rpm = 240000 is a run of
 mechanism = 'crank_slider' -> mechanism = 'crank_slider': allowed is one of 'press', 'slider_crank'
 mechanism = 3 -> mechanism = 3: allowed is one of
@@ -144,6 +147,7 @@ guide.clearance = 2e-5; contact.damping = 'step' -> guide.clearance needs contac
 guide = {friction = 'coulomb', viscosity = 0.1} -> guide.viscosity = 0.1: not used .. clearance is
 = mechanism = 'slider_crank'; joints = {}; guide = {clearance = 2e-5, length = 0.3, width = 0.1}
 guide.damping_ratio = 0.1 -> guide.damping_ratio = 0.1: not used .. [contact] has
+guide.slider.length = 0.2 -> guide.length = 0.3: not used by this scene (every guide has its own
 guide.damping_depth = 1e-6 -> guide.damping_depth = 1e-06: is contact.damping_depth
 guide.tilting_stiffness = 1e6 -> guide.tilting_stiffness = 1000000.0: not used
 guide = {friction = 'stribeck', mu_static = 0.05} -> guide.mu_static = 0.05: allowed is .. >= guide
@@ -175,6 +179,7 @@ lot.width = 0: slots.yoke_slot holds a pin
 # motors
 = drive.inertia = 50.0
 drive = {} -> [drive] needs drive.rated_torque (at rated speed
+drive = {rated_torque = 4.0, clutch_torque = 9.0, stop_time = []} -> (an empty list is as good as
 drive = {rated_torque = 400.0, breakdown_torque = 300.0} -> drive.breakdown_torque = 300.0: allowed
 drive.table_torque = [1.0, 0.0] -> table_speed_rpm, drive.table_torque: 0 and 2 values
 drive = {table_torque = [1, 0], table_speed_rpm = [2, 1]} -> = 1.0 after 2.0: allowed is increasing
@@ -260,6 +265,7 @@ load.a.force = 1.0 -> load.a.kind: missing; allowed is one of 'blanking', 'table
 load.a.kind = [] -> load.a.kind = []: allowed is one of
 load.a.kind = 'blank' -> load.a.kind = 'blank': allowed is one of
 load.a.kind = 'blanking' -> load.a.force: missing
+load.a.kind = 'spring' -> load.a.height, travel, force: missing; allowed is a number > 0 (of the
 = load.a = {kind = 'blanking', force = 1e4}
 load.a = {start_angle_deg = 9, end_angle_deg = 10} -> start_angle_deg and end_angle_deg: allowed is
 load.a.time = [0, 1] -> load.a.time = [0, 1]: not used by this scene

@@ -158,6 +158,8 @@ def test_what_is_none_is_left_out(change, remaining):
         ({".": 1}, r"^'\.': allowed is the name of a key"),
         ({"contact..length": 1}, r"^'contact\.\.length': allowed is the name of a key"),
         ({"contact": 5, "contact.length": 0.1}, "^contact = 5: allowed is a table of keys"),
+        ({"load.X": None}, "^load.X = None: there is none to leave out"),
+        ({"joints.crank_pim": None}, "there is none to leave out .*'crank_pin'"),
     ],
 )
 def test_changes_that_are_none_are_refused(changes, message):
@@ -169,3 +171,15 @@ def test_a_mechanism_that_is_left_out_is_the_usual_one():
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, speed_rpm=60.0)
     assert scene.replace({"mechanism": None}) == scene.replace({"mechanism": "press"})
     assert Scene(speed_rpm=60.0).replace({"mechanism": None}) == Scene(speed_rpm=60.0)
+
+
+def test_an_entry_of_a_list_is_changed_by_its_number():
+    grooves = [{"width_deg": 20.0}, {"width_deg": 10.0, "angle_deg": 90.0}]
+    load = {"kind": "blanking", "force": 1e4, "offset": [0.1, 0.0]}
+    scene = Scene(film={"law": "grooved", "grooves": grooves}, load={"a": load})
+    changed = scene.replace({"film.grooves.1.angle_deg": 80.0, "load.a.offset.0": 0.2})
+    assert [groove.angle_deg for groove in changed.film["grooves"]] == [0.0, 80.0]
+    assert changed.load["a"].offset == (0.2, 0.0)
+    for name in ("film.grooves.2.angle_deg", "film.grooves.angle_deg", "load.a.offset.2"):
+        with pytest.raises(InputError, match=rf"^{name} = 1.0: allowed behind .* number below 2"):
+            scene.replace({name: 1.0})

@@ -85,7 +85,7 @@ def bearing_coefficients(
     if not 0.0 < math.hypot(*load) < math.inf:
         raise InputError(f"load = {tuple(load)!r}: allowed is a force on the journal, not 0, in N")
     if not 0.0 < abs(speed_rpm) < math.inf:
-        raise InputError(f"speed_rpm = {speed_rpm!r}: allowed is a speed of the journal, not 0")
+        raise InputError(f"speed_rpm = {speed_rpm!r}: allowed is a number, not 0 (rpm)")
     journal = Journal(scene, joint, speed_rpm * math.tau / 60.0)
     temperature = _balance_heat(journal, load) if journal.oil is not None else None
     e = journal.equilibrium(load)

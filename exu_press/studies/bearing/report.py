@@ -62,8 +62,17 @@ class BearingReport(Report):
         )
 
     def warnings(self) -> list[str]:
-        """Return also which films are thinner than rough surfaces leave."""
+        """Return also which films are thinner than rough surfaces leave, or pressed away."""
         _, film = journal_joint(self.study.scene, self.study.joint)
+        pressed = [row for row in self.rows if row.min_film < 0.0]
+        if pressed:
+            load, speed = self._state(pressed[0])
+            text = (
+                f"{self.study.joint}: {load} N at {speed} rpm press the surfaces "
+                f"{-1e6 * pressed[0].min_film:.3g} um into each other: their contact bears, not "
+                "the film"
+            )
+            return [*super().warnings(), text]
         rough = MixedFilm()
         thin = [row for row in self.rows if row.min_film < rough.contact_gap]
         if film.contact_gap is not None or not thin:

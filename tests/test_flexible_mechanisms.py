@@ -13,6 +13,8 @@ pytest.importorskip("ngsolve")
 
 from netgen.occ import Axis, Box, Cylinder, Pnt, Vec, Z
 
+pytestmark = pytest.mark.usefixtures("sound_files")
+
 RADIUS = 12.0  # mm, of pins and bores
 KEYS = {"mesh_size": 0.1, "modes": 3}
 

@@ -19,7 +19,7 @@ pytest.importorskip("ngsolve")
 from fe_models import shipped_part
 from fe_models.elasticity import full_model
 
-MESH, ANGLE, FORCE = 0.08, 150.0, 1e3  # m, deg, N
+MESH, ANGLE, FORCE = 0.1, 150.0, 1e3  # m, deg, N
 
 
 def solved(model, held, loads):

@@ -4,6 +4,7 @@ from importlib.util import find_spec
 
 import numpy as np
 import pytest
+from coarse_parts import COARSE
 from patched import PATCHED
 
 from exu_press import Scene, SolverTuning, simulate
@@ -55,7 +56,7 @@ def test_euler_parameters_are_expected_on_their_unit_sphere():
     """Else one iteration leaves something in the constraints, whose forces alternate."""
     run = simulate(
         Scene(
-            bodies=flexible_press(modes=4),
+            bodies=COARSE,
             joints={"crank_pin": "ideal", "balls": "ideal"},
             revolutions=0.2,
         )
@@ -70,7 +71,7 @@ def test_euler_parameters_are_expected_on_their_unit_sphere():
 @PATCHED
 def test_the_jacobian_of_flexible_systems_changes_the_cost_and_not_the_result(monkeypatch):
     flexible = Scene(
-        bodies=flexible_press(modes=4),
+        bodies=COARSE,
         joints={"crank_pin": "lubricated", "balls": "dry"},
         revolutions=0.05,
         solver={"tolerance": 0.01},

@@ -7,15 +7,15 @@ import sys
 
 import numpy as np
 import pytest
+from coarse_parts import COARSE
 from PIL import Image
 
 from exu_press import Scene
 from exu_press.mechanism.shapes import shapes_of
 from exu_press.model import build
 from exu_press.model.graphics import add_graphics
-from exu_press.scene import flexible_press
 
-SCENES = [{"mechanism": "press"}, {"mechanism": "slider_crank"}, {"bodies": flexible_press()}]
+SCENES = [{"mechanism": "press"}, {"mechanism": "slider_crank"}, {"bodies": COARSE}]
 
 
 @pytest.mark.parametrize("scene", SCENES)

@@ -4,12 +4,13 @@ import functools
 
 import numpy as np
 import pytest
+from coarse_parts import COARSE
 from pressed import by_statics, pressed_slider_crank
 
 from exu_press import Scene, simulate
 from exu_press.mechanism import Body, Guide, Joint, Mechanism, Output
 from exu_press.mechanism.parts import GROUND
-from exu_press.scene import flexible_press, mechanism_of
+from exu_press.scene import mechanism_of
 from exu_press.solving import scales
 
 LONG = pytest.mark.long
@@ -179,8 +180,7 @@ def test_oil_of_flexible_bodies_drags_as_that_of_rigid_ones():
     pytest.importorskip("ngsolve")
     scene = {"joints": {}, "revolutions": 0.01, "guide": OILED}
     rigid, soft = (
-        simulate(Scene.from_dict({**scene, **more}))
-        for more in ({}, {"bodies": flexible_press(modes=4)})
+        simulate(Scene.from_dict({**scene, **more})) for more in ({}, {"bodies": COARSE})
     )
     assert soft.completed
     assert soft.quantity("energy.residual").value < 1e-3

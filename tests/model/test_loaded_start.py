@@ -4,12 +4,12 @@ import itertools
 
 import numpy as np
 import pytest
+from coarse_parts import COARSE
 
 from exu_press import Scene, simulate
 from exu_press.model import build
 from exu_press.model.loaded_start import loaded_start
 from exu_press.model.system import System
-from exu_press.scene import flexible_press
 
 PIN = {"radius": 0.02, "clearance": 2e-5, "contact": {"length": 0.02}}
 OIL = {"viscosity": 0.1, "length": 0.05}
@@ -127,7 +127,7 @@ def test_the_press_of_the_paper_starts_loaded_at_any_angle(kind, angle, flexible
     joints = {"crank_pin": kind, **({"balls": "dry"} if kind == "dry" else {})}
     scene = Scene(
         joints=joints,
-        bodies=flexible_press(modes=4) if flexible else {},
+        bodies=COARSE if flexible else {},
         start="loaded",
         start_angle_deg=angle,
         revolutions=0.01,
@@ -151,7 +151,7 @@ def test_the_press_of_the_paper_starts_loaded_at_any_angle(kind, angle, flexible
 def test_a_strong_film_starts_with_its_force_and_rings_in_no_constraint(angle, flexible):
     """Its damper is of 1e10 N s/m, and steps begin with 0.1 us."""
     scene = Scene(
-        bodies=flexible_press(modes=4) if flexible else {},
+        bodies=COARSE if flexible else {},
         start="loaded",
         start_angle_deg=angle,
         revolutions=5e-4,

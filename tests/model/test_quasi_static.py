@@ -3,10 +3,10 @@
 import exudyn as exu
 import numpy as np
 import pytest
+from coarse_parts import COARSE
 from exudyn import ConfigurationType
 
 from exu_press import InputError, Scene, simulate
-from exu_press.scene import flexible_press
 
 pytest.importorskip("ngsolve")
 
@@ -24,7 +24,7 @@ def _over(result, channel, begin, end):
 
 @pytest.fixture(scope="module")
 def result():
-    scene = Scene(**IDEAL, revolutions=1.1, bodies=flexible_press(modes=4), solver={"step": 2e-4})
+    scene = Scene(**IDEAL, revolutions=1.1, bodies=COARSE, solver={"step": 2e-4})
     found = simulate(scene)
     assert found.completed
     return found
@@ -75,7 +75,7 @@ def test_where_nothing_moves_the_bodies_hang_in_their_static_deflection():
     """A crank at a hundredth of a revolution a minute: weight and stiffness alone."""
     scene = Scene(
         **IDEAL,
-        bodies=flexible_press(modes=4),
+        bodies=COARSE,
         speed_rpm=0.01,
         revolutions=1e-7,
         start_angle_deg=60.0,
@@ -88,7 +88,7 @@ def test_where_nothing_moves_the_bodies_hang_in_their_static_deflection():
 @pytest.mark.parametrize("angle", [0.0, 175.0, 180.0, 300.0])
 def test_the_start_is_on_the_constraints(angle):
     """Positions and velocities; at half a turn a rotation matrix tells its angle badly."""
-    scene = Scene(**IDEAL, start_angle_deg=angle, bodies=flexible_press(modes=4))
+    scene = Scene(**IDEAL, start_angle_deg=angle, bodies=COARSE)
     mbs = scene.build().mbs
     q, q_t = (np.array(get()) for get in (
         mbs.systemData.GetODE2Coordinates, mbs.systemData.GetODE2Coordinates_t))  # fmt: skip
@@ -110,7 +110,7 @@ def test_elastic_guides_start_loaded():
         guide={"lateral_stiffness": 1e9},
         revolutions=1.0,
         start_angle_deg=60.0,
-        bodies=flexible_press(modes=4),
+        bodies=COARSE,
     )
     force = simulate(scene)["slide_guide_force"]
     assert np.abs(force).max() > 1000.0
@@ -129,7 +129,7 @@ def test_beside_a_flexible_body_a_joint_with_clearance_is_one_in_space(kind, coo
 
 def test_with_clearance_in_the_guides_they_start_in_the_deformation_between_ideal_ones():
     """Bodies with clearance rest nowhere, so that no balance could be found with them."""
-    scene = Scene(bodies=flexible_press(modes=4), start_angle_deg=60.0)
+    scene = Scene(bodies=COARSE, start_angle_deg=60.0)
     modes = []
     for guide in (None, {"clearance": 5e-5}):
         model = scene.replace({"guide": guide}).build()

@@ -7,13 +7,13 @@ import time
 from contextlib import suppress
 
 import pytest
+from coarse_parts import COARSE
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from stored_results import rewritten, text_of
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
-from exu_press.scene import flexible_press
 
 SCENES = {
     "dry": {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "revolutions": 0.02},
@@ -22,10 +22,7 @@ SCENES = {
         "load": {"blanking": {"kind": "blanking", "force": 1e4}},
         "revolutions": 0.005,
     },
-    "flexible": {
-        "bodies": flexible_press(modes=4),
-        "revolutions": 0.002,
-    },
+    "flexible": {"bodies": COARSE, "revolutions": 0.002},
 }
 HOSTILE = r"$\frac{$ <script>alert(1)</script>"
 

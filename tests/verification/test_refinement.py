@@ -13,7 +13,7 @@ import pytest
 from exu_press import Scene
 from exu_press.verification import refinement
 from exu_press.verification.refinement import OF_STEPS, PLANS, RefinementRuns, plan
-from fe_models.processes import may_copy
+from fe_models.processes import Child, may_copy
 
 SHORT = Scene(mechanism="slider_crank", revolutions=0.02)
 LONG = Scene(joints={"crank_pin": "dry", "balls": "dry"}, revolutions=100.0)
@@ -28,9 +28,8 @@ way = pytest.mark.parametrize(
 @pytest.fixture
 def by(monkeypatch):
     """Set how the process is started."""
-    return lambda forks: monkeypatch.setattr(
-        "exu_press.verification.refinement.may_copy", lambda: forks
-    )
+    monkeypatch.setattr(refinement, "Child", Child)
+    return lambda forks: monkeypatch.setattr(refinement, "may_copy", lambda: forks)
 
 
 def test_finer_ones_may_take_as_many_more_steps():

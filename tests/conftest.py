@@ -2,8 +2,10 @@
 
 import gc
 import os
+import re
 import signal
 import sys
+from functools import cache
 
 import pytest
 from browser import launched
@@ -93,11 +95,20 @@ def pytest_make_collect_report(collector):
     return report
 
 
+@cache
+def _has_solids(path):
+    """Return whether a file's tests load NGSolve."""
+    return bool(re.search(r'ngsolve|netgen|COARSE|flexible_press|"flexible"', path.read_text()))
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
-    """Put the tests into one order again, which workers agree upon."""
+    """Put the tests into one order again, which workers agree upon; those of solids are last.
+
+    A worker that has loaded NGSolve is not copied any more.
+    """
     if hasattr(config, "workerinput"):
-        items.sort(key=lambda item: item.path)
+        items.sort(key=lambda item: (_has_solids(item.path), item.path))
 
 
 def pytest_collection_finish(session):

@@ -14,12 +14,12 @@ from exu_press.parallel import Batch, run_batch
 
 
 def batch(function, arguments, directory, **options):
-    return run_batch(function, arguments, directory, **{"workers": 2, "quiet": True, **options})
+    return run_batch(function, arguments, directory, **{"workers": 1, "quiet": True, **options})
 
 
 def test_rows_come_in_the_order_of_the_arguments(tmp_path):
     arguments = [{"seconds": s} for s in (0.3, 0.0, 0.1, 0.0)]
-    rows = batch(batch_functions.sleeps, arguments, tmp_path)
+    rows = batch(batch_functions.sleeps, arguments, tmp_path, workers=2)
     assert [row["slept"] for row in rows] == [0.3, 0.0, 0.1, 0.0]
     assert all(row["status"] == "completed" and row["reason"] == "" for row in rows)
     assert len((tmp_path / "runs.jsonl").read_text().splitlines()) == 3  # equal ones run once
@@ -36,8 +36,8 @@ def test_one_worker_and_two_give_the_same_bits(tmp_path):
 def test_finished_runs_are_not_run_again(tmp_path):
     marks = str(tmp_path / "marks")
     arguments = [{"x": x, "marks": marks} for x in range(6)]
-    first = batch(batch_functions.slow_digits, arguments[:4], tmp_path, workers=1)
-    second = batch(batch_functions.slow_digits, arguments, tmp_path, workers=1)
+    first = batch(batch_functions.slow_digits, arguments[:4], tmp_path)
+    second = batch(batch_functions.slow_digits, arguments, tmp_path)
     assert second[:4] == first
     assert sorted(x for x, _ in batch_functions.marks(marks)) == list(range(6))
 
@@ -66,8 +66,7 @@ def test_a_run_whose_file_is_gone_is_run_again(tmp_path):
     marks = str(tmp_path / "marks")
     arguments = [{"x": x, "marks": marks} for x in range(3)]
     for _ in range(2):
-        options = {"has_files": lambda run: run["x"] != 1, "workers": 1}
-        batch(batch_functions.slow_digits, arguments, tmp_path, **options)
+        batch(batch_functions.slow_digits, arguments, tmp_path, has_files=lambda run: run["x"] != 1)
     assert sorted(x for x, _ in batch_functions.marks(marks)) == [0, 1, 1, 2]
 
 
@@ -99,14 +98,14 @@ def test_a_run_that_goes_wrong_is_a_row(function, status, reason, tmp_path):
 
 def test_a_run_whose_worker_dies_is_tried_once_more(tmp_path):
     arguments = [{"x": x, "mark": str(tmp_path / "mark")} for x in range(3)]
-    rows = batch(batch_functions.dies_once, arguments, tmp_path, workers=1)
+    rows = batch(batch_functions.dies_once, arguments, tmp_path)
     assert [row["x"] for row in rows] == list(range(3))
 
 
 def test_a_run_over_its_time_limit_is_stopped(tmp_path):
     arguments = [{"seconds": s} for s in (0.0, 60.0, 0.01)]
     start = time.monotonic()
-    rows = batch(batch_functions.sleeps, arguments, tmp_path, time_limit=0.5, workers=1)
+    rows = batch(batch_functions.sleeps, arguments, tmp_path, time_limit=0.5)
     assert time.monotonic() - start < 20.0
     assert [row["status"] for row in rows] == ["completed", "time limit", "completed"]
     assert rows[1]["reason"] == "stopped after 0.5 s"

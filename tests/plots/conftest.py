@@ -3,6 +3,7 @@
 import dataclasses
 
 import pytest
+from on_demand import OnDemand
 
 from exu_press import Result, Scene, simulate
 
@@ -24,14 +25,19 @@ SCENES = {
 }
 
 
+STOPPED = {"stopped": ("lubricated", 200), "stopped at once": ("dry", 1)}
+"""Run that an interruption cuts -> the whole run, and the number of instants that are left."""
+
+
 @pytest.fixture(scope="session")
 def results() -> dict[str, Result]:
-    runs = {
-        label: simulate(Scene(**{"revolutions": 0.3, "solver": {"step": 2e-4}} | scene))
-        for label, scene in SCENES.items()
-    }
-    runs["stopped"] = cut(runs["lubricated"], 200)
-    runs["stopped at once"] = cut(runs["dry"], 1)
+    def run(label):
+        if label in STOPPED:
+            whole, count = STOPPED[label]
+            return cut(runs[whole], count)
+        return simulate(Scene(**{"revolutions": 0.3, "solver": {"step": 2e-4}} | SCENES[label]))
+
+    runs = OnDemand(run)
     return runs
 
 

@@ -32,9 +32,12 @@ def test_every_damage_is_one():
     assert all(attack_files.damage(draw, content) != content for draw in seeds)
 
 
+MORE = {"results": 1, "step": 4}
+
+
 @pytest.mark.parametrize(
     ("kind", "count"),
-    [("scenes", 2), ("results", 1), pytest.param("step", 4, marks=pytest.mark.long)],
+    [("scenes", 2), *(pytest.param(k, n, marks=pytest.mark.long) for k, n in MORE.items())],
 )
 def test_a_few_inputs_end_without_a_fault(kind, count, capsys):
     counts = {"scenes": 0, "results": 0, "step": 0, kind: count}

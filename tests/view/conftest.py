@@ -3,6 +3,7 @@
 import pytest
 from coarse_parts import COARSE
 from matplotlib.figure import Figure
+from on_demand import OnDemand
 
 from exu_press import Result, Scene, simulate
 from exu_press.view import Animation
@@ -25,9 +26,12 @@ SCENES = {
 def runs(tmp_path_factory) -> dict[str, Result]:
     """Results as a file gives them back: nothing else is there to draw from."""
     folder = tmp_path_factory.mktemp("runs")
-    for name, scene in SCENES.items():
-        simulate(Scene(**scene)).save(folder / f"{name}.nc")
-    return {name: Result.load(folder / f"{name}.nc") for name in SCENES}
+
+    def run_of_file(name):
+        simulate(Scene(**SCENES[name])).save(folder / f"{name}.nc")
+        return Result.load(folder / f"{name}.nc")
+
+    return OnDemand(run_of_file)
 
 
 @pytest.fixture

@@ -7,7 +7,6 @@ import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import SensorNode
 
-from exu_press.errors import InputError
 from exu_press.integrate.modal_mass import follow_modes
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.joints.states import States
@@ -18,7 +17,7 @@ from exu_press.model.drive import (
     add_gear,
     crank_angle_of,
 )
-from exu_press.model.guides import add_guide
+from exu_press.model.guides import add_guide, add_guide_friction
 from exu_press.model.ideal_joints import add_ideal_joint
 from exu_press.model.model import Model, count_items
 from exu_press.model.system import System
@@ -28,7 +27,6 @@ from exu_press.scene.joint import oil_of
 from exu_press.schema.table import plain
 
 if TYPE_CHECKING:
-    from exu_press.joints.guide_friction import GuideFriction
     from exu_press.model.flexible_body import FrameStart
     from exu_press.model.loads import ActingLoad
     from exu_press.model.placed_part import PlacedPart
@@ -110,7 +108,7 @@ def _assemble(
         for spring in mechanism.springs:
             add_spring(system, spring)
     guideways = _guideways(system)
-    friction = _guide_friction(system)
+    friction = add_guide_friction(system)
     crank_angle = crank_angle_of(system)
     start_stop: StartStop | None = None
     stall: Stall | None = None
@@ -183,34 +181,6 @@ def _guideways(system: System) -> dict[str, tuple[ClearanceJoint, ...]]:
     from exu_press.model.guideways import add_guideways
 
     return {g.name: add_guideways(system, g, guideway) for g, guideway in guides if guideway}
-
-
-def _guide_friction(system: System) -> dict[str, "GuideFriction"]:
-    """Add the friction of guides without clearance; return it by their names."""
-    rubbing = [
-        guide
-        for guide in system.mechanism.guides
-        if guide.name in system.scene.guides
-        and system.scene.guides[guide.name].rubs
-        and guide.guideway is None
-    ]
-    if not rubbing:
-        return {}
-    for guide in rubbing:
-        if guide.key in system.constraints.undetermined:
-            path = system.scene.guide_key(guide.name, "friction")
-            raise InputError(
-                f"{path}: the force of {guide.key}, which decides it, is not determined "
-                "beside gears and ideal joints; allowed is friction in a guide with stiffness or "
-                "clearance"
-            )
-    from exu_press.model.guide_friction import add_guide_friction
-
-    return {
-        guide.name: add_guide_friction(system, guide)
-        for guide in rubbing
-        if guide.lateral or (guide.key, "force") in system.forces
-    }
 
 
 def _warm_films(

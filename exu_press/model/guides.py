@@ -1,4 +1,4 @@
-"""The guides of a system without clearance: constraints where they are ideal, or springs."""
+"""The guides of a system without clearance: constraints or springs, and friction."""
 
 import math
 from typing import TYPE_CHECKING
@@ -15,15 +15,17 @@ from exudyn.itemInterface import (
     VObjectGenericODE2,
 )
 
+from exu_press.errors import InputError
 from exu_press.mechanism import GROUND, Body, Guide, Spring
 from exu_press.model.ideal_joints import hold_direction
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
 
 if TYPE_CHECKING:
+    from exu_press.joints.guide_friction import GuideFriction
     from exu_press.joints.guide_line import TurningLine
 
-__all__ = ["add_guide", "turning_line"]
+__all__ = ["add_guide", "add_guide_friction"]
 
 
 def add_guide(system: System, guide: Guide) -> None:
@@ -138,7 +140,7 @@ def _add_lateral_spring(system: System, guide: Guide, spring: Spring) -> None:
     system.record(guide.key, "force", number, exu.OutputVariableType.ForceLocal)
 
 
-def turning_line(system: System, guide: Guide) -> "TurningLine":
+def _turning_line(system: System, guide: Guide) -> "TurningLine":
     """Return the line of a guide on a moving body, by the coordinates of both."""
     from exu_press.joints.guide_line import TurningLine  # few scenes have one
 
@@ -161,8 +163,63 @@ def _add_springs_on_body(system: System, guide: Guide, lateral: Spring, tilting:
     GuideSprings(
         system.mbs,
         [system.rigid[name].node for name in system.in_guide(guide)],
-        turning_line(system, guide),
+        _turning_line(system, guide),
         (lateral.stiffness, lateral.damping),
         (tilting.stiffness, tilting.damping),
         mechanism.body(guide.body).angle - mechanism.body(guide.on).angle,
     )
+
+
+def add_guide_friction(system: System) -> dict[str, "GuideFriction"]:
+    """Add the friction of guides without clearance; return it by their names."""
+    rubbing = [
+        guide
+        for guide in system.mechanism.guides
+        if guide.name in system.scene.guides
+        and system.scene.guides[guide.name].rubs
+        and guide.guideway is None
+    ]
+    for guide in rubbing:
+        if guide.key in system.constraints.undetermined:
+            path = system.scene.guide_key(guide.name, "friction")
+            raise InputError(
+                f"{path}: the force of {guide.key}, which decides it, is not determined "
+                "beside gears and ideal joints; allowed is friction in a guide with stiffness or "
+                "clearance"
+            )
+    return {
+        guide.name: _guide_friction(system, guide)
+        for guide in rubbing
+        if guide.lateral or (guide.key, "force") in system.forces
+    }
+
+
+def _guide_friction(system: System, guide: Guide) -> "GuideFriction":
+    """Add the friction of a guide without clearance, which is in the system."""
+    from exu_press.joints.guide_friction import GuideFriction, HeldSide, SideForce, SpringSide
+    from exu_press.joints.guide_line import FixedLine, GuideLine
+
+    mbs = system.mbs
+    line: GuideLine
+    normal = np.array(guide.normal)
+    if not guide.is_rail:
+        nodes = [system.rigid[name].node for name in system.in_guide(guide)]
+        line = _turning_line(system, guide)
+    elif guide.body in system.flexible:
+        from exu_press.model.flexible_body import guided_motion
+
+        body = system.flexible[guide.body]
+        values, rows = guided_motion(system, guide.body)
+        missed = float(normal @ (values - system.ideal[guide.body].position[0])[:2])
+        nodes = body.nodes
+        line = FixedLine(np.array(guide.direction) @ rows[:2], normal @ rows[:2], missed)
+    else:
+        nodes = [system.rigid[guide.body].node]
+        line = FixedLine(np.array([*guide.direction, 0.0]), np.array([*normal, 0.0]))
+    side: SideForce
+    if guide.lateral is None:
+        side = HeldSide(mbs, system.forces[guide.key, "force"])
+    else:
+        side = SpringSide(guide.lateral.stiffness, guide.lateral.damping, line)
+    law = system.scene.guides[guide.name].friction_table(system.scene.friction or {}).friction()
+    return GuideFriction(mbs, nodes, line, side, law)

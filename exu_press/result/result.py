@@ -20,7 +20,7 @@ from exu_press.scene.joint import DryJoint, Joint, LubricatedJoint, unworn
 from exu_press.schema.checks import nearest
 
 if TYPE_CHECKING:
-    from exu_press.result.samples import Samples
+    from exu_press.result.output import Samples
 
 __all__ = ["Result"]
 
@@ -123,7 +123,7 @@ class Result(Contents):
         Raises:
             InputError: the scene asks for none.
         """
-        from exu_press.result.samples import samples_of
+        from exu_press.result.output import samples_of
 
         return samples_of(self.scene, self.sampled or self.channels)
 
@@ -218,8 +218,8 @@ class Result(Contents):
 
         An existing one is replaced only when complete.
         """
-        from exu_press.result.decimation import decimated_copy
         from exu_press.result.netcdf import write
+        from exu_press.result.output import decimated_copy
 
         output, run = self.scene.output, self
         if output is not None and not output.whole and "figures" not in self.info:

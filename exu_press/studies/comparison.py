@@ -24,8 +24,7 @@ from exu_press.result import Result
 from exu_press.schema.csv_table import Value as CsvValue
 from exu_press.studies.compare import different_keys
 from exu_press.studies.equal_windows import with_equal_windows
-from exu_press.terminal.columns import columns
-from exu_press.terminal.narrow import Notes
+from exu_press.terminal.columns import Notes, columns
 
 __all__ = ["Comparison", "compare_results"]
 

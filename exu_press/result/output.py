@@ -1,7 +1,9 @@
-"""The record of a run at given crank angles of every revolution."""
+"""What a scene's [output] asks of a run: its samples at crank angles, and what its file keeps."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import dataclasses
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,10 +11,14 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
-from exu_press.result.channels import read_rows
+from exu_press.result.channels import channel_headers, read_rows
+from exu_press.result.contents import Contents
+from exu_press.result.info import Figures, Info
 from exu_press.scene import Scene
 
-__all__ = ["Samples", "samples_of"]
+__all__ = ["Samples", "decimated_copy", "samples_of"]
+
+Kind = TypeVar("Kind", bound=Contents)
 
 NEAR = 1e-3
 """Largest twist of a flexible crank whose drive is at a sampled angle, rad."""
@@ -78,3 +84,41 @@ def samples_of(scene: Scene, channels: Mapping[str, Channel]) -> Samples:
     angles = np.array(scene.output.samples)
     revolution = np.floor(requested / (2.0 * np.pi) + 1e-9).astype(int)
     return Samples(revolution[is_sampled], angles[number[is_sampled]], rows[is_sampled], channels)
+
+
+def decimated_copy(run: Kind, samples: NDArray[np.intp], summary: Mapping[str, Any]) -> Kind:
+    """Return a run with the channels and steps that its scene's [output] keeps.
+
+    The last step is one of them. Quantities, strokes and warnings of the summary are in
+    `info["figures"]`; every channel at the samples, where there are any, in `sampled`.
+
+    Raises:
+        InputError: [output] names a channel that the run does not have.
+    """
+    output = run.scene.output
+    assert output is not None
+    names = output.kept_channels(run.channels)
+    count = len(run.channels["time"].values)
+    rows = np.append(np.arange(0, count - 1, output.every), count - 1)
+
+    def read(rows: NDArray[np.intp], names: Iterable[str]) -> dict[str, Channel]:
+        headers = channel_headers(run.channels)
+        return {n: replace(headers[n], values=read_rows(run.channels, n, rows)) for n in names}
+
+    quantities = {name: entry["value"] for name, entry in summary["quantities"].items()}
+    figures: Figures = {
+        "quantities": quantities,
+        "strokes": summary["strokes"],
+        "read_from": summary["read_from"],
+        "warnings": summary["warnings"],
+    }
+    info: Info = {**run.info, "figures": figures}
+    return dataclasses.replace(
+        run,
+        channels=read(rows, names),
+        surfaces={
+            body: surface for body, surface in run.surfaces.items() if f"{body}_modes" in names
+        },
+        sampled=read(samples, run.channels if len(samples) else ()),
+        info=info,
+    )

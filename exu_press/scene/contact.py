@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError, error_prefix
+from exu_press.errors import InputError
 from exu_press.laws.contact.damping import DAMPING_LAWS, NormalContact
 from exu_press.laws.contact.stiffness import Stiffness, cylindrical, hertz, hertz_stiffness
 from exu_press.schema.checks import key
@@ -252,10 +252,9 @@ class Contact(Table):
                 around its bearing: above that of the penetration of a lasting contact, and below
                 that of impacts.
         """
-        with error_prefix("contact."):
-            return self.damping.normal_contact(
-                stiffness, tension=self.tension, usual_slowest=crank_speed * clearance
-            )
+        return self.damping.normal_contact(
+            stiffness, tension=self.tension, usual_slowest=crank_speed * clearance
+        )
 
 
 def _tension() -> Any:

@@ -5,7 +5,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError, error_prefix
+from exu_press.errors import InputError
 from exu_press.laws.film.asperities import with_asperities
 from exu_press.laws.film.ball import BallFilm as BallLaw
 from exu_press.laws.film.ball import ball
@@ -214,7 +214,7 @@ class Film(AlignedAmbientFilm, Table):
         gap = self.contact_gap
         if gap is not None and gap >= clearance:
             raise InputError(
-                f"film.roughness * film.asperity_onset = {gap:g}: allowed is a number < "
+                f"roughness * film.asperity_onset = {gap:g}: allowed is a number < "
                 f"clearance = {clearance:g}"
             )
         return None if gap is None else gap / clearance
@@ -243,8 +243,7 @@ class JournalFilm(Film):
     def film_law(self, radius: float, clearance: float) -> JournalLaw:
         """Return the law of a journal of a radius and a clearance, m, also beyond contact."""
         gap_ratio = self.contact_gap_ratio(clearance)
-        with error_prefix("film."):
-            return self.law.law_of_size(self.length, radius, clearance, gap_ratio)
+        return self.law.law_of_size(self.length, radius, clearance, gap_ratio)
 
     def side_flow(self, radius: float) -> SideFlow:
         """Return the flow of oil out of its ends, of a journal of a radius, m."""
@@ -310,8 +309,7 @@ class BallFilm(Film):
     def ball_film(self, clearance: float) -> BallLaw:
         """Return the film of a ball with a clearance, m."""
         gap_ratio = self.contact_gap_ratio(clearance)
-        with error_prefix("film."):
-            return ball(math.radians(self.socket_angle_deg), gap_ratio)
+        return ball(math.radians(self.socket_angle_deg), gap_ratio)
 
     def film_law(self, radius: float, clearance: float) -> JournalLaw:
         """Return its law in a plane through its centre; arguments as those of `JournalFilm`."""

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError, error_prefix
+from exu_press.errors import InputError
 from exu_press.laws.friction import Friction as LawOfFriction
 from exu_press.laws.friction import LuGre as Bristle
 from exu_press.laws.friction import coulomb, lugre_steady, no_friction, stribeck
@@ -148,8 +148,7 @@ class Friction(Table):
 
     def friction(self) -> LawOfFriction | Bristle:
         """Return the law of one joint."""
-        with error_prefix("friction."):
-            return self.law.friction()
+        return self.law.friction()
 
 
 def demand_static_friction(table: str, mu_static: float, mu_kinetic: float) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, error_prefix
 from exu_press.laws.film.plane_pad import WIDTHS
 from exu_press.scene.contact import GuideContact
 from exu_press.scene.friction import (
@@ -276,6 +276,23 @@ class ElasticGuide(Table):
     def contact(self, keys: Mapping[str, Any]) -> GuideContact | None:
         """Return the contact with the guideways, from the keys of [contact], or None."""
         return None if self.guideways is None else resolve(GuideContact, "contact", keys)
+
+    def check_laws(self, contact: Mapping[str, Any], friction: Mapping[str, Any]) -> None:
+        """Make every law once, so that values outside its range are refused before a run.
+
+        Args:
+            contact, friction: keys of these tables.
+        """
+        guideways, table = self.guideways, self.contact(contact)
+        if guideways is not None and table is not None and table.damping.resolved:
+            from exu_press.laws.contact import hertz
+
+            with error_prefix("contact."):
+                elastic = hertz(guideways.lateral_stiffness, 1.0)
+                table.normal_contact(elastic, guideways.clearance, 1.0)
+        if self.rubs and self.friction.resolved:
+            with error_prefix("friction."):
+                self.friction_table(friction).friction()
 
     def friction_table(self, keys: Mapping[str, Any]) -> Friction:
         """Return the law of friction; keys that [guide] lacks are those of [friction]."""

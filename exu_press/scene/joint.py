@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, cast
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, error_prefix
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind
 from exu_press.schema.registry import Registry
@@ -143,9 +143,11 @@ class TouchingJoint(Joint):
 
     def check_laws(self) -> None:
         """Make every law once, so that values outside its range are refused before a run."""
-        self.normal_contact(1.0)
+        with error_prefix("contact."):
+            self.normal_contact(1.0)
         if self.friction is not None:
-            self.friction.friction()
+            with error_prefix("friction."):
+                self.friction.friction()
 
     @property
     def film_length(self) -> float | None:
@@ -195,7 +197,8 @@ class LubricatedJoint(TouchingJoint):
     def check_laws(self) -> None:
         """Make every law once, so that values outside its range are refused before a run."""
         super().check_laws()
-        self.film_law()
+        with error_prefix("film."):
+            self.film_law()
         self.film.check_cooling()
 
     def film_law(self) -> "FilmLaw":

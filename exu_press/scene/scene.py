@@ -240,6 +240,7 @@ class Scene(Table):
             if (contact := guide.contact(laws.keys_of("contact"))) is not None:
                 path = self.guide_key(name, "clearance")
                 demand_keys(path, contact, (), "contact", "[contact]")
+            guide.check_laws(*(laws.keys_of(law) for law in ("contact", "friction")))
 
     def guide_key(self, guide: str, key: str) -> str:
         """Return the dotted name of a key of a guide, which is [guide]'s or its own."""

@@ -11,7 +11,6 @@ from exu_press.errors import InputError
 from exu_press.files.command import command_line
 from exu_press.files.digests import file_digest, files_read, locate
 from exu_press.scene.scene import Scene
-from exu_press.schema.kinds import kind_modules
 
 __all__ = ["Provenance", "changed_inputs", "files_in", "provenance_of", "rows_of"]
 
@@ -45,7 +44,7 @@ def provenance_of(scene: Scene | None = None) -> Provenance:
     if scene is not None:
         data = scene.to_dict()
         files = {**scene.files, **{path: file_digest(path) for path in files_in(data)}}
-        code = _code_digests(data)
+        code = _code_digests(scene)
     return {
         "date": datetime.now(UTC).astimezone().isoformat(timespec="seconds"),
         "command": command_line(),
@@ -76,7 +75,7 @@ def changed_inputs(provenance: Provenance, scene: Scene) -> dict[str, str]:
             now[name] = file_digest(locate(name))
         except InputError:
             now[name] = None
-    code = _code_digests(scene.to_dict())
+    code = _code_digests(scene)
     stored = {**provenance["files"], **provenance["code"]}
     present = {**dict.fromkeys(stored), **now, **code}
     return {
@@ -102,9 +101,9 @@ def files_in(data: Any) -> Iterator[str]:
         yield data
 
 
-def _code_digests(data: dict[str, Any]) -> dict[str, str]:
+def _code_digests(scene: Scene) -> dict[str, str]:
     """Return the digests of the user's sources that a scene's kinds come from."""
-    modules = kind_modules(data)
+    modules = {kind.module for _, kind in scene.kinds()} - {""}
     if not modules:
         return {}
     from exu_press.files.sources import users_files  # parses them

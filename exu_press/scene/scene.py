@@ -30,7 +30,7 @@ from exu_press.scene.joints import Joints, joints_of
 from exu_press.scene.solver import RPM, Solver
 from exu_press.scene.usage import LAWS, TABLES, LawKeys
 from exu_press.schema.checks import key
-from exu_press.schema.kinds import import_kinds, refusal, with_unresolved
+from exu_press.schema.kinds import CustomKind, import_kinds, refusal, with_unresolved
 from exu_press.schema.table import Table, demand_keys, given_names, plain, plain_value, table_from
 
 __all__ = ["STARTS", "Scene", "mechanism_of"]
@@ -513,25 +513,23 @@ class Scene(Table):
     @property
     def has_unresolved_kinds(self) -> bool:
         """Whether a kind is code that is not loaded: the scene can be shown, and not built."""
-        return any(self._unresolved_kinds())
+        return any(not kind.resolved for _, kind in self.kinds())
 
     def require_code(self) -> None:
         """Raise InputError for a kind whose code is not loaded."""
-        for name, kind in self._unresolved_kinds():
-            raise InputError(f"{name} = {kind!r}: {refusal(kind)}")
+        for name, kind in self.kinds():
+            if not kind.resolved:
+                raise InputError(f"{name} = {kind.kind!r}: {refusal(kind.kind)}")
 
-    def _unresolved_kinds(self) -> Iterator[tuple[str, str]]:
-        """Yield key and name of each kind whose code is not loaded."""
+    def kinds(self) -> Iterator[tuple[str, CustomKind]]:
+        """Yield the joints, loads and laws, by the keys that name their kinds."""
         for name, joint in self.joints.items():
-            for path, kind in joint.kinds().items():
-                if not kind.resolved:
-                    yield f"joints.{name}.{path}", kind.kind
-        for name, load in self.load.items():
-            if not load.resolved:
-                yield f"load.{name}.kind", load.kind
+            yield from ((f"joints.{name}.{path}", kind) for path, kind in joint.kinds().items())
+        yield from ((f"load.{name}.kind", load) for name, load in self.load.items())
         for name, guide in self.guides.items():
-            if not guide.friction.resolved:
-                yield self.guide_key(name, "friction"), guide.friction.kind
+            yield self.guide_key(name, "friction"), guide.friction
+            if (contact := guide.contact(self.contact or {})) is not None:
+                yield "contact.damping", contact.damping
 
     @property
     def shipped_name(self) -> str:

@@ -22,7 +22,6 @@ __all__ = [
     "describe_own_error",
     "import_kinds",
     "is_loaded",
-    "kind_modules",
     "kind_name",
     "loaded_kinds",
     "refusal",
@@ -75,6 +74,14 @@ class CustomKind:
     def kind(self) -> str:
         """Name of the class, as a scene has it."""
         return kind_name(type(self))
+
+    @property
+    def module(self) -> str:
+        """Module of a user's or another distribution's code that it is of; "" of ours."""
+        if not self.resolved:  # its name may have the module
+            module, colon, _ = self.kind.partition(":")
+            return module if colon else ""
+        return "" if _is_ours(type(self)) else type(self).__module__
 
 
 Kind = TypeVar("Kind", bound=CustomKind)
@@ -212,20 +219,6 @@ def custom_modules(data: Mapping[str, Any]) -> tuple[str, ...]:
             )
         modules.add(kind.__module__)
     return tuple(sorted(modules))
-
-
-def kind_modules(data: Mapping[str, Any]) -> set[str]:
-    """Return the modules of the kinds of users and other distributions that a scene's or a study's
-    data name; none is imported.
-    """
-    modules = set()
-    for _, name in _kinds_in(data):
-        module, colon, _ = name.partition(":")
-        if colon:
-            modules.add(module)
-        elif (kind := _loaded_kind(name, CustomKind)) is not None:  # a registered one
-            modules.add(kind.__module__)
-    return modules
 
 
 def kind_name(kind: type[CustomKind]) -> str:

@@ -9,7 +9,6 @@ from exu_press.laws.contact import delivered_restitution, hertz
 from exu_press.quantities.units import unit_of
 from exu_press.scene import mechanism_of
 from exu_press.scene.assumptions import assumed_values
-from exu_press.schema.kinds import kind_modules
 
 IDEAL = {"mechanism": "slider_crank", "joints": {}}
 LOOSE = {"clearance": 2e-5, "length": 0.3}
@@ -98,7 +97,6 @@ def test_a_guides_own_table_has_its_keys_over_those_of_all(tmp_path):
     assert Scene.load(tmp_path / "scene.toml") == scene
     assert pickle.loads(pickle.dumps(scene)).guides == scene.guides
     assert unit_of("guide.plunger_left.clearance") == "m"
-    assert kind_modules({"guide": {"slide": {"friction": "laws:Own"}}}) == {"laws"}
 
 
 def test_own_tables_are_changed_as_other_keys(tmp_path):

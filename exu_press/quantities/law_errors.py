@@ -23,7 +23,7 @@ __all__ = [
 def _relative_film_error(scene: Scene, joint: str) -> float:
     """Return the relative error of a joint's film, 0.0 without one, or of a closed form."""
     film = scene.joints[joint].film
-    return 0.0 if film is None else film.error
+    return 0.0 if film is None else film.law.errors[0]
 
 
 def film_error(scene: Scene, joint: str, value: float) -> float:
@@ -50,7 +50,7 @@ def guide_film_error(scene: Scene, guide: str, value: float) -> float:
 
 def _relative_flow_error(scene: Scene, joint: str) -> float:
     film = scene.joints[joint].film
-    return 0.0 if film is None else film.flow_error
+    return 0.0 if film is None else film.law.errors[1]
 
 
 def _relative_heat_error(scene: Scene, joint: str) -> float:

@@ -102,7 +102,7 @@ def run_warnings(run: Reading) -> list[str]:
     for name, joint in run.result.joints.items():
         if joint.kind == "lubricated":
             film = scene.joints[name].film
-            inclined = film is not None and film.inclination > 0.0
+            inclined = film is not None and film.law.inclination > 0.0
             nearest = joint.clearance - joint.gap if inclined else joint.distance
             ratio = float(nearest.max() / joint.clearance)
             if ratio > NEARLY_TOUCHING:

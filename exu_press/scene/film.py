@@ -38,7 +38,17 @@ AT_CONTACT = Registry({"stop": "scene.film:StopAtContact", "mixed": "scene.film:
 
 
 class AlignedAmbientFilm:
-    """A film whose oil has ambient pressure, of a journal that is not inclined."""
+    """A law of a film whose oil has ambient pressure, of a journal that is not inclined."""
+
+    error: ClassVar[float] = 0.0
+    """Relative, of its forces, where they are a table's: 95 % of states are within."""
+    flow_error: ClassVar[float] = 0.0
+    """The same of the side flow."""
+
+    @property
+    def errors(self) -> tuple[float, float]:
+        """Relative errors of its forces and of its side flow."""
+        return self.error, self.flow_error
 
     @property
     def inclination(self) -> float:
@@ -67,17 +77,8 @@ class FilmLaw(CustomKind, AlignedAmbientFilm, Table, ABC):
     table: ClassVar[str] = "film"
     length_to_diameter: ClassVar[tuple[float, float]] = (0.0, math.inf)
     """L/D that it is meant for."""
-    error: ClassVar[float] = 0.0
-    """Relative, of its forces, where they are a table's: 95 % of states are within."""
-    flow_error: ClassVar[float] = 0.0
-    """The same of the side flow."""
     flows_out: ClassVar[bool] = False
     """Whether oil flows out at the ends."""
-
-    @property
-    def errors(self) -> tuple[float, float]:
-        """Relative errors of its forces and of its side flow."""
-        return self.error, self.flow_error
 
     @abstractmethod
     def film(self, length_to_diameter: float) -> JournalLaw:
@@ -103,6 +104,12 @@ class FilmLaw(CustomKind, AlignedAmbientFilm, Table, ABC):
         """Return whether L/D lies in the range that the law is meant for."""
         low, high = self.length_to_diameter
         return low <= length_to_diameter <= high
+
+
+class LawOfBalls(AlignedAmbientFilm):
+    """What is to be known of the law of `exu_press.laws.film.ball`."""
+
+    error = 5e-3
 
 
 class _LibraryFilm(FilmLaw):
@@ -183,11 +190,12 @@ class MixedFilm(CustomKind, Table):
         return self.roughness * self.asperity_onset
 
 
-class Film(AlignedAmbientFilm, Table):
+class Film(Table):
     """Film of a lubricated joint."""
 
     table: ClassVar[str] = "film"
     exclusive: ClassVar[tuple[tuple[str, str], ...]] = (("viscosity", "oil"),)
+    law: Any
     length: Any
     viscosity: float
     at_contact: StopAtContact | MixedFilm
@@ -247,22 +255,7 @@ class JournalFilm(Film):
 
     def side_flow(self, radius: float) -> SideFlow:
         """Return the flow of oil out of its ends, of a journal of a radius, m."""
-        return self.law.side_flow(self._ratio(radius))
-
-    @property
-    def inclination(self) -> float:
-        """Angle between the axes of journal and bearing, rad."""
-        return self.law.inclination
-
-    @property
-    def supply_pressure(self) -> float:
-        """Largest pressure at which oil is supplied, Pa above ambient."""
-        return self.law.supply_pressure
-
-    @property
-    def ring_pressure(self) -> float:
-        """Pressure of oil in a groove all around, Pa above ambient."""
-        return self.law.ring_pressure
+        return self.law.side_flow(self.length / (2.0 * radius))
 
     def check_cooling(self) -> None:
         """Raise InputError for an oil that warms, and of which nothing carries the heat off."""
@@ -273,27 +266,13 @@ class JournalFilm(Film):
                 "'finite'"
             )
 
-    def _ratio(self, radius: float) -> float:
-        return self.length / (2.0 * radius)
-
-    @property
-    def error(self) -> float:
-        """Relative error of its forces, where they are a table's."""
-        return self.law.errors[0]
-
-    @property
-    def flow_error(self) -> float:
-        """Relative error of its side flow, where that is a table's."""
-        return self.law.errors[1]
-
 
 @dataclass(frozen=True)
 class BallFilm(Film):
     """Film of a ball in its socket."""
 
     length = None
-    error: ClassVar[float] = 5e-3
-    flow_error: ClassVar[float] = 0.0
+    law = LawOfBalls()
     viscosity: float = _viscosity()
     socket_angle_deg: float = key(
         90.0,

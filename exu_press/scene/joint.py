@@ -227,12 +227,12 @@ def has_even_gap(joint: Joint) -> bool:
 
     That of worn surfaces and of an inclined journal is another.
     """
-    return joint.worn is None and (joint.film is None or not joint.film.inclination)
+    return joint.worn is None and (joint.film is None or not joint.film.law.inclination)
 
 
 def is_fed(joint: Joint) -> bool:
     """Return whether a pump feeds its film, however little."""
-    return joint.film is not None and joint.film.supply_pressure > 0.0
+    return joint.film is not None and joint.film.law.supply_pressure > 0.0
 
 
 def oil_of(joint: Joint) -> "Oil | None":

@@ -282,7 +282,7 @@ def _film_law(scene: Scene) -> Iterator[str]:
 def _supply(scene: Scene) -> Iterator[str]:
     """Yield pressures in grooves all around beside which the film's force is not exact."""
     for table, joint in _films(scene):
-        pressure = joint.film.ring_pressure
+        pressure = joint.film.law.ring_pressure
         slenderness = joint.radius / joint.clearance
         of_rotation = 12.0 * joint.film.cold_viscosity * slenderness**2 * scene.angular_speed
         if pressure > LARGEST_SUPPLY * of_rotation:

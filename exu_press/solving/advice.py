@@ -67,7 +67,7 @@ class SceneAdvice(Advice):
     def film(self) -> str:
         """Return the cure of a film that broke down."""
         inclined = any(
-            joint.film is not None and joint.film.inclination
+            joint.film is not None and joint.film.law.inclination
             for joint in self._scene.joints.values()
         )
         first = "a smaller film.tilt" if inclined else "film.at_contact = 'mixed'"

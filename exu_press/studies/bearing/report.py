@@ -54,7 +54,7 @@ class BearingReport(Report):
     def subtitle(self) -> str:
         """The bearing's sizes and law."""
         kind, film = journal_joint(self.study.scene, self.study.joint)
-        tilt = film.inclination
+        tilt = film.law.inclination
         inclined = f", tilt {1e3 * tilt:g} mrad" if tilt else ""
         return (
             f"film.law = {film.law.kind!r}, length {1e3 * film.length:g} mm, radius "

@@ -1,8 +1,7 @@
 """Compile joints and laws with mypyc: the same sources, two to four times as fast.
 
 EXU_PRESS_COMPILE=1 demands it, 0 forbids it. By default an ordinary install does it where there is
-a C compiler and stays in Python where that fails; an editable one stays in Python, whose sources
-could be edited beside what was compiled from them.
+a C compiler and stays in Python where that fails; `build_backend.is_compiled` decides.
 
 Every module is a C file of its own; they are compiled side by side, without debug information and
 with -O1: with -O3, which takes half as long again, runs are no faster.
@@ -10,16 +9,15 @@ with -O1: with -O3, which takes half as long again, runs are no faster.
 
 import gc
 import os
-import shlex
-import shutil
 import sys
-import sysconfig
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 from setuptools import setup
 from setuptools.command.build_ext import build_ext
+
+from build_backend import is_compiled
 
 MODULES = [
     "integrate/constraints",
@@ -81,16 +79,11 @@ NDArray = Any | T
 all else, and an array is an object in C, whatever is in it."""
 
 ASKED = os.environ.get("EXU_PRESS_COMPILE", "")
-COMPILER = shlex.split(sysconfig.get_config_var("CC") or "cc")[0]
 
 
 def wanted() -> bool:
     """Return whether to compile."""
-    if ASKED not in ("", "0", "1"):
-        sys.exit(f"EXU_PRESS_COMPILE = {ASKED!r}: allowed are 0 and 1")
-    if ASKED:
-        return ASKED == "1"
-    return "editable_wheel" not in sys.argv and shutil.which(COMPILER) is not None
+    return is_compiled(editable="editable_wheel" in sys.argv)
 
 
 class BuildCompiled(build_ext):
@@ -164,7 +157,6 @@ def extensions() -> list:
 
 
 setup(
-    setup_requires=["mypy>=1.15,<3"] if wanted() else [],
     ext_modules=extensions() if wanted() else [],
     cmdclass={"build_ext": BuildCompiled},
 )

@@ -31,7 +31,9 @@ def test_help_is_all_that_help_does(script, tmp_path, monkeypatch, capsys):
     ("script", "options", "named"),
     [
         ("precision", ["--case", "nothing"], "--case nothing"),
-        ("stability", ["--axis", "nothing"], "--axis nothing"),
+        pytest.param(  # 200 scenes are made before
+            "stability", ["--axis", "nothing"], "--axis nothing", marks=pytest.mark.long
+        ),
         ("stability", ["--workers", "0"], "workers = 0"),
         ("paper", ["--workers", "0"], "workers = 0"),
         ("paper", ["--out", "/dev/null/paper"], "/dev/null/paper"),

@@ -93,7 +93,8 @@ class Constraints:
     def violations(self, *, velocities: bool = False) -> Array:
         """Return by how much each is violated in the current state; or the rate, if it has one."""
         self._solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=velocities)
-        return np.array(self._solver.GetSystemResidual())[-self.count :]
+        residual = np.array(self._solver.GetSystemResidual())
+        return residual[len(residual) - self.count :]
 
     def refusal(self) -> str:
         """Return which constraint the start is too far off, by how much and the cure, or nothing.

@@ -94,10 +94,8 @@ class FlexibleJacobian:
         """Give the solver its Jacobian in the current state; return that this went well."""
         size = solver.GetODE2size()
         if self._bodies is None:
-            self._bodies, self._factors = (
-                self._partial_derivatives(solver, mbs, settings),
-                (0.0, 0.0),
-            )
+            self._bodies = self._partial_derivatives(solver, mbs, settings)
+            self._factors = 0.0, 0.0
             self._jacobian = np.zeros((size + solver.GetAEsize(),) * 2)
         step, jacobian = solver.it.currentStepSize, self._jacobian
         self._step = step

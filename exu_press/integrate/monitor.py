@@ -193,9 +193,10 @@ class Monitor:
             self._time = end
             self.control.accept(step, at_event=self._event.passed)
             self._event.accept()
-            self._predictor.accept(step)
+            accelerations = self._accelerations.tolist()
+            self._predictor.accept(step, accelerations)
             if self.resolution is not None:
-                self.resolution.accept(end, step, self._accelerations.tolist())
+                self.resolution.accept(end, step, accelerations)
         self.stalled = self._watch(end)
         go_on, impact = self._functions.call_after_step(end)
         self.go_on = self.go_on and go_on

@@ -3,6 +3,7 @@
 import exudyn as exu
 import numpy as np
 
+from exu_press.integrate.constraints import Constraints
 from exu_press.integrate.task import Task, inertia_factor
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.linear import Equations
@@ -20,7 +21,7 @@ class NewtonFilter:
 
     def __init__(self, task: Task) -> None:
         """Take a task."""
-        self._solver, self._scales, self._mbs = task.solver, task.scales, task.system.mbs
+        self._solver, self._scales, self._constraints = task.solver, task.scales, Constraints(task)
         self._rounding, self._data = task.tuning.rounding, task.system.data
         self._positions = task.system.current.positions
         self._size = len(self._positions)
@@ -51,8 +52,8 @@ class NewtonFilter:
         """
         self.refresh()
         if self._roundoff < 0.0:
-            size, count = len(self._jacobian), self._solver.GetAEsize()
-            inexact = self._rounding * self._scales.length + self._violations_at_start(count)
+            size, count = len(self._jacobian), self._constraints.count
+            inexact = self._rounding * self._scales.length + self._violations_at_start()
             try:
                 of_constraints = np.eye(size, count, count - size)
                 moved = np.abs(self._equations.solve(of_constraints)[: self._size]) @ inexact
@@ -62,16 +63,15 @@ class NewtonFilter:
                 self._roundoff = self._scales.norm(moved.tolist())
         return self._roundoff
 
-    def _violations_at_start(self, count: int) -> Array:
-        """Return by how much the step before left each constraint violated, (count,)."""
+    def _violations_at_start(self) -> Array:
+        """Return by how much the step before left each constraint violated."""
         end, time = np.array(self._positions), self._data.GetTime()
         self._positions[:] = self._start
         self._data.SetTime(self._data.GetTime(exu.ConfigurationType.StartOfStep))
-        self._solver.ComputeAlgebraicEquations(self._mbs, velocityLevel=False)
-        residual = np.array(self._solver.GetSystemResidual())
+        violations = np.abs(self._constraints.violations())
         self._positions[:] = end
         self._data.SetTime(time)
-        return np.asarray(np.abs(residual[len(residual) - count :]))
+        return violations
 
     def filter_change(self, change: list[float]) -> list[float]:
         """Return what the Jacobian at hand leaves of a change of all coordinates."""

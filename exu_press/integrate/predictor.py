@@ -6,7 +6,6 @@ from typing import Any
 from exu_press.integrate.jacobian import FlexibleJacobian, FrictionJacobian
 from exu_press.integrate.task import Task
 from exu_press.joints.guide_friction import guide_frictions
-from exu_press.numerics.floats import FloatBuffer
 
 __all__ = ["Predictor"]
 
@@ -35,9 +34,7 @@ class Predictor:
             FrictionJacobian(task)
         self._relative = tuning.newton_tolerance * task.tolerance
         current = system.current
-        self._positions = FloatBuffer(current.positions)
-        self._velocities = FloatBuffer(current.velocities)
-        self._accelerations = FloatBuffer(current.accelerations)
+        self._positions, self._velocities, self._accelerations = current.motion()
         self._multipliers: Any = current.multipliers.data
         self._multipliers_before: Any = system.start.multipliers.data
         # where they begin among the coordinates, and their reference values
@@ -62,9 +59,9 @@ class Predictor:
         self._now = self._accelerations.read()
         self._rate = [0.0 for _ in self._now]
 
-    def accept(self, step: float) -> None:
-        """Take the current state as the end of an accepted step (s)."""
-        last, now = self._now, self._accelerations.read()
+    def accept(self, step: float, accelerations: list[float]) -> None:
+        """Take the accelerations at the end of an accepted step (s)."""
+        last, now = self._now, accelerations
         self._rate = [(now[i] - last[i]) / step for i in range(len(now))]
         self._last, self._now = step, now
 

@@ -94,8 +94,6 @@ class RunningScales:
 
     def update(self, velocities: list[float], accelerations: list[float]) -> None:
         """Take over the velocities and accelerations of a state where they are the largest."""
-        if not self.updates:
-            return
         if self._prescribed.speed is None:
             self.speed = max(self.speed, self.norm(velocities))
         if self._prescribed.force is None:

@@ -150,11 +150,7 @@ def _run(
     words: Advice,
     progress: Progress,
 ) -> Outcome:
-    """Return how a task ended that a monitor watches.
-
-    Raises:
-        InputError: the start is far off a constraint.
-    """
+    """Return how a task ended that a monitor watches."""
     system, solver, failure = task.system, task.solver, ""
     mbs = system.mbs
     mbs.sys["dynamicSolver"], mbs.sys["simulationSettings"] = solver, settings

@@ -11,6 +11,7 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.joints.user_force import UserForceElement, user_force_of
 from exu_press.numerics.arrays import Array
+from exu_press.numerics.floats import FloatBuffer
 
 __all__ = ["FLEXIBLE", "MODES", "Node", "State", "System", "modal_item"]
 
@@ -85,6 +86,10 @@ class State:
         self.multipliers = data.GetAECoordinates(where, False)
         self.first_order = data.GetODE1Coordinates(where, False)
         self.data = data.GetDataCoordinates(where, False)
+
+    def motion(self) -> list[FloatBuffer]:
+        """Return its positions, velocities and accelerations as lists of floats."""
+        return [FloatBuffer(v) for v in (self.positions, self.velocities, self.accelerations)]
 
 
 @dataclass(frozen=True)

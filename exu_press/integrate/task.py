@@ -39,7 +39,6 @@ SHORTEST_RUN = 1e-7
 METHOD = "GeneralizedAlpha"
 """Exudyn's solver whose local error is estimated."""
 
-
 MOST_HALVED = 2.0**10
 """Number of halvings of a fixed step where Newton's method fails."""
 
@@ -152,7 +151,6 @@ class Task:
         no_shorter: up to which a step cannot be shorter, s: it is the difference of two times,
             whose last digits are rounded.
         spectral_radius: at infinity, of generalized-alpha.
-        switching_iterations: that contacts and friction of Exudyn's are given in a step.
     """
 
     def __init__(
@@ -185,8 +183,6 @@ class Task:
         self.first = min(self.first, largest)
         latest = max(abs(self.start), abs(self.end))
         self.no_shorter = self.smallest * (1.0 + SAME) + 2.0 * math.ulp(latest)
-        contacts = bool(system.contacts)
-        self.switching_iterations = integration.discontinuous.maxIterations if contacts else 1
         rounding = tuning.rounding / (1.0 - min(self.spectral_radius, LARGEST_RADIUS)) ** 2
         self.scales = RunningScales(scales, system, largest, self.first, rounding)
 
@@ -217,12 +213,7 @@ def refuse_unusable(
     tolerance: float | None,
     sample: float | None = None,
 ) -> None:
-    """Refuse what cannot be integrated.
-
-    Raises:
-        InputError: the tolerance or the period lies outside its range, the run has no end, or the
-            integrator is not generalized-alpha with a spectral radius that damps.
-    """
+    """Refuse an integrator without an error estimate, a run without an end, or a wrong period."""
     refuse_no_run(settings, tolerance)
     integration = settings.timeIntegration
     start, end = integration.startTime, integration.endTime
@@ -275,7 +266,7 @@ def prepared_settings(settings: exu.SimulationSettings, task: Task) -> AbstractC
     """
     integration = settings.timeIntegration
     newton, discontinuous = integration.newton, integration.discontinuous
-    linear = settings.linearSolver
+    linear, contacts = settings.linearSolver, task.system.contacts
     needed: list[tuple[Any, str, Any]] = [
         (newton, "useModifiedNewton", True),
         (newton, "modifiedNewtonJacUpdatePerStep", True),
@@ -283,7 +274,7 @@ def prepared_settings(settings: exu.SimulationSettings, task: Task) -> AbstractC
         (newton, "relativeTolerance", RELATIVE_RESIDUAL),
         (newton, "maxIterations", 25),
         (discontinuous, "ignoreMaxIterations", False),
-        (discontinuous, "maxIterations", task.switching_iterations),
+        (discontinuous, "maxIterations", discontinuous.maxIterations if contacts else 1),
         (discontinuous, "useRecommendedStepSize", True),
         (integration, "adaptiveStep", True),
         (integration, "adaptiveStepDecrease", 0.5),

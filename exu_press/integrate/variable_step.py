@@ -7,7 +7,6 @@ import numpy as np
 from exu_press.integrate.constraints import Constraints, normalise
 from exu_press.integrate.task import SAME, Task, inertia_factor
 from exu_press.numerics.arrays import Array
-from exu_press.numerics.floats import FloatBuffer
 
 __all__ = ["VariableStepCorrection"]
 
@@ -54,14 +53,7 @@ class VariableStepCorrection:
         self._refit, self._look_ahead = task.tuning.refit, task.tuning.look_ahead
         self._task, self._solver, self._constraints = task, task.solver, constraints
         self._data, self._current, self._at_start = system.data, system.current, system.start
-        self._now, self._start_state = (
-            (
-                FloatBuffer(state.positions),
-                FloatBuffer(state.velocities),
-                FloatBuffer(state.accelerations),
-            )
-            for state in (self._current, self._at_start)
-        )
+        self._now, self._start_state = self._current.motion(), self._at_start.motion()
         self._start: float | None = None  # of the step under way, s
         self._last: float | None = None  # size of the last accepted step, s
         self._fits = self._leaves = 0.0  # the step that constrained velocities fit, now and next

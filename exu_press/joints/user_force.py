@@ -308,9 +308,9 @@ class UserForceElement:
             return self._matrix
         values: list[float] = []
         blocks = self._partials(time, q, q_t, by_q, by_q_t)
-        for block, idle in zip(blocks, self._idle, strict=True):
+        for i, block in enumerate(blocks):
             if block is None:
-                values += idle
+                values += self._idle[i]
             elif isinstance(block, list):
                 values += block
             else:

@@ -92,8 +92,9 @@ class Model(SolvableModel):
 
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a load has a corner or a sample lies, s, or infinity."""
-        corners = (load.next_corner(time) for load in self.loads.values())
-        soonest = min(corners, default=math.inf)
+        soonest = math.inf
+        for load in self.loads.values():
+            soonest = min(soonest, load.next_corner(time))
         if self.start_stop is not None:
             soonest = min(soonest, self.start_stop.next_corner(time))
         if self._section is None:

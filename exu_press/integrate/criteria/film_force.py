@@ -43,10 +43,11 @@ class FilmForceError:
         if not self._start_force or step < self._shortest:
             return 0.0
         here = there = along = 0.0
-        for a, b in zip(self._start_force, now, strict=True):
-            here += a * a
-            there += b * b
-            along += a * b
+        for i, force in enumerate(now):
+            start = self._start_force[i]
+            here += start * start
+            there += force * force
+            along += start * force
         product = math.sqrt(here) * math.sqrt(there)
         largest = max(self._most, math.sqrt(max(here, there)))
         if not product > 0.0:

@@ -7,14 +7,14 @@ displacement, first-order coordinates, values of sensors, and when the runs ende
 from typing import Any
 
 import numpy as np
+from numpy.linalg import norm
 
 from exu_press.exudyn_systems.samples import Samples, Variables
 from exu_press.numerics.arrays import Array
 
-__all__ = ["common", "differences", "excess_step", "of_peaks", "scales_of"]
+__all__ = ["at_peaks", "common", "differences", "excess_step", "scales_of"]
 
-# smallest scale over the largest one of its like: rounding alone moves what is smaller
-SMALLEST = 1e-6
+SMALLEST = 1e-6  # scale over the largest one of its like: rounding alone moves what is smaller
 LARGEST_TURN = 0.5  # angle by which a body may turn in a step of a level that decides, rad
 STEPS_IN_PERIOD = 10.0  # fewest steps in a period of a coordinate in a level that decides
 
@@ -37,9 +37,9 @@ def differences(first: Samples, second: Samples, variables: Variables) -> Array:
     coordinates, sensors = change("coordinates"), np.abs(change("sensors"))
     angles = np.char.endswith(variables.kinds, ".Rotation")
     sensors[:, angles] = np.abs((sensors[:, angles] + np.pi) % (2.0 * np.pi) - np.pi)
-    plain = [_lengths(coordinates[:, variables.spans[node]]) for node in variables.plain]
+    plain = [norm(coordinates[:, variables.spans[node]], axis=-1) for node in variables.plain]
     parts = [
-        _lengths(change("displacements")),
+        norm(change("displacements"), axis=-1),
         _angles(change("rotations")),
         np.reshape(plain, (len(plain), len(ours))).T,
         np.abs(change("first_order")),
@@ -49,19 +49,21 @@ def differences(first: Samples, second: Samples, variables: Variables) -> Array:
     return np.asarray(np.nan_to_num(np.concatenate(parts, axis=1), nan=np.inf))
 
 
-def of_peaks(first: Samples, second: Samples) -> Array:
-    """Return by how much the largest magnitudes of the sensors' values differ, (values,)."""
+def at_peaks(first: Samples, second: Samples, variables: Variables) -> Array:
+    """Return the differences of sensors where either run peaks, which bound that of the peaks."""
     ours, theirs = common(first, second)
-    peaks = np.abs(first.sensors[ours]).max(axis=0) - np.abs(second.sensors[theirs]).max(axis=0)
-    return np.asarray(np.abs(peaks))
+    sizes = np.abs(first.sensors[ours]), np.abs(second.sensors[theirs])
+    peaks = np.any([size == size.max(axis=0) for size in sizes], axis=0)
+    apart = differences(first, second, variables)[:, -1 - peaks.shape[1] : -1]
+    return np.asarray(apart.max(axis=0, where=peaks, initial=0.0))
 
 
 def scales_of(samples: Samples, variables: Variables, duration: float) -> Array:
     """Return the scale of each quantity in a run of a duration, s, (quantities,)."""
-    moved = _lengths(samples.displacements - samples.displacements[0]).max(initial=0.0)
+    moved = norm(samples.displacements - samples.displacements[0], axis=-1).max(initial=0.0)
     turned = _angles(samples.rotations - samples.rotations[0]).max(initial=0.0)
     change = samples.coordinates - samples.coordinates[0]
-    plain = [_lengths(change[:, variables.spans[node]]).max() for node in variables.plain]
+    plain = [norm(change[:, variables.spans[node]], axis=-1).max() for node in variables.plain]
     coordinates = np.concatenate([plain, np.abs(samples.first_order).max(axis=0)])
     sensors = np.abs(samples.sensors).max(axis=0)
     for kind in set(variables.kinds):
@@ -100,13 +102,9 @@ def excess_step(
     scale = np.concatenate([scale, scales[first : first + samples.first_order.shape[1]]])
     counts = amplitude > tolerance * scale
     frequency = (rates.std(axis=0)[counts] / amplitude[counts]).max(initial=0.0)
-    fastest = _lengths(samples.angular_velocities).max(initial=0.0)
+    fastest = norm(samples.angular_velocities, axis=-1).max(initial=0.0)
     in_period = frequency * STEPS_IN_PERIOD / (2.0 * np.pi)
     return float(step * max(in_period, fastest / LARGEST_TURN))
-
-
-def _lengths(vectors: Array) -> Array:
-    return np.asarray(np.sqrt(np.sum(vectors**2, axis=-1)))
 
 
 def _angles(changes: Array) -> Array:

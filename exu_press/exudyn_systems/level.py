@@ -12,6 +12,7 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.exudyn_systems.samples import MOST_SAMPLES, Samples, Variables
 from exu_press.integrate.task import set_meanwhile
+from exu_press.integrate.user_functions import user_function
 from fe_models.processes import Child, ChildError, why_not_copied
 
 __all__ = ["OUT_OF_TIME", "Level", "Levels"]
@@ -75,8 +76,7 @@ class Levels:
         elif self.build is None and not (alone or self.touched):
             self.spares = [self._copy() for _ in range(SPARES)]
         system: Any = self.mbs
-        own = system.GetPostStepUserFunction()
-        function = own["function"] if isinstance(own, dict) else None
+        function = user_function(system, "PostStep")
         start, end = self.settings.timeIntegration.startTime, self.settings.timeIntegration.endTime
         factors = range(1, MOST_SAMPLES // self.samples + 1)
         count = self.samples * max(k for k in factors if steps // self.samples % k == 0)
@@ -85,7 +85,7 @@ class Levels:
 
         def sample(mbs: Any, time: float) -> bool:
             nonlocal failure
-            go_on = function is None or bool(function(mbs, time))
+            go_on = not function or bool(function(mbs, time))
             if time >= start + len(rows) * period - 0.5 * step:
                 rows.append(variables.row(time))
                 failure = OUT_OF_TIME if self.elapsed_time() > self.max_time else ""
@@ -100,7 +100,7 @@ class Levels:
                 text = str(system.sys["dynamicSolver"].GetErrorString()).strip()
                 failure = failure or (text or "Newton's method did not converge").splitlines()[0]
             finally:
-                system.SetPostStepUserFunction(function or 0)
+                system.SetPostStepUserFunction(function)
         return Level(
             steps=steps,
             step=step,

@@ -17,8 +17,7 @@ FACTORS = 2, 8  # least and largest factor to the next level's number of steps
 MARGIN = 0.7  # error over the tolerance at which the last level is aimed
 AT_ONCE = 4  # largest factor to the last level: orders of coarse levels do not hold further
 GIVE_UP = 16  # times the user's own number of steps, after which a refinement that fails ends
-# factor up to which a number of steps is raised so that rows of output are at equal distances
-ALIGNED = 1.35
+ALIGNED = 1.35  # largest factor by which steps are raised to put rows at equal distances
 
 
 @dataclass
@@ -115,18 +114,21 @@ class Refinement:
             (self.failures if level.failure else self.levels).append(level)
             if level.failure:
                 continue
-            self.levels, deciding, self.judgement = self.levels[-4:], self._deciding(), None
+            self.levels, deciding, self.judgement = self.levels[-4:], self.deciding(), None
             if len(deciding) == 3:
-                pairs = list(itertools.pairwise(deciding))
-                self.judgement = judge(
-                    [level.steps for level in deciding],
-                    [self.differences(*pair).max(axis=0) for pair in pairs],
-                    [difference.of_peaks(coarse.samples, fine.samples) for coarse, fine in pairs],
-                    self.tolerance,
-                )
+                pairs = itertools.pairwise(deciding)
+                apart = [self.differences(*pair).max(axis=0) for pair in pairs]
+                self.judgement = judge([run.steps for run in deciding], apart, self.tolerance)
                 self.orders.append(self.judgement.order)
 
-    def _deciding(self) -> list[Level]:
+    def peak_errors(self) -> Array:
+        """Return the stated errors of the sensors' peaks, from three levels that decide."""
+        deciding = self.deciding()
+        pairs = [(a.samples, b.samples) for a, b in itertools.pairwise(deciding)]
+        apart = [difference.at_peaks(*pair, self.variables) for pair in pairs]
+        return judge([run.steps for run in deciding], apart, self.tolerance).errors
+
+    def deciding(self) -> list[Level]:
         """Return those of the last three levels whose steps are short enough."""
         return [level for level in self.levels[-3:] if self.excess(level) <= 1.0]
 
@@ -136,8 +138,8 @@ class Refinement:
         factor, last = float(FACTORS[0]), False
         if self.levels and self.levels[-1].steps == tried:
             factor, last = self._next_factor()
-        factor = factor if last else max(factor, FACTORS[0])
-        steps = tried * math.ceil(min(factor, FACTORS[1]) - 1e-9)
+        least = 1.0 if last else FACTORS[0]
+        steps = tried * math.ceil(min(max(factor, least), FACTORS[1]) - 1e-9)
         near = range(steps, int(ALIGNED * steps) + 1, self.runs.samples)
         steps = next((n for n in near if n % self.rows == 0 or self.rows % n == 0), steps)
         remaining = min(self.budget_left())
@@ -150,7 +152,7 @@ class Refinement:
 
     def _next_factor(self) -> tuple[float, bool]:
         """Return the factor to the next level's number of steps, and whether that is the last."""
-        low, levels, judgement = float(FACTORS[0]), self._deciding(), self.judgement
+        levels, judgement = self.deciding(), self.judgement
         if judgement is None:
             if len(levels) < 2 or self.excess(self.levels[-1]) > 1.0:
                 return self.excess(self.levels[-1]), False
@@ -165,7 +167,7 @@ class Refinement:
             late = self.levels[-1].steps >= GIVE_UP * self.users and len(self.orders) > 1
             return 1.0, late and max(self.orders[-2:]) < PLAUSIBLE[0]
         factor = (error / (MARGIN * self.tolerance)) ** (1.0 / max(order, PLAUSIBLE[0]))
-        return (max(low, factor), True) if factor <= AT_ONCE else (factor / AT_ONCE, False)
+        return (max(factor, FACTORS[0]), True) if factor <= AT_ONCE else (factor / AT_ONCE, False)
 
 
 def grid(steps: int, rows: int) -> tuple[int, int]:

@@ -10,8 +10,7 @@ from exu_press.numerics.arrays import Array
 __all__ = ["MOST_SAMPLES", "Samples", "Variables"]
 
 MOST_SAMPLES = 200  # largest number of samples of a run
-# what Exudyn raises where a node has no such output or coordinate
-NOT_HERE = (exu.ExudynError, RuntimeError, ValueError, TypeError)
+NOT_HERE = exu.ExudynError, RuntimeError, ValueError, TypeError  # a node has no such output
 
 
 class Samples(NamedTuple):

@@ -168,7 +168,8 @@ class Monitor:
     def _before_residual(
         self, mbs: exu.MainSystem, end: float, iteration: int, discontinuous: int
     ) -> None:
-        self._functions.call_before_residual(end, iteration, discontinuous)
+        if self._functions.before_residual:
+            self._functions.before_residual(mbs, end, iteration, discontinuous)
         self._predictor.before_residual(end - self._time, iteration)
 
     def _after_newton(self, mbs: exu.MainSystem, end: float) -> list[float]:

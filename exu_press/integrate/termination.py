@@ -5,13 +5,13 @@
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 from exu_press.integrate.monitor import Monitor
 from exu_press.integrate.outcome import Outcome, SolverStatus
 from exu_press.integrate.resolution import UnresolvedImpact
 from exu_press.integrate.system import System
 from exu_press.integrate.task import Task
+from exu_press.integrate.user_functions import user_function
 from exu_press.joints.joint import ClearanceJoint
 
 __all__ = ["ARRIVED", "Advice", "termination"]
@@ -90,7 +90,7 @@ class Advice:
 
     def cause(self) -> str:
         """Return a possible cause of failed steps that lies in the system, or nothing."""
-        moved = self.system.rates_not_provided or _has_pre_step_function(self.system)
+        moved = self.system.rates_not_provided or user_function(self.system.mbs, "PreStep")
         return " (or no offset that jumps)" if moved else ""
 
     def resolution(self, worst: UnresolvedImpact) -> str:
@@ -128,19 +128,13 @@ class Advice:
         unfollowed = [*system.contacts]
         if len(system.current.first_order):
             unfollowed.append("first-order coordinates")
-        if _has_pre_step_function(system) and not held:
+        if user_function(system.mbs, "PreStep") and not held:
             unfollowed.append("what the pre-step function sets, where that jumps")
         if self.by_tolerance and unfollowed:
             yield (
                 f"no error of a step is estimated for {', '.join(unfollowed)}: compare with a run "
                 "of a smaller largest step, by settings.timeIntegration.numberOfSteps"
             )
-
-
-def _has_pre_step_function(system: System) -> bool:
-    """Return whether a system has a pre-step function of the user's own."""
-    function: Any = system.mbs.GetPreStepUserFunction()
-    return bool(function != 0)
 
 
 def termination(

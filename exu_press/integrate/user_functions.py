@@ -7,7 +7,7 @@ from typing import Any
 
 from exu_press.integrate.system import System
 
-__all__ = ["UserFunctions"]
+__all__ = ["UserFunctions", "user_function"]
 
 NAMES = "PreStep", "PreNewtonResidual", "PostNewton", "PostStep"
 """Functions that Exudyn calls before a step, before and after Newton's method, after a step."""
@@ -20,14 +20,14 @@ class UserFunctions:
     once for each of its intervals, with the interval's end, on which steps end.
 
     Attributes:
-        before_step: pre-step function, or 0.
+        before_step, before_residual: pre-step function and that before Newton's residual, or 0.
     """
 
     def __init__(self, system: System, start: float, period: float) -> None:
         """Look for the functions of a system; with a period of 0.0 every try of a step is one."""
         self._mbs, self._start, self._period, self._interval = system.mbs, start, period, -1
-        self._functions = [_function(self._mbs, name) for name in NAMES]
-        self.before_step, self._before_residual, self._after_newton, self._after_step = (
+        self._functions = [user_function(self._mbs, name) for name in NAMES]
+        self.before_step, self.before_residual, self._after_newton, self._after_step = (
             self._functions
         )
         current, at_start = system.current, system.start
@@ -82,11 +82,6 @@ class UserFunctions:
             start[:] = state
         return go_on
 
-    def call_before_residual(self, end: float, iteration: int, discontinuous: int) -> None:
-        """Call the function before Newton's residual."""
-        if self._before_residual:
-            self._before_residual(self._mbs, end, iteration, discontinuous)
-
     def combine(self, verdict: list[float], end: float) -> list[float]:
         """Return our verdict of a step that ends at a time, s, and the post-Newton function's."""
         if not self._after_newton:
@@ -104,7 +99,7 @@ class UserFunctions:
         return go_on, self._velocities.tobytes() != velocities
 
 
-def _function(mbs: Any, name: str) -> Any:
-    """Return a function of the user's own, or 0 where none is set."""
+def user_function(mbs: Any, name: str) -> Any:
+    """Return a system's function of the user's own, by its name in `NAMES`; 0 where none is set."""
     item = getattr(mbs, f"Get{name}UserFunction")()
     return item["function"] if isinstance(item, dict) else 0

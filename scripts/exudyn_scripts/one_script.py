@@ -19,7 +19,7 @@ import numpy as np
 
 from exu_press import InputError
 from exu_press.exudyn_systems import solve_dynamic
-from exu_press.exudyn_systems.difference import differences, of_peaks, scales_of
+from exu_press.exudyn_systems.difference import common, differences, scales_of
 from exu_press.exudyn_systems.level import Levels
 from exu_press.exudyn_systems.refine import grid
 from exu_press.exudyn_systems.samples import Variables
@@ -135,7 +135,9 @@ class Comparison:
             return np.array([true, stated, own]).T.tolist()
 
         def peaks(samples):
-            return of_peaks(samples, truth) / scale
+            ours, theirs = common(samples, truth)
+            values = np.abs(samples.sensors[ours]), np.abs(truth.sensors[theirs])
+            return np.abs(values[0].max(axis=0) - values[1].max(axis=0)) / scale
 
         motion = [part[: values.start].max(initial=0.0) for part in (missed, own)]
         sensors = np.concatenate([*error.sensors, []]) / scale

@@ -34,7 +34,7 @@ class NewtonFilter:
         """Take the current state as a step's beginning."""
         self._start = self._positions.tolist()
 
-    def refresh(self) -> None:
+    def _refresh(self) -> None:
         """Take the last Jacobian from the solver: of 70 unknowns that takes as long as a step."""
         number = int(self._solver.it.newtonJacobiCount)
         if number != self._number:
@@ -50,7 +50,7 @@ class NewtonFilter:
         constraints are nearly redundant, as parallel cranks do at their change points. Steps took
         it for errors, and the shorter they became, the larger it was.
         """
-        self.refresh()
+        self._refresh()
         if self._roundoff < 0.0:
             size, count = len(self._jacobian), self._constraints.count
             inexact = self._rounding * self._scales.length + self._violations_at_start()
@@ -74,7 +74,8 @@ class NewtonFilter:
         return violations
 
     def filter_change(self, change: list[float]) -> list[float]:
-        """Return what the Jacobian at hand leaves of a change of all coordinates."""
+        """Return what the last Jacobian leaves of a change of all coordinates."""
+        self._refresh()
         solver, size = self._solver, self._size
         right = np.zeros(len(self._jacobian))
         inertia = np.dot(solver.GetSystemMassMatrix(), np.array(change))

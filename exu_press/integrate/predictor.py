@@ -40,7 +40,7 @@ class Predictor:
         # where they begin among the coordinates, and their reference values
         self._quaternions: list[tuple[int, list[float]]] = []
         for node in system.nodes:
-            if node.quaternion:
+            if node.rotations == 4:
                 first = node.start + node.size - 4
                 self._quaternions.append((first, system.reference[first : first + 4].tolist()))
         self._ratio = self._beta = self._gamma = 0.0

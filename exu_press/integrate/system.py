@@ -46,7 +46,8 @@ class Node:
         mass: ratio of kinetic energy to the square of a speed, kg; None is read from the mass
             matrix, infinite is excluded from the norm.
         displacements: number of its first coordinates that are displacements.
-        rotations: number of its last coordinates that turn a body in space; four Euler parameters.
+        rotations: number of its last coordinates that turn a body in space: four Euler parameters
+            or three angles.
         carrier: number of the node whose mass counts for it too, as a flexible body's frame does
             for its modes.
     """
@@ -59,11 +60,6 @@ class Node:
     displacements: int = 0
     rotations: int = 0
     carrier: int | None = None
-
-    @property
-    def quaternion(self) -> bool:
-        """Whether its last four coordinates are Euler parameters."""
-        return self.rotations == 4
 
 
 class State:

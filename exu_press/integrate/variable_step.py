@@ -116,22 +116,12 @@ class VariableStepCorrection:
         if not self._state:
             self._state = [floats.read() for floats in self._start_state]
         q, v, a = self._state
-        if abs(ratio - 1.0) > SAME:
-            fraction = step / self._fits
-            differenced = self._constraints.rates_not_provided
-            if fraction < self._refit or self._smooth:
-                self._leaves = step
-                if self._constraints.count:
-                    if self._offsets is None or (differenced and step < self._ahead):
-                        self._ahead = self._look_ahead * min(step, self._fits)
-                        self._offsets = self._violations().tolist()
-                    of_q, of_v = self._offsets
-                    more = 1.0 - fraction * fraction
-                    q = [q[i] - of_q[i] for i in range(len(q))]
-                    v = [v[i] - more * of_v[i] for i in range(len(v))]
+        if abs(ratio - 1.0) > SAME and (self._smooth or step / self._fits < self._refit):
+            self._leaves = step
+            if self._constraints.count:
+                q, v = self._fitted_to_constraints(step)
         at_start: list[float] = solver.GetStartOfStepStateAAlgorithmic().tolist()
-        accelerations = self._state[2]
-        algorithmic = [a[i] + ratio * (at_start[i] - accelerations[i]) for i in range(len(a))]
+        algorithmic = [a[i] + ratio * (at_start[i] - a[i]) for i in range(len(a))]
         if self._method is None:
             self._method = solver.alphaM, solver.alphaF, solver.newmarkBeta, solver.newmarkGamma
         alpha_m, alpha_f, beta, gamma = self._method
@@ -149,14 +139,21 @@ class VariableStepCorrection:
         shifted = [q, v, a]
         now: list[float] = solver.GetAAlgorithmic().tolist()
         for state, there in ((self._now, now), (self._start_state, at_start)):
+            change = [algorithmic[i] - there[i] for i in range(len(there))]
             for k in range(3):
                 values, factor = shifted[k], by[k]
-                state[k].write(
-                    [
-                        values[i] + factor * (algorithmic[i] - there[i])
-                        for i in range(len(algorithmic))
-                    ]
-                )
+                state[k].write([values[i] + factor * change[i] for i in range(len(change))])
+
+    def _fitted_to_constraints(self, step: float) -> tuple[list[float], list[float]]:
+        """Return positions and velocities at the beginning of a step (s) that fit to its size."""
+        differenced = self._constraints.rates_not_provided
+        if self._offsets is None or (differenced and step < self._ahead):
+            self._ahead = self._look_ahead * min(step, self._fits)
+            self._offsets = self._violations().tolist()
+        (q, v, _), (of_q, of_v), fraction = self._state, self._offsets, step / self._fits
+        too_much = 1.0 - fraction * fraction
+        fitted_q = [q[i] - of_q[i] for i in range(len(q))]
+        return fitted_q, [v[i] - too_much * of_v[i] for i in range(len(v))]
 
     def _violations(self) -> Array:
         """Return what of positions and velocities constraints forbid, (2, n), in Newton's norm.

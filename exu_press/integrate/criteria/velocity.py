@@ -43,7 +43,6 @@ class VelocityError:
             change = [relative * value for value in rate]
         error = self._of_change(change, step, 0.0)
         if error > 1.0:
-            self._filter.refresh()
             change = self._filter.filter_change(change)
             error = self._of_change(change, step, 0.0)
             if error > 1.0:
@@ -56,19 +55,13 @@ class VelocityError:
         self._filter.begin_step()
 
     def _relative_rate(self) -> float:
-        """Return the rate of the accelerations, in the first step, over them: at most one a step.
-
-        What it changes by within the step is not known yet: as much as the accelerations do.
-        """
+        """Return the rate of the accelerations over them, as that of their unknown rate."""
         norm = self._scales.norm
         rate, largest = norm(self._rate), max(norm(self._now), norm(self._start))
         return rate / largest if rate > 0.0 else 0.0
 
     def _of_change(self, change: list[float], step: float, roundoff: float) -> float:
-        """Return the error of a change of the accelerations' rate in a step (s).
-
-        Rounded constraints make an error of positions, m.
-        """
+        """Return the error of a change of the accelerations' rate in a step (s), with rounding."""
         scales = self._scales
         limit = max(scales.roundoff, roundoff) / step
         return step * step * scales.norm(change) / max(self._allowed * scales.speed, limit)

@@ -114,7 +114,7 @@ FIGURES = ("min_film", "dissipated", "max_eccentricity_ratio", "peak_force")
 
 @pytest.mark.parametrize(
     ("scene", "joint", "part"),
-    [(BALLS, "ball_left", BallFilm.error), (PIN, "crank_pin", Finite.error)],
+    [(BALLS, "ball_left", BallFilm.law.error), (PIN, "crank_pin", Finite.error)],
     ids=["ball", "journal"],
 )
 def test_the_error_of_a_table_covers_a_film_that_is_as_much_stronger(scene, joint, part):

@@ -87,7 +87,7 @@ def test_squeeze_has_the_closed_form(eps, cap_angle, compare):
     law = ball(cap_angle).law
     closed = closed_form(eps, cap_angle), -closed_form(-eps, cap_angle)
     force = np.array([law(eps, 1.0, 0.0)[0], law(eps, -1.0, 0.0)[0]])
-    compare("force", closed, force, error=BallFilm.error * np.abs(force), rel=5e-3)
+    compare("force", closed, force, error=BallFilm.law.error * np.abs(force), rel=5e-3)
     assert law(eps, 1.0, 0.0)[1] == pytest.approx(0.0, abs=1e-9 / (1.0 - eps))
 
 

@@ -50,7 +50,7 @@ def block_extremes(values: Array, starts: NDArray[np.intp]) -> NDArray[np.intp]:
     columns = []
     for extreme in (np.minimum, np.maximum):
         reached = np.flatnonzero(values == extreme.reduceat(values, starts)[block_of])
-        columns.append(reached[np.unique(block_of[reached], return_index=True)[1]])
+        columns.append(reached[np.diff(block_of[reached], prepend=-1) > 0])
     return np.stack(columns, axis=1)
 
 
@@ -76,6 +76,9 @@ def visible_segments(points: Array, pixel: float) -> NDArray[np.intp]:
     moved = np.flatnonzero((np.diff(cells, axis=0) != 0).any(axis=1)) + 1
     points_kept = np.concatenate([[0], moved])
     segments = np.stack([points_kept[:-1], points_kept[1:]], axis=1)
-    ends = cells[segments].reshape(-1, 4)[::-1]  # the last of each comes first
-    _, unique = np.unique(ends, axis=0, return_index=True)
+    cells -= cells.min(axis=0)
+    across, down = cells.max(axis=0) + 1
+    number = cells[:, 0] * down + cells[:, 1]
+    ends = number[segments] @ [across * down, 1]  # one number for both is sorted sooner than four
+    _, unique = np.unique(ends[::-1], return_index=True)  # the last of each comes first
     return np.asarray(segments[np.sort(len(segments) - 1 - unique)])

@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import crank_degrees
-from exu_press.plots.style import colour_of, points
+from exu_press.plots.scales import draw_bar
+from exu_press.plots.style import colour_of
 from exu_press.quantities.uncertain import uncertain
 from exu_press.quantities.value import Value
 from exu_press.result import Result
@@ -55,16 +56,8 @@ def mark_peak(
     highest = int(np.argmax(np.where(inside, np.abs(values), 0.0)))
     size, sign = abs(scale * values[highest]), np.copysign(1.0, values[highest])
     low, high = scale * error["low"], scale * error["high"]  # of the magnitude
-    bars = np.maximum([size - low, high - size], 0.0)[:: int(sign)]
-    axes.errorbar(
-        crank_degrees(result)[highest],
-        sign * size,
-        bars[:, None],
-        color=colour,
-        capsize=points(3.0),
-        linewidth=points(1.4),
-        zorder=4,
-    )
+    ends = sign * np.array([min(low, size), max(size, high)])
+    draw_bar(axes, crank_degrees(result)[highest], ends, colour)
     # the figure itself: of means over 1 ms, a curve drawn at the run's instants meets it nearly
     figure = Value(name, error["high"] - error["error"], "", **error)
     return f"peak {with_error(figure, scale)}"

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from exu_press.numerics.arrays import Array
@@ -13,7 +14,9 @@ from exu_press.plots.style import GREY, SHADE, points
 
 __all__ = [
     "angle_ticks",
+    "contain_bars",
     "crank_angle_axis",
+    "draw_bar",
     "impact_scale",
     "log_axis",
     "note",
@@ -30,6 +33,9 @@ TOO_CLOSE = 0.6
 
 SLACK = 1e-4
 """Distance over an axis' length by which a tick may lie beyond its ends."""
+
+BAR = "_error bar"
+"""Label of an error bar, which no legend shows."""
 
 BEYOND = 1.05
 """Share of an error bar's end to which an axis goes."""
@@ -78,8 +84,15 @@ def crank_angle_axis(
         axes.set_xlim(low, high)
         axes.xaxis.set_major_locator(FixedLocator(sorted(tick_at)))
         axes.xaxis.set_major_formatter(FuncFormatter(text))
-        for centre in named:
-            axes.axvline(centre, color=GREY, linewidth=0.9, linestyle=(0, (1, 2)), zorder=0.9)
+        lines = LineCollection(
+            [[(centre, 0.0), (centre, 1.0)] for centre in named],
+            transform=axes.get_xaxis_transform(),
+            colors=GREY,
+            linewidths=0.9,
+            linestyles=(0, (1, 2)),
+            zorder=0.9,
+        )
+        axes.add_collection(lines, autolim=False)
 
 
 def angle_ticks(low: float, high: float, most: int = 9) -> Array:
@@ -135,10 +148,24 @@ def note(axes: Axes, *texts: str) -> None:
     axes.set_title(words, loc="right", fontsize=points(8.5), fontweight="normal", color=GREY)
 
 
+def draw_bar(axes: Axes, x: float, ends: Array, colour: str) -> None:
+    """Draw an error bar between two values (2,), as one line, which takes a fifth of the time."""
+    axes.plot(
+        [x, x],
+        ends,
+        color=colour,
+        marker="_",
+        markersize=points(6.0),
+        linewidth=points(1.4),
+        label=BAR,
+        zorder=4,
+    )
+
+
 def contain_bars(axes: Axes) -> None:
     """Let the values' axis reach as far as error bars do."""
-    bars = [container[2][0] for container in axes.containers]
-    ends = [end for lines in bars for segment in lines.get_segments() for end in segment[:, 1]]
+    bars = [line.get_ydata() for line in axes.lines if line.get_label() == BAR]
+    ends = [float(end) for bar in bars for end in np.asarray(bar)]
     if ends:
         low, high = axes.get_ylim()
         axes.set_ylim(min(low, BEYOND * min(ends)), max(high, BEYOND * max(ends)))

@@ -1,6 +1,7 @@
 """The slider's motion over crank angle, against the ideal mechanism."""
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from exu_press.mechanism import Mechanism
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import evaluate, hermite
 from exu_press.plots.canvas import (
@@ -41,6 +43,9 @@ MOST_OF_IDEAL = 8.0
 KNOTS = 720
 """Crank angles of a revolution at which the ideal motion of a longer record is solved; cubics are
 between them."""
+
+KNOT_ANGLES = np.linspace(0.0, 2.0 * np.pi, KNOTS + 1)
+"""rad"""
 
 IDEAL_NAME = "ideal mechanism"
 
@@ -131,16 +136,22 @@ def _draw_ideals(
 def _ideal(result: Result) -> Motion:
     """Return position (m), velocity and acceleration of the ideal slider, (n,) each."""
     scene, angle = result.scene, result["crank_angle"]
+    mechanism, speed = mechanism_of(scene), scene.angular_speed
     if len(angle) <= KNOTS:
-        return mechanism_of(scene).ideal_slider(angle, scene.angular_speed)
-    knots = np.linspace(0.0, 2.0 * np.pi, KNOTS + 1)
-    position, velocity, acceleration = mechanism_of(scene).ideal_slider(knots, scene.angular_speed)
-    at, time = (np.mod(angle, 2.0 * np.pi) / scene.angular_speed, knots / scene.angular_speed)
+        return mechanism.ideal_slider(angle, speed)
+    position, velocity, acceleration = _ideal_knots(mechanism, speed)
+    at, time = np.mod(angle, 2.0 * np.pi) / speed, KNOT_ANGLES / speed
     return (
         evaluate(time, hermite(time, position, velocity), at),
         evaluate(time, hermite(time, velocity, acceleration), at),
         np.interp(at, time, acceleration),
     )
+
+
+@lru_cache(maxsize=8)
+def _ideal_knots(mechanism: Mechanism, speed: float) -> Motion:
+    """Return the motion of `_ideal` at KNOT_ANGLES; runs over each other mostly share it."""
+    return mechanism.ideal_slider(KNOT_ANGLES, speed)
 
 
 def sliding_mean(time: Array, velocity: Array) -> Array:

@@ -13,6 +13,7 @@ from exu_press.plots.decimate import distance_travelled
 from exu_press.plots.style import GREY, SHADE, points
 
 __all__ = [
+    "BAR",
     "angle_ticks",
     "contain_bars",
     "crank_angle_axis",

@@ -40,7 +40,8 @@ def test_dead_centres_are_marked_and_named():
     labels = [label.get_text() for label in axes.get_xticklabels()]
     assert "0\nTDC" in labels
     assert "180\nBDC" in labels
-    assert sorted(line.get_xdata()[0] for line in axes.lines) == [0.0, 180.0, 360.0]
+    (lines,) = axes.collections
+    assert sorted(segment[0, 0] for segment in lines.get_segments()) == [0.0, 180.0, 360.0]
 
 
 def test_an_axis_without_impacts_stays_linear():

@@ -17,6 +17,7 @@ from exu_press.mechanism.shapes import shapes_of, slot_outlines, transform_point
 from exu_press.mechanism.stroke import units_of_output
 from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.numerics.arrays import Array
+from exu_press.plots.format import picture_format
 from exu_press.plots.panels import figure_with_panels
 from exu_press.plots.scales import spread
 from exu_press.plots.style import GREY, RUN, colour_of, points, with_style
@@ -36,8 +37,14 @@ LEAST_ANGLE = 40.0
 HIGHEST = 200.0
 """The mechanical advantage is drawn up to this multiple of its smallest value."""
 
-LETTERS = 36
-"""Of a name, in a line beside the drawing."""
+LETTERS, LETTERS_ON_PAPER = 36, 18
+"""Of a name, in a line beside the drawing; on paper where panels stand below each other."""
+
+NAME, LINE = 8.5, 1.6
+"""Size of names, points, and the distance of lines over it."""
+
+TALL, TALL_ON_PAPER = 0.9, 1.25
+"""Height of the drawing over its width, at least; likewise."""
 
 SHORT = 21
 """Letters of a name in a legend beside a title, of which two stand in a row."""
@@ -173,7 +180,8 @@ def _draw_names(axes: Axes, examined: Examination) -> None:
     wrong = [labels[name] for name in examined.wrong_bodies]
     (left_edge, right_edge), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     room = 0.45 * max(right_edge - left_edge, top - bottom)
-    short = max(0.0, 0.5 * (0.9 * (right_edge - left_edge + 2.0 * room) - (top - bottom)))
+    tall = TALL_ON_PAPER if picture_format().stacks else TALL
+    short = max(0.0, 0.5 * (tall * (right_edge - left_edge + 2.0 * room) - (top - bottom)))
     axes.set(xlim=(left_edge - room, right_edge + room), ylim=(bottom - short, top + short))
     _column(axes, joints, wrong_joints, left_edge - 0.02 * room, "right")
     _column(axes, bodies, wrong, right_edge + 0.02 * room, "left")
@@ -183,17 +191,21 @@ def _column(
     axes: Axes, named: Mapping[str, Array], wrong: Sequence[str], x: float, side: str
 ) -> None:
     """Write names in a column, spread over the height of the drawing."""
-    low, high = axes.get_ylim()
-    lines = {name: wrap_text(name.replace("_", "_ "), LETTERS).replace("_ ", "_") for name in named}
-    most = max((text.count("\n") + 1 for text in lines.values()), default=1)
-    heights = spread([float(at[1]) for at in named.values()], 0.033 * most * (high - low))
+    letters = LETTERS_ON_PAPER if picture_format().stacks else LETTERS
+    lines = {name: wrap_text(name.replace("_", "_ "), letters).replace("_ ", "_") for name in named}
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    width = 72.0 * figure.get_figwidth() * axes.get_position().width
+    line = LINE * points(NAME) * float(np.ptp(axes.get_xlim())) / width
+    sizes = [line * (text.count("\n") + 1) for text in lines.values()]
+    heights = spread([float(at[1]) for at in named.values()], sizes)
     for (name, at), y in zip(named.items(), heights, strict=True):
         colour = WRONG if name in wrong else "black"
         axes.annotate(
             lines[name],
             (float(at[0]), float(at[1])),
             (x, y),
-            fontsize=points(8.5),
+            fontsize=points(NAME),
             color=colour,
             ha=side,
             va="center",

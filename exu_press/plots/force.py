@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from exu_press.mechanism import GROUND
 from exu_press.numerics.arrays import Array, lengths
-from exu_press.plots.busiest import busiest, mirror
+from exu_press.plots.busiest import busiest, joint_titles, mirror
 from exu_press.plots.canvas import (
     angle_axis,
     crank_degrees,
@@ -18,7 +18,7 @@ from exu_press.plots.panels import grid_rows
 from exu_press.plots.peaks import mark_peak
 from exu_press.plots.scales import contain_bars, impact_scale, note
 from exu_press.plots.style import line_of, with_style
-from exu_press.plots.typesetting import plain
+from exu_press.plots.typesetting import plain, shorten
 from exu_press.quantities.catalogue import GUIDE_FORCE, JOINT_FORCE, PEAK_TORQUE
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
@@ -28,6 +28,9 @@ __all__ = ["force_figure"]
 MOST_JOINTS = 5
 """Joints whose forces are drawn: those with the largest ones, of the joints with clearance, of the
 crank's pin, and of those in the frame and on the slider; of two sides that do the same, one."""
+
+LETTERS = 60
+"""Of the joints that are not drawn, in the heading."""
 
 
 @with_style
@@ -42,11 +45,14 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     heading = "Joint forces and drive torque"
     loaded = {f"{name}_force" for run in everyone for name in run.joints} & {*chain(*everyone)}
     drawn_channels = {f"{name}_force" for name in drawn}
-    if any(not {channel, mirror(channel)} & drawn_channels for channel in loaded):
-        heading += " (not all joints are drawn)"
+    left_out = {c for c in loaded if not {c, mirror(c)} & drawn_channels}
+    if left_out:
+        names = joint_titles(everyone, sorted(c.removesuffix("_force") for c in left_out))
+        heading += f" (not drawn: {shorten(', '.join(names.values()).lower(), LETTERS)})"
     panel_of = {title: (f"{name}_force", "force, kN", 1e-3) for name, title in drawn.items()}
     panel_of["Drive torque"] = "drive_torque", "torque, N m", 1.0
-    rows = grid_rows(len(panel_of), 2)
+    rows = [*grid_rows(len(panel_of), 2)]
+    rows[-1] = [len(panel_of) - 1 if number is None else number for number in rows[-1]]
     figure, panels = run_figure(heading, results, rows, 6.5, 6.4 / len(rows), sharex=True)
     for axes, (title, (channel, unit, scale)) in zip(panels, panel_of.items(), strict=True):
         curves, peaks = [], []

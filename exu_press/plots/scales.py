@@ -1,7 +1,7 @@
 """Axes that stay readable: crank angle with its dead centres, and values that impacts dwarf."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -225,18 +225,18 @@ def log_axis(panel: Axes, which: str, values: Array) -> None:
     (panel.set_xlim if which == "x" else panel.set_ylim)(low / 1.08, high * 1.08)
 
 
-def spread(heights: Iterable[float], least: float) -> list[float]:
-    """Return heights moved apart so that neighbours keep a distance, in the given order."""
+def spread(heights: Iterable[float], sizes: Sequence[float]) -> list[float]:
+    """Return heights of things of some sizes moved apart so that none overlap, in their order."""
     desired = np.array(list(heights))
     order = np.argsort(desired)
-    placed = desired[order].copy()
+    placed, size = desired[order], np.asarray(sizes)[order]
+    distance = 0.5 * (size[1:] + size[:-1])
     for _ in range(200):
-        gaps = np.diff(placed)
-        short = np.flatnonzero(gaps < least * (1 - 1e-6))
+        short = np.flatnonzero(np.diff(placed) < distance * (1 - 1e-6))
         if not len(short):
             break
         for index in short:
-            push = 0.5 * (least - (placed[index + 1] - placed[index]))
+            push = 0.5 * (distance[index] - (placed[index + 1] - placed[index]))
             placed[index] -= push
             placed[index + 1] += push
     spaced = np.empty_like(placed)

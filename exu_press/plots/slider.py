@@ -40,6 +40,9 @@ WINDOW = 1e-3
 MOST_OF_IDEAL = 8.0
 """The averaged acceleration's panel ends at this multiple of the ideal peak, and says so."""
 
+LEAST_DEVIATIONS = 1.0, 0.1
+"""Of position (um) and velocity (mm/s), which are always shown: rounding errors look like none."""
+
 KNOTS = 720
 """Crank angles of a revolution at which the ideal motion of a longer record is solved; cubics are
 between them."""
@@ -76,8 +79,8 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     _draw_ideals(panels, results, ideals)
     for axes, (title, unit) in zip(panels.flat, TITLES, strict=True):
         axes.set(title=title, ylabel=unit.format(unit=output.unit))
-    for axes in panels[:2, 1]:
-        widen(axes, 1.0)
+    for axes, least in zip(panels[:2, 1], LEAST_DEVIATIONS, strict=True):
+        widen(axes, least)
     _scale_averaged(panels[2, 0], results, ideals)
     resolved = [(crank_degrees(r), r["slider_acceleration"]) for r in results.values()]
     scale = impact_scale(panels[2, 1], resolved, signed=True)

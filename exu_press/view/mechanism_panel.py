@@ -195,7 +195,8 @@ def _draw_labels(
         if not body.name.endswith("_left")
     }
     means = np.array([middles[name][:, 1].mean() for name in named])
-    heights = spread(np.clip(means, min(edges), max(edges)), LINE * drawn)
+    sizes = [LINE * drawn] * len(named)
+    heights = spread(np.clip(means, min(edges), max(edges)), sizes)
     leaders: dict[str, tuple[Line2D, Point]] = {}
     for (name, words), y in zip(named.items(), heights, strict=True):
         axes.text(right + 0.12 * unit, y, words, fontsize=8.5, va="center")

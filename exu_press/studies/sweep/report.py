@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 from exu_press.files.output_directory import replacing
 from exu_press.integrate import SolverStatus
+from exu_press.plots.sweep_words import in_unit
 from exu_press.quantities import Owner, Quantity
 from exu_press.quantities.catalogue import find_quantity
 from exu_press.quantities.cost import COSTS
@@ -172,8 +173,10 @@ class SweepReport(Report):
         if not names:
             return None
         labels = [self._command(run) for run in range(len(self))]
+        keys = [*self.study.keys]
+        varied = [name for name in keys if len(set(self[name])) > 1]
         return Points(
-            [self._column(name) for name in self.study.keys],
+            [self._key_column(name) for name in varied or keys],
             [self._column(name) for name in names],
             labels,
         )
@@ -245,6 +248,13 @@ class SweepReport(Report):
             return quantity_column(name, self[name])
         low, high = ([e[end] if e else None for e in errors] for end in ("low", "high"))
         return quantity_column(name, self[name], low, high)
+
+    def _key_column(self, name: str) -> Column:
+        """Return the column of a key, numbers in the unit that the picture has."""
+        if not self.is_numeric(name):
+            return quantity_column(name, self[name])
+        values, unit = in_unit(name, self.numbers(name))
+        return Column(name, unit, values.tolist())
 
     def _command(self, run: int) -> str:
         """Return the command that shows a run again: its file's, or the one that computes it."""

@@ -48,7 +48,7 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     left_out = {c for c in loaded if not {c, mirror(c)} & drawn_channels}
     if left_out:
         names = joint_titles(everyone, sorted(c.removesuffix("_force") for c in left_out))
-        heading += f" (not drawn: {shorten(', '.join(names.values()).lower(), LETTERS)})"
+        heading += f" (not drawn: {shorten('; '.join(names.values()).lower(), LETTERS)})"
     panel_of = {title: (f"{name}_force", "force, kN", 1e-3) for name, title in drawn.items()}
     panel_of["Drive torque"] = "drive_torque", "torque, N m", 1.0
     rows = [*grid_rows(len(panel_of), 2)]

@@ -59,7 +59,7 @@ def at_peaks(first: Samples, second: Samples, variables: Variables) -> Array:
 
 
 def scales_of(samples: Samples, variables: Variables, duration: float) -> Array:
-    """Return the scale of each quantity in a run of a duration, s, (quantities,)."""
+    """Return the scale of each quantity in a run of a duration, s, (quantities,); 1 if it is 0."""
     moved = norm(samples.displacements - samples.displacements[0], axis=-1).max(initial=0.0)
     turned = _angles(samples.rotations - samples.rotations[0]).max(initial=0.0)
     change = samples.coordinates - samples.coordinates[0]
@@ -71,7 +71,8 @@ def scales_of(samples: Samples, variables: Variables, duration: float) -> Array:
         sensors[alike] = np.maximum(sensors[alike], SMALLEST * sensors[alike].max())
     nodes = [moved] * len(variables.placed) + [turned] * len(variables.turning)
     least = SMALLEST * np.abs(change).max(initial=0.0)
-    return np.concatenate([nodes, np.maximum(coordinates, least), sensors, [duration]])
+    scales = np.concatenate([nodes, np.maximum(coordinates, least), sensors, [duration]])
+    return np.where(scales > 0.0, scales, 1.0)
 
 
 def excess_step(

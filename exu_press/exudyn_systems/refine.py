@@ -4,7 +4,7 @@ import itertools
 import math
 from dataclasses import dataclass, field
 
-from exu_press.exudyn_systems import difference
+from exu_press.exudyn_systems.difference import at_peaks, differences, excess_step, scales_of
 from exu_press.exudyn_systems.level import OUT_OF_TIME, Level, Levels
 from exu_press.exudyn_systems.samples import MOST_SAMPLES, Variables
 from exu_press.numerics.arrays import Array
@@ -67,19 +67,16 @@ class Refinement:
     def scales(self) -> Array:
         """Return the scales of the finest level."""
         finest = self.levels[-1]
-        return difference.scales_of(finest.samples, self.variables, finest.step * finest.steps)
+        return scales_of(finest.samples, self.variables, finest.step * finest.steps)
 
     def excess(self, level: Level) -> float:
         """Return a level's step over the longest one of a level that decides."""
         samples, scales = level.samples, self.scales()
-        return difference.excess_step(samples, level.step, self.variables, scales, self.tolerance)
+        return excess_step(samples, level.step, self.variables, scales, self.tolerance)
 
     def differences(self, first: Level, second: Level) -> Array:
         """Return the differences of two levels over the scales, (instants, quantities)."""
-        relative = difference.differences(first.samples, second.samples, self.variables)
-        scales = self.scales()
-        relative[:, scales > 0.0] /= scales[scales > 0.0]
-        return relative
+        return differences(first.samples, second.samples, self.variables) / self.scales()
 
     def newton_failures(self) -> list[Level]:
         """Return the levels at which Newton's method failed."""
@@ -114,21 +111,16 @@ class Refinement:
             (self.failures if level.failure else self.levels).append(level)
             if level.failure:
                 continue
-            self.levels, deciding, self.judgement = self.levels[-4:], self.deciding(), None
+            self.levels, deciding, self.judgement = self.levels[-4:], self._deciding(), None
             if len(deciding) == 3:
-                pairs = itertools.pairwise(deciding)
+                pairs = list(itertools.pairwise(deciding))
                 apart = [self.differences(*pair).max(axis=0) for pair in pairs]
-                self.judgement = judge([run.steps for run in deciding], apart, self.tolerance)
+                peaks = [at_peaks(a.samples, b.samples, self.variables) for a, b in pairs]
+                numbers = [level.steps for level in deciding]
+                self.judgement = judge(numbers, apart, peaks, self.tolerance)
                 self.orders.append(self.judgement.order)
 
-    def peak_errors(self) -> Array:
-        """Return the stated errors of the sensors' peaks, from three levels that decide."""
-        deciding = self.deciding()
-        pairs = [(a.samples, b.samples) for a, b in itertools.pairwise(deciding)]
-        apart = [difference.at_peaks(*pair, self.variables) for pair in pairs]
-        return judge([run.steps for run in deciding], apart, self.tolerance).errors
-
-    def deciding(self) -> list[Level]:
+    def _deciding(self) -> list[Level]:
         """Return those of the last three levels whose steps are short enough."""
         return [level for level in self.levels[-3:] if self.excess(level) <= 1.0]
 
@@ -152,7 +144,7 @@ class Refinement:
 
     def _next_factor(self) -> tuple[float, bool]:
         """Return the factor to the next level's number of steps, and whether that is the last."""
-        levels, judgement = self.deciding(), self.judgement
+        levels, judgement = self._deciding(), self.judgement
         if judgement is None:
             if len(levels) < 2 or self.excess(self.levels[-1]) > 1.0:
                 return self.excess(self.levels[-1]), False

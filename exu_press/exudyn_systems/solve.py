@@ -159,5 +159,5 @@ def _stated_error(refinement: Refinement) -> RunError | None:
         motion=float(judgement.errors[:first].max(initial=0.0)),
         since=math.inf if refinement.meets_tolerance() else agreed_until(refinement),
         sensors=np.split(values, ends) if sizes else [],
-        peaks=np.split(refinement.peak_errors(), ends) if sizes else [],
+        peaks=np.split(judgement.peaks, ends) if sizes else [],
     )

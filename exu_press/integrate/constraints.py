@@ -18,8 +18,6 @@ from exu_press.numerics.linear import Equations
 
 __all__ = ["Constraints", "normalise"]
 
-Flags = NDArray[np.bool_]
-
 REDUNDANT = 1e-8
 """Singular value of constraints' directions of length 1, below which one repeats others."""
 
@@ -52,14 +50,14 @@ class Constraints:
         self._current, self._start, self._length = system.current, system.start, system.length
         self._regularisation = task.tuning.regularisation
         self.rates_not_provided = system.rates_not_provided
-        self._of_velocities: Flags | None = None
+        self._of_velocities: NDArray[np.bool_] | None = None
 
     @property
     def count(self) -> int:
         """Their number."""
         return len(self._current.multipliers)
 
-    def of_velocities(self) -> Flags:
+    def of_velocities(self) -> NDArray[np.bool_]:
         """Return which of them hold velocities; the others hold positions."""
         if self._of_velocities is None:
             self._of_velocities = np.asarray(self._jacobian(0.0, 1.0).any(axis=1))

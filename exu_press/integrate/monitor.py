@@ -61,7 +61,7 @@ class Monitor:
         progress: Progress,
         max_steps: int,
         criteria: Criteria,
-        event: Callable[[Any, float], float] | None,
+        event: Callable[[Any, float], float],
         why_long: Callable[[float, ClearanceJoint | None], str],
         controller: Controller | None = None,
     ) -> None:

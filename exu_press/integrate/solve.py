@@ -123,7 +123,7 @@ def solve_dynamic(
                 progress,
                 max_steps,
                 criteria,
-                event,
+                event or (lambda mbs, time: 1.0),
                 words.long,
                 controller,
             )

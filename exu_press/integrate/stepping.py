@@ -124,7 +124,7 @@ class Event:
         passed: whether the step last tried ends behind an event.
     """
 
-    def __init__(self, task: Task, function: Callable[[Any, float], float] | None) -> None:
+    def __init__(self, task: Task, function: Callable[[Any, float], float]) -> None:
         """Look for the zeros of a function of the system and the time, s."""
         self._mbs, self._function = task.system.mbs, function
         self._narrow = max(EVENT_WIDTH * task.largest, 2.0 * task.smallest)
@@ -133,13 +133,10 @@ class Event:
 
     def begin(self, time: float) -> None:
         """Look at the current state, from which the run starts at a time, s."""
-        if self._function is not None:
-            self._start = self._function(self._mbs, time)
+        self._start = self._function(self._mbs, time)
 
     def shorter(self, step: float, end: float) -> float:
         """Return with which step to repeat one (s) that ends at `end`, s, or 0.0 to keep it."""
-        if self._function is None:
-            return 0.0
         self._now = now = self._function(self._mbs, end)
         self.passed = now * self._start < 0.0
         if not self.passed:

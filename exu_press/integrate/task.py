@@ -36,9 +36,6 @@ TOLERANCES = 1e-8, 0.1
 SHORTEST_RUN = 1e-7
 """Time of which the 1e-10 s by which Exudyn may end early are a thousandth, s."""
 
-METHOD = "GeneralizedAlpha"
-"""Exudyn's solver whose local error is estimated."""
-
 MOST_HALVED = 2.0**10
 """Number of halvings of a fixed step where Newton's method fails."""
 
@@ -226,11 +223,11 @@ def refuse_unusable(
     if sample is not None and not 0.0 < sample < math.inf:
         raise InputError(f"sample = {sample!r}: allowed is a period in seconds, or None")
     alpha, solver = integration.generalizedAlpha, str(integration.solverType).rsplit(".", 1)[-1]
-    if solver != METHOD or alpha.useNewmark or alpha.useIndex2Constraints:
+    if solver != "GeneralizedAlpha" or alpha.useNewmark or alpha.useIndex2Constraints:
         raise InputError(
             f"settings.timeIntegration.solverType = {solver}, generalizedAlpha.useNewmark = "
             f"{alpha.useNewmark}, .useIndex2Constraints = {alpha.useIndex2Constraints}: allowed is "
-            f"{METHOD} with constraints of index 3, whose local error is known"
+            "GeneralizedAlpha with constraints of index 3, whose local error is known"
         )
     radius, largest = alpha.spectralRadius, 1.0 if tolerance is None else LARGEST_RADIUS
     if not 0.0 < radius <= largest:

@@ -109,7 +109,6 @@ class Comparison:
         if nearly is None or truth is None:
             return {**row, "reference": OVER if self.left <= 0 else "failed"}
         scales = scales_of(truth.samples, self.variables, self.duration)
-        scales = np.where(scales > 0.0, scales, 1.0)
 
         def apart(samples):
             return (differences(samples, truth.samples, self.variables) / scales).max(axis=0)

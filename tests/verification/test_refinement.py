@@ -134,4 +134,10 @@ def test_the_largest_step_goes_with_the_tolerance(joints):
     scene = Scene(mechanism="slider_crank", joints=joints)
     assert scene.solver is not None
     for ratio, other in plan(scene).items():
+        assert other.solver.tolerance == pytest.approx(ratio * scene.solver.tolerance)
         assert other.solver.max_step_deg == pytest.approx(ratio**0.5 * scene.solver.max_step_deg)
+
+
+def test_fixed_steps_go_with_the_ratio():
+    steps = [other.solver.step for other in plan(SHORT.replace({"solver.step": 1e-5})).values()]
+    assert steps == pytest.approx([1e-5 * ratio for ratio in OF_STEPS])

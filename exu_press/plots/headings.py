@@ -1,4 +1,4 @@
-"""Titles, notes and legends over a panel that keep clear of each other."""
+"""Titles, notes and legends over a panel that keep clear of each other; names of axes that fit."""
 
 import textwrap
 
@@ -8,7 +8,7 @@ from matplotlib.text import Text
 
 from exu_press.plots.format import picture_format
 
-__all__ = ["separate_headings"]
+__all__ = ["separate_headings", "wrap_labels"]
 
 GAP = 6.0
 """Least distance of a title from what is beside it, points."""
@@ -42,6 +42,24 @@ def separate_headings(figure: Figure) -> None:
             height *= len(lines)
             _write_below_title(axes, note, "\n".join(lines))
         axes.set_title(title.get_text(), loc="left", pad=height + GAP)
+
+
+def wrap_labels(figure: Figure) -> bool:
+    """Break names of panels' axes that are longer than these; return whether there were any."""
+    wrapped = False
+    for axes in figure.axes:
+        if axes.get_subplotspec() is None:
+            continue  # a colour bar, which its name may overhang
+        lengths = ((axes.xaxis.label, axes.bbox.width), (axes.yaxis.label, axes.bbox.height))
+        for side, (label, room) in enumerate(lengths):
+            box = label.get_window_extent()
+            taken = (box.width, box.height)[side]
+            if label.get_text() and taken > max(room, 1.0):
+                lines = label.get_text().splitlines()
+                letters = max(10, int(max(map(len, lines)) * room / taken))
+                label.set_text("\n".join(textwrap.fill(line, letters) for line in lines))
+                wrapped = True
+    return wrapped
 
 
 def _write_below_title(axes: Axes, note: Text, text: str) -> None:

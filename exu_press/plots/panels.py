@@ -13,7 +13,14 @@ from exu_press.plots.format import picture_format
 from exu_press.plots.style import points
 from exu_press.plots.typesetting import plain
 
-__all__ = ["Rows", "figure_with_panels", "grid_rows", "legend_above", "lowest_panels"]
+__all__ = [
+    "Rows",
+    "figure_with_panels",
+    "grid_rows",
+    "legend_above",
+    "lowest_panels",
+    "name_rows",
+]
 
 Rows = Sequence[Sequence[int | None]]
 """Number of the panel in each cell, row by row; one may fill several cells, None leaves one empty.
@@ -24,6 +31,9 @@ LETTERS = 13.5
 
 NARROWEST = 7.5
 """inch, in which a heading has room beside a legend."""
+
+ROW_LETTERS = 28
+"""In a line of a row's name."""
 
 HEADING = 1.2
 """inch, of heading and text."""
@@ -106,6 +116,14 @@ def legend_above(axes: Axes, columns: int = 4, **legend: Any) -> None:
         borderpad=0.0,
         **legend,
     )
+
+
+def name_rows(axes: Axes, rows: Sequence[float], names: Sequence[str]) -> None:
+    """Name rows of a panel at its left; on narrow paper in lines of at most ROW_LETTERS."""
+    if picture_format().stacks:
+        broken = (textwrap.fill(name.replace(".", ". "), ROW_LETTERS) for name in names)
+        names = [name.replace(". ", ".") for name in broken]
+    axes.set_yticks(rows, [plain(name) for name in names])
 
 
 def _figure(heading: str, text: str, width: float, height: float) -> Figure:

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from exu_press.errors import InputError
 from exu_press.files.digests import note_content
 from exu_press.plots.format import picture_format
-from exu_press.plots.headings import separate_headings
+from exu_press.plots.headings import separate_headings, wrap_labels
 
 __all__ = [
     "COLOURS",
@@ -198,6 +198,8 @@ def with_style(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figur
             separate_headings(figure)
             if (engine := figure.get_layout_engine()) is not None:
                 engine.execute(figure)
+                if picture_format().width is not None and wrap_labels(figure):
+                    engine.execute(figure)
             return figure
 
     return inner

@@ -12,7 +12,8 @@ from exu_press.cli import main
 from exu_press.plots import force_figure, orbit_figure, slider_figure
 from exu_press.plots.file import save_figure
 from exu_press.plots.format import PictureFormat, drawn_as
-from exu_press.plots.style import COLOURS, line_of
+from exu_press.plots.panels import figure_with_panels
+from exu_press.plots.style import COLOURS, line_of, with_style
 
 COLOUR_BLIND = {
     "protanopia": ((0.152, 1.053, -0.205), (0.115, 0.786, 0.099), (-0.004, -0.048, 1.052)),
@@ -124,3 +125,18 @@ def test_what_is_no_format_is_refused_before_anything_runs(
     (tmp_path / "huge.mplstyle").write_text("font.size: 1e9\n")
     assert main(["run", "press", *words, "--out", "o"]) == 2
     assert said in capsys.readouterr().err and not (tmp_path / "o").exists()
+
+
+def test_long_names_of_axes_are_broken_on_paper_and_stay_on_a_screen():
+    @with_style
+    def draw():
+        figure, (axes,) = figure_with_panels("", "", [[0]], 6.5, 1.5)
+        axes.set(xlabel=" ".join(["share"] * 30), ylabel="force")
+        return figure
+
+    with drawn_as(PictureFormat(width=3.3)):
+        (axes,) = draw().axes
+    assert axes.get_ylabel() == "force"
+    assert axes.get_xlabel().count("\n") > 0
+    assert axes.xaxis.label.get_window_extent().width <= 1.1 * axes.bbox.width
+    assert "\n" not in draw().axes[0].get_xlabel()

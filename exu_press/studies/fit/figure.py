@@ -4,7 +4,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.stats import chi2
 
-from exu_press.plots.panels import figure_with_panels, grid_rows
+from exu_press.plots.format import picture_format
+from exu_press.plots.panels import figure_with_panels, grid_rows, name_rows
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import COLOURS, GREY, SHADE, with_style
 from exu_press.plots.sweep_words import in_unit, words
@@ -20,6 +21,9 @@ __all__ = ["fit_figure", "profiles_figure"]
 
 MOST_ACROSS = 3
 
+ROW, ROW_ON_PAPER = 0.32, 0.6
+"""inch of a number in its panel, whose name may take two lines on narrow paper."""
+
 LOWEST = 1.7
 """inch of a panel, whose numbers have room beside title and labels on narrow paper, too."""
 
@@ -29,7 +33,8 @@ def fit_figure(report: FitReport) -> Figure:
     """Return the residuals of numbers in uncertainties, and each curve beside the computed one."""
     study = report.study
     number, curves = len(study.measured), len(study.curve)
-    heights = [max(LOWEST, 0.8 + 0.32 * number)] * (number > 0) + [2.8] * curves
+    row = ROW_ON_PAPER if picture_format().stacks else ROW
+    heights = [max(LOWEST, 0.8 + row * number)] * (number > 0) + [2.8] * curves
     text = f"{describe([report.scene], 110)}\nchi-square {significant(report.chi_square, 3)} with "
     text += f"{report.freedom:g} degree{'s' * (report.freedom != 1)} of freedom"
     figure, axes = figure_with_panels(
@@ -44,7 +49,7 @@ def fit_figure(report: FitReport) -> Figure:
             report.residuals, rows, xerr=report.errors[:number], fmt="o", color=COLOURS["blue"],
             markersize=5, elinewidth=1.2,
         )  # fmt: skip
-        first.set_yticks(rows, [plain(entry.name) for entry in study.measured])
+        name_rows(first, rows.tolist(), [entry.name for entry in study.measured])
         first.set_ylim(-0.6, number - 0.4)
         most = max(3.0, 1.15 * float(np.abs(report.residuals).max()))
         first.set_xlim(-most, most)

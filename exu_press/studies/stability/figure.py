@@ -97,7 +97,8 @@ def _draw_axes(
     axes.set_yticks(
         range(len(lines)), [f"{axis}: {base}" for axis, base in lines], fontsize=points(9.5)
     )
-    axes.set(xlim=(-0.7, most + 4.0), ylim=(len(lines) - 0.4, -0.6), xticks=[])
+    room = 6.0 if picture_format().stacks else 4.0  # of the ends, in words
+    axes.set(xlim=(-0.7, most + room), ylim=(len(lines) - 0.4, -0.6), xticks=[])
     axes.set_title("Along each axis")
     axes.grid(False)
 
@@ -115,6 +116,7 @@ def _draw_pairs(axes: Axes, rows: Sequence[Row], colours: ScalarMappable) -> Non
 
 def _mark(axes: Axes, x: float, y: float, row: Row, colours: ScalarMappable) -> None:
     style = dict(MARKERS[row.verdict])
+    style["s"] *= points(1.0) ** 2  # an area
     if "color" not in style:
         style["color"] = colours.to_rgba(np.array([row.residual]))
     axes.scatter([x], [y], zorder=3, **style)

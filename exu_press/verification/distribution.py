@@ -139,7 +139,7 @@ def discretization_error(differences: Sequence[float]) -> float:
     revolution, differences scatter.
 
     >>> round(discretization_error([1.0, 1.0]), 3)
-    1.462
+    1.335
     """
     values = np.asarray(differences)
     uncertainty = _student(len(values)) * values.std(ddof=1) / math.sqrt(len(values))

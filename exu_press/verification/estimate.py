@@ -54,7 +54,7 @@ def convergent_error(
         earlier: values at earlier instants of a quantity that oscillates; the largest error counts.
 
     >>> round(convergent_error([1.01, 1.02, 1.03], [1.0, 4.0, 9.0])["error"], 6)
-    0.01
+    0.007708
     """
     powers = [ratio**ORDER for ratio in ratios]
     error = 0.0

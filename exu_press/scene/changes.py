@@ -96,7 +96,10 @@ def _changed_joints(
         keys = joint_keys(name, value) if is_whole and value is not None else value
         for member in groups.get(name, (name,)):
             by_member[member if is_whole else f"{member}.{key or 'kind'}"] = keys
-    return changed_tables("joints", joints, by_member, _changed_joint)
+    try:
+        return changed_tables("joints", joints, by_member, _changed_joint)
+    except InputError as error:
+        raise InputError(by_group(str(error), groups, changes)) from None
 
 
 def _changed_joint(

@@ -17,7 +17,7 @@ from exu_press.scene.friction import (
     demand_static_friction,
 )
 from exu_press.schema.checks import key
-from exu_press.schema.kinds import CustomKind, kind_name
+from exu_press.schema.kinds import CustomKind, kind_module, kind_name
 from exu_press.schema.registry import Registry, alternatives, choice
 from exu_press.schema.table import (
     Table,
@@ -79,6 +79,11 @@ class GuideFriction(CustomKind, Table):
     def kind(self) -> str:
         """Name of the law."""
         return self.law_kind
+
+    @property
+    def module(self) -> str:
+        """Module of the law; "" of ours."""
+        return kind_module(self.law_type)
 
 
 def guide_friction(law: type[FrictionLaw], keys: Mapping[str, Any]) -> GuideFriction:

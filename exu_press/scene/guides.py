@@ -19,6 +19,7 @@ from exu_press.schema.table import (
     declared_keys,
     key_values,
     plain,
+    plain_value,
     table_from,
     used_names,
 )
@@ -78,14 +79,22 @@ def guides_of(
 
 
 def _refuse_overridden(table: ElasticGuide, names: Collection[str]) -> None:
-    """Raise UnusedKeyError for a key of [guide] that no guide has from there."""
+    """Raise UnusedKeyError for a key of [guide] that no guide, and no other key, has use for."""
     own = [table.by_name.get(name, {}) for name in names]
-    for name, value, field in key_values(table):
-        if name in table.by_name or value in (None, field.default):
+    shared = {
+        name: plain_value(value)
+        for name, value, field in key_values(table)
+        if name not in table.by_name and value not in (None, field.default)
+    }
+    for name, value in shared.items():
+        if not all(name in keys or name in KINDS.get(keys.get("kind", ""), ()) for keys in own):
             continue
-        if all(name in keys or name in KINDS.get(keys.get("kind", ""), ()) for keys in own):
-            path = f"guide.{name}"
-            raise UnusedKeyError(path, f"{path} = {value!r}", "every guide has its own")
+        try:
+            table_from(ElasticGuide, "guide", {n: v for n, v in shared.items() if n != name})
+        except InputError:  # others, which guides do have from there, are not allowed without it
+            continue
+        path = f"guide.{name}"
+        raise UnusedKeyError(path, f"{path} = {value!r}", "every guide has its own")
 
 
 def _own_guide(

@@ -22,6 +22,7 @@ __all__ = [
     "describe_own_error",
     "import_kinds",
     "is_loaded",
+    "kind_module",
     "kind_name",
     "loaded_kinds",
     "refusal",
@@ -78,10 +79,7 @@ class CustomKind:
     @property
     def module(self) -> str:
         """Module of a user's or another distribution's code that it is of; "" of ours."""
-        if not self.resolved:  # its name may have the module
-            module, colon, _ = self.kind.partition(":")
-            return module if colon else ""
-        return "" if _is_ours(type(self)) else type(self).__module__
+        return kind_module(type(self))
 
 
 Kind = TypeVar("Kind", bound=CustomKind)
@@ -225,6 +223,14 @@ def kind_name(kind: type[CustomKind]) -> str:
     """Return the name by which a scene calls a class."""
     name: str = vars(kind).get("registered_name", "")
     return f"{kind.__module__}:{kind.__qualname__}" if name == "" else name
+
+
+def kind_module(kind: type[CustomKind]) -> str:
+    """Return the module of a class of a user or another distribution; "" of ours."""
+    if not kind.resolved:  # its name may have the module
+        module, colon, _ = kind_name(kind).partition(":")
+        return module if colon else ""
+    return "" if _is_ours(kind) else kind.__module__
 
 
 def _loaded_kind(name: str, base: type[Kind]) -> type[Kind] | None:

@@ -293,7 +293,20 @@ def refuse_unknown_keys(
         if key not in known and {path, key} & RENAMED.keys():
             now = RENAMED.get(path) or RENAMED[key]
             raise InputError(f"{path} = {value!r:.200}: is {now} now")
-        demand_known(f"{path} = {value!r:.200}: unknown key", key, dict.fromkeys(known), used)
+        allowed = {*used, *(name for kind in kinds for name in _choosing_keys(kind, used))}
+        demand_known(f"{path} = {value!r:.200}: unknown key", key, dict.fromkeys(known), allowed)
+
+
+def _choosing_keys(kind: type[Table], used: Collection[str]) -> Iterator[str]:
+    """Yield the keys that choose parts of a table, and of those of its parts that are used."""
+    for field in _fields(kind):
+        selector = field.metadata.get("part")
+        if isinstance(selector, Alternatives):
+            yield from filter(None, selector.homes)
+        for _, inner in selector.classes() if selector is not None else ():
+            own = {f.name for f in _fields(inner) if "part" not in f.metadata}
+            if own <= {*used}:
+                yield from _choosing_keys(inner, used)
 
 
 def unused_reason(table: Table, key: str, place_of: Callable[[str], str]) -> str | None:

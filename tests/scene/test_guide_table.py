@@ -9,6 +9,7 @@ from exu_press.laws.contact import delivered_restitution, hertz
 from exu_press.quantities.units import unit_of
 from exu_press.scene import mechanism_of
 from exu_press.scene.assumptions import assumed_values
+from exu_press.schema.table import key_values
 
 IDEAL = {"mechanism": "slider_crank", "joints": {}}
 LOOSE = {"clearance": 2e-5, "length": 0.3}
@@ -119,3 +120,26 @@ def test_own_tables_are_changed_as_other_keys(tmp_path):
     scene.save(tmp_path / "scene.toml")
     loaded = Scene.load(tmp_path / "scene.toml", ["guide.counterweight.length=0.9"])
     assert loaded.guides["counterweight"].support.length == 0.9
+
+
+OILED = {"clearance": 1e-4, "viscosity": 0.1, "face_width": 0.1, "contact_gap": 2e-6}
+
+
+@pytest.mark.parametrize(
+    ("shared", "own", "kept"),
+    [
+        (OILED, {"clearance": 5e-5}, "viscosity"),
+        ({"clearance": 1e-4, "length": 0.3}, {"lateral_stiffness": 2e9}, "length"),
+        (
+            {"friction": "coulomb", "mu_kinetic": 0.2},
+            {"friction": "stribeck", "mu_static": 0.3},
+            "mu_kinetic",
+        ),
+    ],
+)
+def test_a_key_that_others_of_all_guides_need_is_used_where_each_has_its_own(shared, own, kept):
+    scene = Scene.from_dict({**IDEAL, "guide": shared})
+    changed = scene.replace({f"guide.slider.{name}": value for name, value in own.items()})
+    assert changed == Scene.from_dict({**IDEAL, "guide": {**shared, "slider": own}})
+    of_slider = {name: value for name, value, _ in key_values(changed.guides["slider"])}
+    assert of_slider[kept] == shared[kept]

@@ -8,6 +8,7 @@ from user_kinds import NAMES, forget
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
 from exu_press.scene.assumptions import keys_of
+from exu_press.scene.provenance import provenance_of
 from exu_press.schema.kinds import custom_modules, import_kinds
 from exu_press.schema.toml import toml_text
 
@@ -120,6 +121,21 @@ def test_with_permission_they_run_are_stored_and_shown_without_being_imported(
     assert not mark.exists()
     assert simulate(Scene.load("shorter.toml", allow_code=True)).completed
     assert Scene.from_dict(complete) == Scene.from_dict(stored.to_dict())  # loaded now
+
+
+@pytest.mark.parametrize(
+    ("guide", "modules"),
+    [
+        ({"friction": own("graded")}, {"own_kinds"}),
+        ({"slider": {"friction": own("graded")}}, {"own_kinds"}),
+        ({"clearance": 1e-4}, set()),
+        ({"friction": "coulomb"}, set()),
+    ],
+)
+def test_the_law_of_a_guide_is_among_the_code_that_a_result_comes_from(guide, modules, mark):
+    scene = {"mechanism": "slider_crank", "joints": {}, "guide": guide}
+    import_kinds(scene)
+    assert provenance_of(Scene.from_dict(scene))["code"].keys() == modules
 
 
 def test_their_keys_are_checked_and_explained(mark):

@@ -146,6 +146,7 @@ guide.clearance = 2e-5; contact.modulus = 1e11 -> contact.modulus = 1
 guide.clearance = 2e-5; contact.damping = 'step' -> guide.clearance needs contact.damping_max
 guide = {friction = 'coulomb', viscosity = 0.1} -> guide.viscosity = 0.1: not used .. clearance is
 = mechanism = 'slider_crank'; joints = {}; guide = {clearance = 2e-5, length = 0.3, width = 0.1}
+guide.foo = 1 -> guide.foo = 1: unknown key; allowed are lateral_stiffness, length, clearance,
 guide.damping_ratio = 0.1 -> guide.damping_ratio = 0.1: not used .. [contact] has
 guide.slider.length = 0.2 -> guide.length = 0.3: not used by this scene (every guide has its own
 guide.damping_depth = 1e-6 -> guide.damping_depth = 1e-06: is contact.damping_depth
@@ -178,6 +179,7 @@ lot.width = 0: slots.yoke_slot holds a pin
 
 # motors
 = drive.inertia = 50.0
+drive.foo = 1 -> allowed are begins, clutch_torque, table_speed_rpm, table_torque, rated_torque,
 drive = {} -> [drive] needs drive.rated_torque (at rated speed
 drive = {rated_torque = 4.0, clutch_torque = 9.0, stop_time = []} -> (an empty list is as good as
 drive = {rated_torque = 400.0, breakdown_torque = 300.0} -> drive.breakdown_torque = 300.0: allowed

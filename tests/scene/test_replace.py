@@ -158,6 +158,7 @@ def test_what_is_none_is_left_out(change, remaining):
         ({".": 1}, r"^'\.': allowed is the name of a key"),
         ({"contact..length": 1}, r"^'contact\.\.length': allowed is the name of a key"),
         ({"contact": 5, "contact.length": 0.1}, "^contact = 5: allowed is a table of keys"),
+        ({"joints.balls": "dri"}, r"^joints\.balls\.kind = 'dri': allowed is one of"),
         ({"load.X": None}, "^load.X = None: there is none to leave out"),
         ({"joints.crank_pim": None}, "there is none to leave out .*'crank_pin'"),
     ],

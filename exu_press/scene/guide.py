@@ -52,14 +52,9 @@ class GuideFrictionKinds(Registry):
 
 @dataclass(frozen=True)
 class GuideFriction(CustomKind, Table):
-    """Those keys of a law of friction that guides have of their own.
-
-    Attributes:
-        law_kind: name of the law.
-    """
+    """Those keys of a law of friction that guides have of their own."""
 
     table: ClassVar[str] = "guide"
-    law_kind: ClassVar[str] = ""
     law_type: ClassVar[type[FrictionLaw]]
     law_keys: ClassVar[tuple[str, ...]] = ()
     """The other keys of the law, which are in [friction]; unknown where it is not resolved."""
@@ -78,7 +73,7 @@ class GuideFriction(CustomKind, Table):
     @property
     def kind(self) -> str:
         """Name of the law."""
-        return self.law_kind
+        return kind_name(self.law_type)
 
     @property
     def module(self) -> str:
@@ -105,7 +100,6 @@ def _keys_of_guides(law: type[FrictionLaw]) -> type[GuideFriction]:
         copied: Any = dataclasses.field(default=default, metadata=metadata)
         own.append((field.name, field.type, copied))
     namespace = {
-        "law_kind": kind_name(law),
         "law_type": law,
         "law_keys": tuple(law_keys),
         "resolved": law.resolved,

@@ -173,6 +173,15 @@ def test_a_distribution_registers_them(install, mark, tmp_path):
     assert Result.load("run.nc").scene.has_unresolved_kinds and not mark.exists()
 
 
+def test_a_registered_law_of_a_guide_has_its_name_where_another_kind_was_first(install, tmp_path):
+    install(tmp_path / "site-packages" / "mine")
+    pin = {"kind": "bushing", "clearance": 1e-4, "stiffness": 2e8}
+    for friction in ("coulomb", "graded"):
+        data = {"mechanism": "slider_crank", "joints": {"crank_pin": pin}}
+        scene = Scene.from_dict({**data, "guide": {"friction": friction}})
+        assert scene.to_dict()["guide"]["friction"] == friction
+
+
 @pytest.mark.parametrize(
     ("module", "line"),
     [("fails_late", "return lambda speed: 1 / 0"), ("fails_early", "raise ValueError('no law')")],

@@ -41,14 +41,16 @@ def _slot_ends(mechanism: Mechanism) -> Iterator[Refusal]:
             continue
         motions = mechanism.motion(REVOLUTION, 1.0)
         position = motion_in_guide(mechanism, guide, motions)[0][:, :2] - np.array(guide.at)
-        beside = np.abs(position @ np.array(guide.direction) - guide.middle_along)
+        along = position @ np.array(guide.direction)
+        beside = np.abs(along - guide.middle_along)
         beyond = np.flatnonzero(beside > 0.5 * guide.length)
         if len(beyond):
             angle = float(REVOLUTION[beyond[0]])
             yield (
                 f"the pin of {guide.body} reaches an end of {guide.key} at crank angle "
-                f"{math.degrees(angle):.4g} deg; it needs a length of {2.0 * beside.max():.4g} m, "
-                f"and has {guide.length:g} m",
+                f"{math.degrees(angle):.4g} deg; it needs a length of {2.0 * beside.max():.4g} m "
+                f"about its `middle`, or {np.ptp(along):.4g} m about that of the pin's way, and "
+                f"has {guide.length:g} m",
                 (guide.body,),
                 angle,
             )

@@ -1,9 +1,9 @@
 """Quantities of runs beside each other: a line for each quantity and owner, a column a run."""
 
+import itertools
 import textwrap
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from exu_press.quantities.kind import LOAD
 from exu_press.quantities.observed import with_observed
 from exu_press.quantities.quantity import Owner, Quantity
 from exu_press.quantities.reading import Reading
-from exu_press.quantities.uncertain import BRACKETS, bracket_text, uncertain
+from exu_press.quantities.uncertain import bracket_legend, bracket_text, uncertain
 from exu_press.quantities.value import Value, values_of
 from exu_press.result import Result
 from exu_press.result.info import Error
@@ -181,8 +181,10 @@ def _is_part(run: Reading) -> bool:
 def run_lines(result: Result) -> list[str]:
     """Return one run's quantities, a line each, below its status and its window."""
     head = f"{result.info['status']}; read from revolutions {span_text(Reading(result))}"
-    table = with_headings(quantity_cells({"": result}, narrow_cell))
-    texts = [BRACKETS, *remarks({"": result})]
+    rows = quantity_cells({"": result}, narrow_cell)
+    legend = bracket_legend(itertools.chain(*rows.values()))
+    table = with_headings(rows)
+    texts = [legend, *remarks({"": result})]
     return [head, *columns(table), *(x for text in texts for x in textwrap.wrap(text, WIDTH))]
 
 
@@ -270,7 +272,7 @@ def _are_alike(
 def difference_lines(results: Mapping[str, Result]) -> list[str]:
     """Return in which quantities two runs may be the same, pair by pair, where errors are known."""
     lines = []
-    for (name, first), (second_name, second) in combinations(results.items(), 2):
+    for (name, first), (second_name, second) in itertools.combinations(results.items(), 2):
         stated = [run.info.get("errors", {}) for run in (first, second)]
         unknown = [
             label for label, errors in zip((name, second_name), stated, strict=True) if not errors

@@ -1,10 +1,11 @@
 """A figure with its error, as people write it."""
 
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-__all__ = ["BRACKETS", "CELL", "UNDERFLOW", "bracket_text", "significant", "uncertain"]
+__all__ = ["CELL", "UNDERFLOW", "bracket_legend", "bracket_text", "significant", "uncertain"]
 
 MOST_DIGITS = 6
 """Significant digits of a figure in a narrow cell."""
@@ -15,11 +16,14 @@ MOST_PLACES = 8
 CELL = 11
 """Letters of a narrow cell."""
 
-BRACKETS = (
-    "857.3(9): within 0.9 of 857.3 at 95 %, in units of the last digit; 830..1540: not determined, "
-    "between these at 95 %; =5: exact; -: has none; without brackets: error not known."
+FORMS = (
+    (r".*\(", "857.3(9): within 0.9 of 857.3 at 95 %, in units of the last digit"),
+    (r".*\.\.", "830..1540: not determined, between these at 95 %"),
+    (r"=", "=5: exact"),
+    (r"-$", "-: has none"),
+    (r"(?!.*\.\.)[^=(]*\d[^=(]*$", "without brackets: error not known"),
 )
-"""What the forms of `bracket_text` mean."""
+"""Patterns of the texts that `bracket_text` returns, with their meanings."""
 
 UNDERFLOW = 1e-30
 """SI: a smaller figure is what a fading force has left, and is shown as 0."""
@@ -115,6 +119,19 @@ def bracket_text(
     forms += [(True, most) for most in range(MOST_DIGITS, 0, -1)]
     texts = (_with_last_digit(scaled, spread, most, power) for power, most in forms)
     return next(text for text in texts if len(text) <= CELL)
+
+
+def bracket_legend(rows: Iterable[Sequence[str]]) -> str:
+    """Return what the forms of `bracket_text` mean that rows of a title and cells have.
+
+    >>> bracket_legend([["impacts", "=7", "-"]]), bracket_legend([["energy residual", "0.00033"]])
+    ('=5: exact; -: has none.', 'without brackets: error not known.')
+    """
+    cells = [cell for _, *row in rows for cell in row]
+    present = (
+        meaning for pattern, meaning in FORMS if any(re.match(pattern, cell) for cell in cells)
+    )
+    return f"{'; '.join(present)}."
 
 
 def _without_underflow(

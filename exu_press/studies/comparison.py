@@ -1,9 +1,12 @@
 """Runs beside each other as one table, of 100 columns for up to five of them."""
 
+import itertools
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+
+import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.plots.words import SEPARATOR, describe
@@ -18,12 +21,12 @@ from exu_press.quantities.table import (
     span_text,
     with_headings,
 )
-from exu_press.quantities.uncertain import BRACKETS, CELL
+from exu_press.quantities.uncertain import CELL, bracket_legend
 from exu_press.quantities.value import Value, values_of
 from exu_press.result import Result
 from exu_press.schema.csv_table import Value as CsvValue
 from exu_press.studies.compare import different_keys
-from exu_press.studies.equal_windows import with_equal_windows
+from exu_press.studies.equal_windows import NEARLY, with_equal_windows
 from exu_press.terminal.columns import Notes, columns
 
 __all__ = ["Comparison", "compare_results"]
@@ -50,7 +53,7 @@ class Comparison:
         """Return the keys in which the scenes differ, and the windows where they do: rows."""
         rows = different_keys({label: run.scene for label, run in self.results.items()})[1:]
         spans = [span_text(Reading(run)) for run in self.common_window[0].values()]
-        if len(set(spans)) > 1:
+        if not self._have_one_window:
             rows.append([READ_FROM, *(span.partition(",")[0] for span in spans)])
         states = [str(run.info["status"]) for run in self.results.values()]
         return rows if len(set(states)) == 1 else [*rows, ["status", *states]]
@@ -64,9 +67,16 @@ class Comparison:
         words += [f"tolerance {tolerances.pop():g}"] if len(tolerances) == 1 else []
         states = {str(run.info["status"]) for run in runs}
         words += states if len(states) == 1 else []
-        spans = {span_text(Reading(run)) for run in self.common_window[0].values()}
-        words += [f"{READ_FROM} {spans.pop()}"] if len(spans) == 1 else []
+        if self._have_one_window:
+            first = next(iter(self.common_window[0].values()))
+            words.append(f"{READ_FROM} {span_text(Reading(first))}")
         return "; ".join(words).replace("²", "^2")
+
+    @property
+    def _have_one_window(self) -> bool:
+        """Return whether all are read from the same revolutions; a flexible crank is twisted."""
+        spans = np.array([Reading(run).span for run in self.common_window[0].values()])
+        return bool(np.ptp(spans, axis=0).max() < NEARLY)
 
     def cells(self, *, wide: bool = True) -> dict[str, list[list[str]]]:
         """Return rows of quantities by heading, a cell for each run."""
@@ -85,7 +95,8 @@ class Comparison:
             widths = [TITLE, *[CELL] * len(labels)]
             fitted = [list(map(notes.cell, row, widths)) for row in table]
             head = head if any(head[0]) else head[1:]
-            body, legend = columns([*head, *fitted], right=True, gap=1), [BRACKETS]
+            body = columns([*head, *fitted], right=True, gap=1)
+            legend = [bracket_legend(itertools.chain(*cells.values()))]
         above = self._wrap([self.common_facts, self.common_window[1], *notes.lines])
         pairs = difference_lines(self.common_window[0]) if wide or len(labels) == 2 else []
         below = self._wrap([*legend, *remarks(self.common_window[0])])

@@ -14,6 +14,9 @@ from exu_press.studies.curve_file import CurveFile
 
 __all__ = ["curve_panel", "measured_figure"]
 
+FEW = 100
+"""Samples up to which a measured curve has points that are seen below a line."""
+
 
 @with_style
 def measured_figure(comparisons: Mapping[str, Mapping[str, CurveComparison]]) -> Figure:
@@ -36,7 +39,8 @@ def curve_panel(
     unit: str,
 ) -> None:
     """Draw a measured curve, (m,), and computed ones at its places, by label, all in a unit."""
-    axes.plot(curve.at, measured, ".", color=GREY, markersize=3, label="measured")
+    size = 3 if len(measured) > FEW else 7
+    axes.plot(curve.at, measured, ".", color=GREY, markersize=size, label="measured")
     for index, (label, values) in enumerate(computed.items()):
         axes.plot(curve.at, values, **line_of(index), label=plain(label))
     axes.set_title(plain(f"Curve {name}"))

@@ -70,6 +70,16 @@ def test_a_run_beside_its_continuation_says_which_revolutions_are_read(scene):
     assert comparison.common_window == (comparison.results, "")
 
 
+def test_a_twisted_crank_makes_no_other_window(result):
+    angle = result.channels["crank_angle"]
+    twisted = replace(angle, values=angle.values + np.linspace(0.0, 3e-4, len(result.time)))
+    flexible = replace(result, channels={**result.channels, "crank_angle": twisted})
+    comparison = result.compare(flexible, labels=("rigid", "flexible"))
+    assert comparison.differences == []
+    assert "read from revolutions 0 to 0.02" in comparison.common_facts
+    assert "830..1540" not in "".join(comparison.lines())
+
+
 def test_windows_that_differ_are_cut_to_what_all_runs_have(scene, result):
     longer = with_made_up_errors(simulate(scene.replace({"revolutions": 0.05})), 1)
     comparison = longer.compare(result, labels=("long", "short"))

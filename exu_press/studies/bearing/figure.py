@@ -30,6 +30,9 @@ MOST_CURVES = 6
 STYLES = ("-", "--", "-.", ":")
 """Of lines of several speeds."""
 
+BELOW, ABOVE = 3.0, 1.2
+"""Widths of the lines of xx and xy, and of yx and yy: xy is seen below an equal yx."""
+
 LOCUS = np.geomspace(0.02, 50.0, 25)
 """Loads of the locus over the first row's."""
 
@@ -126,6 +129,7 @@ def _matrix(panel: Axes, report: BearingReport, name: str, unit: str) -> None:
         for k, axes in enumerate(AXES):
             (line,) = panel.plot(across[order], scale * entries[order, k], "o", ms=3)
             line.set(color=colour_of(k), linestyle=style, label="_" if index else axes)
+            line.set_linewidth(BELOW if k < 2 else ABOVE)
         if several:
             panel.plot([], [], color=GREY, linestyle=style, label=f"{speed:g} rpm")
     panel.set_title(name)

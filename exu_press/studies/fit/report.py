@@ -24,6 +24,9 @@ __all__ = ["FitReport"]
 UNLIKELY = 0.01
 """Probability of chi-square below which the scene does not explain the measurement."""
 
+MOST_SHOWN = 0.995
+"""Probability above which a share of measurements is not rounded, as it would be all of them."""
+
 UNREACHED = (
     "no values of the keys within their ranges give the measured numbers: look at the largest "
     "residuals"
@@ -291,7 +294,7 @@ class FitReport(Report):
             text += ": nothing is left to judge the scene by"
             reached = chi2.sf(self.chi_square, self.count) >= UNLIKELY
             return [text] if reached else [text, UNREACHED]
-        share = significant(100 * chance, 2)
+        share = "over 99" if chance > MOST_SHOWN else significant(100 * chance, 2)
         text += f": chance alone makes it as large in {share} % of measurements"
         return [text, UNEXPLAINED] if chance < UNLIKELY else [text]
 

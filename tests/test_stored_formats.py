@@ -3,13 +3,14 @@
 `tests/stored/0.9` is as 0.9 writes them: a run and a sweep of a slider-crank with a dry crank pin.
 """
 
+import json
 import shutil
 from pathlib import Path
 
 import pytest
 from stored_results import rewritten
 
-from exu_press import Result
+from exu_press import Result, Scene
 from exu_press.cli import main
 from exu_press.errors import InputError
 from exu_press.files.file_format import NewerFormatError, refuse_newer_format
@@ -42,6 +43,28 @@ def test_a_stored_study_is_read(version, tmp_path):
         assert file.count == 2
     assert main(["report", str(folder), "--quiet"]) == 0
     assert "joints.crank_pin.clearance" in (folder / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_key_without_use_that_an_earlier_version_took_is_left_out(tmp_path):
+    content = (STORED / "0.9" / "run.nc").read_bytes()
+    scene = Result.load(STORED / "0.9" / "run.nc").scene.to_dict()
+    guide = {"lateral_stiffness": 1e9, "slider": {"kind": "ideal"}}
+    earlier = tmp_path / "run.nc"
+    earlier.write_bytes(rewritten(content, {"scene": json.dumps({**scene, "guide": guide})}))
+    assert Result.load(earlier).scene == Scene.from_dict(
+        {**scene, "guide": {"slider": guide["slider"]}}
+    )
+    unknown = rewritten(content, {"scene": json.dumps({**scene, "guide": {"foo": 1}})})
+    earlier.write_bytes(unknown)
+    with pytest.raises(InputError, match=r"or damaged: guide\.foo = 1: unknown key"):
+        Result.load(earlier)
+
+
+def test_a_number_in_the_place_of_a_text_is_refused(tmp_path):
+    damaged = tmp_path / "run.nc"
+    damaged.write_bytes(rewritten((STORED / "0.9" / "run.nc").read_bytes(), {"asked": 5}))
+    with pytest.raises(InputError, match=r"run\.nc: not a result of exu_press, or damaged: asked"):
+        Result.load(damaged)
 
 
 def test_a_run_of_a_later_version_is_refused_as_such(tmp_path, capsys):

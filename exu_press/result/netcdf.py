@@ -97,10 +97,11 @@ def _header_checksum(file: "netcdf_file") -> str:
 
 def _texts(owner: Any) -> dict[str, bytes]:
     """Return the texts of a file or a variable, not decoded; empty ones for numbers."""
-    return {
-        name: value.encode() if isinstance(value, str) else value * isinstance(value, bytes)
+    encoded = {
+        name: value.encode() if isinstance(value, str) else value
         for name, value in owner._attributes.items()
     }
+    return {name: text if isinstance(text, bytes) else b"" for name, text in encoded.items()}
 
 
 def _write_channel(file: "netcdf_file", name: str, along: str, channel: Channel) -> None:
@@ -126,7 +127,7 @@ def read(path: Path, kind: type[Kind]) -> Kind:
             scene = from_json(dict[str, Any], _text(file, "scene"), "scene")
             asked = from_json(list[str], _text(file, "asked"), "asked")
             return kind(
-                scene=Scene.from_dict(scene, asked, resolve=False),
+                scene=Scene.from_result(scene, asked),
                 channels=_channels(file, "time"),
                 info=from_json(Info, _text(file, "info"), "info"),
                 bodies=from_json(tuple[str, ...], _text(file, "bodies"), "bodies"),

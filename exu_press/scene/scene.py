@@ -407,6 +407,21 @@ class Scene(Table):
         object.__setattr__(scene, "asked", frozenset(asked))
         return scene
 
+    @classmethod
+    def from_result(cls, data: Mapping[str, Any], asked: Iterable[str]) -> "Scene":
+        """Return the scene of a result, without keys that have no use, as earlier versions took.
+
+        Kinds whose code is not loaded are shown, not built.
+        """
+        tables = dict(data)
+        while True:
+            try:
+                return cls.from_dict(tables, asked, resolve=False)
+            except UnusedKeyError as error:
+                if error.name not in given_names(tables):
+                    raise
+                drop(tables, error.name)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the complete scene as a nested mapping, for Scene.from_dict or a file."""
         complete: dict[str, Any] = {}

@@ -53,7 +53,7 @@ def at_peaks(first: Samples, second: Samples, variables: Variables) -> Array:
     """Return the differences of sensors where either run peaks, which bound that of the peaks."""
     ours, theirs = common(first, second)
     sizes = np.abs(first.sensors[ours]), np.abs(second.sensors[theirs])
-    peaks = np.any([size == size.max(axis=0) for size in sizes], axis=0)
+    peaks = np.any([~(size < size.max(axis=0)) for size in sizes], axis=0)
     apart = differences(first, second, variables)[:, -1 - peaks.shape[1] : -1]
     return np.asarray(apart.max(axis=0, where=peaks, initial=0.0))
 

@@ -63,7 +63,7 @@ def uncertain(
     '5 exact'
     >>> uncertain(5, {**stated, "determined": False, "low": 4, "high": 7})
     '5 (4 to 7, not determined)'
-    >>> uncertain(9.41e-94, None), uncertain(9.41e-94, {**stated, "error": 1e-95})
+    >>> uncertain(-9.41e-94, None), uncertain(9.41e-94, {**stated, "error": 1e-95})
     ('0', '0 exact')
     """
     if value is None:
@@ -139,9 +139,9 @@ def _without_underflow(
 ) -> tuple[float, Mapping[str, Any] | None]:
     """Return a figure and its error, both 0 where they are smaller than any figure."""
     stated = 0.0 if error is None or error["error"] is None else error["error"]
-    if abs(value) + stated >= UNDERFLOW:
+    if not abs(value) + stated < UNDERFLOW:  # nor what is no number
         return value, error
-    return 0 * value, {**error, "error": 0.0} if error is not None and stated else error
+    return 0 * abs(value), {**error, "error": 0.0} if error is not None and stated else error
 
 
 def _with_last_digit(value: float, spread: float, most: int, power: bool) -> str:

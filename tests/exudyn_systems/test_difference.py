@@ -26,3 +26,10 @@ def test_an_error_of_phase_is_small_where_a_sensor_peaks(shift):
     (bound,) = at_peaks(first, second, variables)
     of_peaks = abs(np.abs(first.sensors).max() - np.abs(second.sensors).max())
     assert of_peaks <= bound <= shift * (shift + (times[1] - times[0]))
+
+
+def test_a_sensor_that_is_no_number_has_no_bound():
+    times = np.linspace(0.0, 1.0, 3)
+    first, second = (run_with([1.0, end, 0.0], times) for end in (np.nan, 0.5))
+    variables = SimpleNamespace(kinds=np.array(["Displacement"]), plain=[], spans={})
+    assert at_peaks(first, second, variables) == np.inf

@@ -21,7 +21,6 @@ from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from exu_press.integrate.criteria.eccentricity import EccentricityError
-from exu_press.integrate.criteria.film_force import FilmForceError
 from exu_press.integrate.criteria.velocity import PrescribedVelocityError, VelocityError
 from exu_press.integrate.newton_filter import NewtonFilter
 from exu_press.integrate.task import Task
@@ -59,6 +58,8 @@ def default_criteria(task: Task) -> list[Criterion]:
     newton_filter, share = NewtonFilter(task), math.pow(tolerance, 1.5)
     if system.joints is None:
         return [VelocityError(task, newton_filter, share), PrescribedVelocityError(task)]
+    from exu_press.integrate.criteria.film_force import FilmForceError
+
     share = max(share, tuning.least_share * tolerance)
     of_bodies, penetration = share, tuning.penetration
     if system.modes and tuning.modal_mass > 0.0:

@@ -94,13 +94,13 @@ def figure_with_panels(
 
 
 def lowest_panels(panels: Sequence[Axes]) -> list[Axes]:
-    """Return those of some panels below which none of them is."""
+    """Return those of some panels below which none of them is as wide, at the same place."""
     specs = [axes.get_subplotspec() for axes in panels]
     spans = [(spec.colspan, spec.rowspan) for spec in specs if spec is not None]
     return [
         axes
         for axes, (columns, rows) in zip(panels, spans, strict=True)
-        if not any(set(columns) & set(x) and y.start >= rows.stop for x, y in spans)
+        if not any(columns == x and y.start >= rows.stop for x, y in spans)
     ]
 
 

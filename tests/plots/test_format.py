@@ -140,3 +140,10 @@ def test_long_names_of_axes_are_broken_on_paper_and_stay_on_a_screen():
     assert axes.get_xlabel().count("\n") > 0
     assert axes.xaxis.label.get_window_extent().width <= 1.1 * axes.bbox.width
     assert "\n" not in draw().axes[0].get_xlabel()
+
+
+def test_the_lowest_panels_have_the_numbers_of_their_axes():
+    """Also those above a wider one, whose numbers lie elsewhere."""
+    _, panels = figure_with_panels("", "", [[0, 1], [2, 3], [4, 4]], 3.0, 1.0, sharex=True)
+    below = [axes.xaxis.get_tick_params()["labelbottom"] for axes in panels]
+    assert below == [False, False, True, True, True]

@@ -49,13 +49,13 @@ def differences(first: Samples, second: Samples, variables: Variables) -> Array:
     return np.asarray(np.nan_to_num(np.concatenate(parts, axis=1), nan=np.inf))
 
 
-def at_peaks(first: Samples, second: Samples, variables: Variables) -> Array:
-    """Return the differences of sensors where either run peaks, which bound that of the peaks."""
+def at_peaks(first: Samples, second: Samples, apart: Array) -> Array:
+    """Return, of all differences, those of sensors where either run peaks: a bound of peaks'."""
     ours, theirs = common(first, second)
     sizes = np.abs(first.sensors[ours]), np.abs(second.sensors[theirs])
     peaks = np.any([~(size < size.max(axis=0)) for size in sizes], axis=0)
-    apart = differences(first, second, variables)[:, -1 - peaks.shape[1] : -1]
-    return np.asarray(apart.max(axis=0, where=peaks, initial=0.0))
+    of_sensors = apart[:, -1 - peaks.shape[1] : -1]
+    return np.asarray(of_sensors.max(axis=0, where=peaks, initial=0.0))
 
 
 def scales_of(samples: Samples, variables: Variables, duration: float) -> Array:

@@ -113,11 +113,12 @@ class Refinement:
                 continue
             self.levels, deciding, self.judgement = self.levels[-4:], self._deciding(), None
             if len(deciding) == 3:
-                pairs = list(itertools.pairwise(deciding))
-                apart = [self.differences(*pair).max(axis=0) for pair in pairs]
-                peaks = [at_peaks(a.samples, b.samples, self.variables) for a, b in pairs]
+                samples = list(itertools.pairwise(level.samples for level in deciding))
+                apart = [differences(*pair, self.variables) for pair in samples]
+                peaks = [at_peaks(*pair, d) for pair, d in zip(samples, apart, strict=True)]
+                relative = [(d / self.scales()).max(axis=0) for d in apart]
                 numbers = [level.steps for level in deciding]
-                self.judgement = judge(numbers, apart, peaks, self.tolerance)
+                self.judgement = judge(numbers, relative, peaks, self.tolerance)
                 self.orders.append(self.judgement.order)
 
     def _deciding(self) -> list[Level]:

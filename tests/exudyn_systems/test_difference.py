@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from exu_press.exudyn_systems.difference import at_peaks
+from exu_press.exudyn_systems.difference import at_peaks, differences
 from exu_press.exudyn_systems.samples import Samples
 
 
@@ -23,7 +23,7 @@ def test_an_error_of_phase_is_small_where_a_sensor_peaks(shift):
     times = np.linspace(0.0, 7.0, 201)
     first, second = (run_with(np.sin(times - late), times) for late in (0.0, shift))
     variables = SimpleNamespace(kinds=np.array(["Displacement"]), plain=[], spans={})
-    (bound,) = at_peaks(first, second, variables)
+    (bound,) = at_peaks(first, second, differences(first, second, variables))
     of_peaks = abs(np.abs(first.sensors).max() - np.abs(second.sensors).max())
     assert of_peaks <= bound <= shift * (shift + (times[1] - times[0]))
 
@@ -32,4 +32,4 @@ def test_a_sensor_that_is_no_number_has_no_bound():
     times = np.linspace(0.0, 1.0, 3)
     first, second = (run_with([1.0, end, 0.0], times) for end in (np.nan, 0.5))
     variables = SimpleNamespace(kinds=np.array(["Displacement"]), plain=[], spans={})
-    assert at_peaks(first, second, variables) == np.inf
+    assert at_peaks(first, second, differences(first, second, variables)) == np.inf

@@ -64,26 +64,20 @@ class BearingReport(Report):
     def warnings(self) -> list[str]:
         """Return also which films are thinner than rough surfaces leave, or pressed away."""
         _, film = journal_joint(self.study.scene, self.study.joint)
-        pressed = [row for row in self.rows if row.min_film < 0.0]
-        if pressed:
-            load, speed = self._state(pressed[0])
-            text = (
-                f"{self.study.joint}: {load} N at {speed} rpm press the surfaces "
-                f"{-1e6 * pressed[0].min_film:.3g} um into each other: their contact bears, not "
-                "the film"
-            )
-            return [*super().warnings(), text]
         rough = MixedFilm()
+        pressed = [row for row in self.rows if row.min_film < 0.0]
         thin = [row for row in self.rows if row.min_film < rough.contact_gap]
-        if film.contact_gap is not None or not thin:
+        if not pressed and (film.contact_gap is not None or not thin):
             return super().warnings()
-        load, speed = self._state(thin[0])
+        row = (pressed or thin)[0]
+        gap, (load, speed) = 1e6 * row.min_film, self._state(row)
         text = (
-            f"{self.study.joint}: {load} N at {speed} rpm leave a film of "
-            f"{1e6 * thin[0].min_film:.3g} um, where surfaces of {1e6 * rough.roughness:g} um rms "
-            "touch: film.at_contact = 'mixed' lets them bear their share"
+            f"press the surfaces {-gap:.3g} um into each other: their contact bears, not the film"
+            if pressed
+            else f"leave a film of {gap:.3g} um, where surfaces of {1e6 * rough.roughness:g} um "
+            "rms touch: film.at_contact = 'mixed' lets them bear their share"
         )
-        return [*super().warnings(), text]
+        return [*super().warnings(), f"{self.study.joint}: {load} N at {speed} rpm {text}"]
 
     def tables(self) -> list[Table]:
         """Return the equilibria, and the matrices."""

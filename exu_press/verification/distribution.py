@@ -22,7 +22,7 @@ from exu_press.result.run import run_once
 from exu_press.result.windows import revolutions_of
 from exu_press.scene import Scene
 from exu_press.terminal.progress import Progress
-from exu_press.verification.estimate import ORDER
+from exu_press.verification.estimate import ORDERS
 from exu_press.verification.refinement import step_changes
 
 __all__ = [
@@ -143,7 +143,9 @@ def discretization_error(differences: Sequence[float]) -> float:
     """
     values = np.asarray(differences)
     uncertainty = _student(len(values)) * values.std(ddof=1) / math.sqrt(len(values))
-    return (abs(float(values.mean())) + float(uncertainty)) / float(1.0 - FINER**ORDER)
+    return (abs(float(values.mean())) + float(uncertainty)) / float(
+        1.0 - FINER ** ORDERS["tolerance"]
+    )
 
 
 def finer(scene: Scene) -> Scene:

@@ -10,7 +10,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.quantities.kind import ROUNDING
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
-from exu_press.verification.estimate import ORDER, single_difference_factor
+from exu_press.verification.estimate import single_difference_factor
 from exu_press.verification.growth import Growth, growth
 
 __all__ = ["Divergence", "divergence"]
@@ -39,26 +39,25 @@ class Divergence:
 def divergence(result: Result, refinements: Mapping[float, Result]) -> Divergence:
     """Return how fast a run diverges from the exact motion, in clearances, and from when on.
 
-    Errors go with ORDER of the tolerance until motions have diverged, as those of figures do. The
-    largest estimate of all refinements counts, as one may agree by chance. Where only the nearest
-    one still follows the run, its distance keeps the factor that it had, or
+    The largest estimate of all refinements counts, as one may agree by chance. Where only the
+    nearest one still follows the run, its distance keeps the factor that it had, or
     `single_difference_factor` if that is larger.
 
     Args:
         result: of the run; its instants count.
-        refinements: ratio of tolerances or steps to the run's -> run, the nearest one first.
+        refinements: ratio of errors to the run's, see `error_ratio` -> run, the nearest one first.
     """
     distances = {ratio: _distance(result, run) for ratio, run in refinements.items()}
     (ratio, nearest), *coarser_runs = distances.items()
-    share = min(abs(1.0 - ratio**ORDER), 1.0)
+    share = min(abs(1.0 - ratio), 1.0)
     error = nearest / share
     only_nearest = 0  # from this step on
     for coarser_ratio, distance in coarser_runs:
         follows = int(np.searchsorted(distance, DIVERGED))
-        coarser_share = abs(1.0 - coarser_ratio**ORDER)
+        coarser_share = abs(1.0 - coarser_ratio)
         error[:follows] = np.maximum(error[:follows], distance[:follows] / coarser_share)
         only_nearest = max(only_nearest, follows)
-    factor = single_difference_factor(ratio**ORDER) if ratio < 1.0 else 1.0 / share
+    factor = single_difference_factor(ratio) if ratio < 1.0 else 1.0 / share
     if only_nearest:
         factor = max(factor, error[only_nearest - 1] / max(nearest[only_nearest - 1], ROUNDING))
         error[only_nearest:] = factor * nearest[only_nearest:]

@@ -9,21 +9,23 @@ import numpy as np
 from exu_press.quantities import Extreme
 from exu_press.quantities.kind import ROUNDING
 from exu_press.result.info import Error
+from exu_press.scene import Scene
 
 __all__ = [
-    "ORDER",
+    "ORDERS",
     "convergent_error",
+    "error_ratio",
     "extreme_over_parts",
     "prediction_interval",
     "single_difference_factor",
 ]
 
-ORDER = 0.6
-"""Power of the tolerance (or step) to which errors are taken to be proportional. Most are so to the
-tolerance itself; runs at half and at 4 times it then state them 2.3 times too large. But peaks of
-vibrations behind impacts, and counts of touches, go with its root, and three runs may agree by
-chance. scripts/calibrate_errors.py measures ORDER: with the root itself it was 6.9 times in the
-median."""
+ORDERS = {"tolerance": 0.6, "step": 0.8}
+"""Powers of the tolerance, or of a fixed step, to which errors are taken to be proportional. Most
+are so to the tolerance itself; runs at half and at 4 times it then state them 2.3 times too large.
+But peaks of vibrations behind impacts, and counts of touches, go with its root, and three runs may
+agree by chance. Errors of smooth motion go with the step's square, those behind impacts with the
+step itself. scripts/calibrate_errors.py measures what such powers cover."""
 
 PREDICTION_FACTORS = {1: 11.0, 2: 3.85, 3: 2.9, 4: 2.55}
 """Number of differences -> half the width of the interval that holds 95 % of further samples, over
@@ -42,27 +44,31 @@ def convergent_error(
 ) -> Error:
     """Return the error of a quantity that converges with the tolerance (or the step).
 
-    Of each pair of runs the difference over that of the ratios' powers is an estimate; the largest
-    one counts.
+    Of each pair of runs the difference over that of the ratios is an estimate; the largest one
+    counts.
 
     Args:
         values: of the quantity at several tolerances; the first one is reported.
-        ratios: of these tolerances to the first.
+        ratios: of the errors there to the first one's, see `error_ratio`.
         least: error, in the quantity's unit.
         nearest: least error over the difference from the second run, where only that one still
             follows the first one's motion.
         earlier: values at earlier instants of a quantity that oscillates; the largest error counts.
 
-    >>> round(convergent_error([1.01, 1.02, 1.03], [1.0, 4.0, 9.0])["error"], 6)
-    0.007708
+    >>> round(convergent_error([1.01, 1.02, 1.03], [1.0, 2.0, 3.0])["error"], 6)
+    0.01
     """
-    powers = [ratio**ORDER for ratio in ratios]
     error = 0.0
     for figures in (values, *earlier):
-        pairs = combinations(zip(figures, powers, strict=True), 2)
+        pairs = combinations(zip(figures, ratios, strict=True), 2)
         largest = max(abs(a - b) / abs(i - j) for (a, i), (b, j) in pairs)
         error = max(error, largest, nearest * abs(figures[1] - figures[0]))
     return _about(values[0], error + least, determined=True)
+
+
+def error_ratio(scene: Scene, ratio: float) -> float:
+    """Return the errors of a scene at `ratio` times its tolerance, or fixed step, over its own."""
+    return float(ratio ** ORDERS[scene.solver.accuracy[0]])
 
 
 def single_difference_factor(ratio: float) -> float:
@@ -72,7 +78,7 @@ def single_difference_factor(ratio: float) -> float:
     bound (tails of the Cauchy distribution).
 
     Args:
-        ratio: of the tolerances, below 1.
+        ratio: of the errors, below 1.
 
     >>> round(single_difference_factor(0.5), 1)
     5.2

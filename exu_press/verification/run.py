@@ -21,6 +21,7 @@ from exu_press.scene import Scene, mechanism_of
 from exu_press.verification.divergence import Divergence, divergence
 from exu_press.verification.estimate import (
     convergent_error,
+    error_ratio,
     extreme_over_parts,
     prediction_interval,
 )
@@ -38,7 +39,7 @@ from exu_press.verification.refinement import RefinementRuns, plan
 __all__ = ["errors_of", "simulate_with_errors", "with_errors"]
 
 Numbers = Mapping[float, Mapping[str, float]]
-"""Quantities of the run and its refinements, by the ratio of their tolerance to the run's."""
+"""Quantities of the run and its refinements, by the ratio of their errors to the run's."""
 
 OF_THE_START = 1e-4
 """Least relative error of loads where all runs agree: they are then those of the start, whose error
@@ -160,7 +161,11 @@ def errors_of(
     declared = quantities_of(result.scene) if declared is None else declared
     declared = {name: q for name, q in declared.items() if q.quantity.kind.has_error}
     end = float(result.time[-1])
-    complete = {r: up_to(run, end) for r, run in refinements if run.time[-1] >= end * (1.0 - 1e-9)}
+    complete = {
+        error_ratio(result.scene, r): up_to(run, end)
+        for r, run in refinements
+        if run.time[-1] >= end * (1.0 - 1e-9)
+    }
     if not complete:
         return {"errors": {}, "horizon": None, "lyapunov_exponent": None}
     diverging = divergence(result, complete)

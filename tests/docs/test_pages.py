@@ -4,6 +4,7 @@ The quick tests shorten the runs of those that only show that they run.
 """
 
 import re
+import shlex
 import subprocess
 
 import pages
@@ -57,6 +58,13 @@ def test_page_with_its_long_blocks(page, tmp_path):
 def test_a_command_that_nothing_runs_is_noticed(tmp_path):
     with pytest.raises(AssertionError, match="nothing runs this"):
         pages.run_block(pages.Block("sh", "rm -r somewhere\n", ""), tmp_path)
+
+
+@pytest.mark.parametrize(("page", "block"), pages.printed_blocks(), ids=name)
+def test_what_printed_a_block_can_be_run_again(page, block):
+    """Blocks that only a reader can print anew, in his own way, have other notes."""
+    words = shlex.split(block.printed_by)
+    assert not any(word.endswith(",") or word.startswith("(") or word.isupper() for word in words)
 
 
 @pytest.mark.long

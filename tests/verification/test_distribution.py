@@ -12,7 +12,7 @@ from exu_press.verification.distribution import (
     distributions,
     percentiles,
 )
-from exu_press.verification.estimate import ORDER
+from exu_press.verification.estimate import ORDERS
 
 NAME = "peak_acceleration.resolved"
 
@@ -91,7 +91,9 @@ def test_what_steps_miss_is_in_all_of_it():
 
 def test_differences_of_pairs_that_scatter_are_known_the_worse():
     random = np.random.default_rng(3)
-    assert discretization_error([0.2] * 5) == pytest.approx(0.2 / (1.0 - FINER**ORDER))
+    assert discretization_error([0.2] * 5) == pytest.approx(
+        0.2 / (1.0 - FINER ** ORDERS["tolerance"])
+    )
     inside = [discretization_error(random.normal(0.2, 1.0, 5)) > 0.2 for _ in range(200)]
     assert np.mean(inside) > 0.95
 

@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 from exu_press import Scene, simulate
 from exu_press.scene import mechanism_of
 from exu_press.verification.divergence import DIVERGED, divergence
-from exu_press.verification.estimate import ORDER, single_difference_factor
+from exu_press.verification.estimate import error_ratio, single_difference_factor
 from exu_press.verification.growth import growth
 
 PLAY = 1e-4
@@ -16,6 +16,7 @@ LOOSE = Scene(
 )
 
 
+HALF, FOUR, EIGHT = (error_ratio(LOOSE, ratio) for ratio in (0.5, 4.0, 8.0))
 ACROSS = int(np.argmax(np.abs(mechanism_of(LOOSE).guides[0].normal)))
 
 
@@ -38,54 +39,54 @@ def horizon(result, others):
 
 
 def test_a_body_that_is_elsewhere_between_its_ways_has_parted(run):
-    assert horizon(run, {4.0: moved(run, ACROSS, 0.9 * DIVERGED * PLAY / 2**0.5)}) is None
-    found = horizon(run, {4.0: moved(run, ACROSS, DIVERGED * PLAY)})
+    assert horizon(run, {FOUR: moved(run, ACROSS, 0.9 * DIVERGED * PLAY / 2**0.5)}) is None
+    found = horizon(run, {FOUR: moved(run, ACROSS, DIVERGED * PLAY)})
     assert 0.9 * run.time[-1] < found <= run.time[-1]
 
 
 def test_one_that_tilts_has_too(run):
     tilt = DIVERGED * PLAY / 0.1  # about half the length, its ends are so far away
-    assert horizon(run, {4.0: moved(run, 2, 0.9 * tilt / 2**0.5)}) is None
-    assert horizon(run, {4.0: moved(run, 2, tilt)}) is not None
+    assert horizon(run, {FOUR: moved(run, 2, 0.9 * tilt / 2**0.5)}) is None
+    assert horizon(run, {FOUR: moved(run, 2, tilt)}) is not None
 
 
 def test_one_that_is_ahead_has_not(run):
-    assert horizon(run, {4.0: moved(run, 1 - ACROSS, PLAY)}) is None
+    assert horizon(run, {FOUR: moved(run, 1 - ACROSS, PLAY)}) is None
 
 
 @pytest.mark.parametrize(("ratio", "parted"), [(0.5, True), (0.25, False), (9.0, False)])
 def test_errors_go_with_a_power_of_the_tolerance(run, ratio, parted):
-    found = horizon(run, {ratio: moved(run, ACROSS, 0.33 * DIVERGED * PLAY)})
+    found = horizon(run, {error_ratio(LOOSE, ratio): moved(run, ACROSS, 0.33 * DIVERGED * PLAY)})
     assert (found is not None) is parted
 
 
 def test_a_close_run_at_half_the_tolerance_does_not_hide_that_a_coarser_one_has_diverged(run):
     """A flexible dry press, 0.23 clearances from a run at a tenth of the tolerance at its end."""
     close, coarser = (moved(run, ACROSS, distance * PLAY / 2**0.5) for distance in (0.026, 0.54))
-    found = divergence(run, {0.5: close, 4.0: coarser})
+    found = divergence(run, {HALF: close, FOUR: coarser})
     assert found.growth.horizon is not None
-    assert 0.23 < 0.026 / found.distances[0.5] < 1.0
+    assert 0.23 < 0.026 / found.distances[HALF] < 1.0
 
 
 def test_a_run_at_half_the_tolerance_vouches_for_less_where_a_coarser_one_has_diverged(run):
     """One difference is small by chance more often than two."""
-    near = moved(run, ACROSS, 1.1 * DIVERGED * PLAY / single_difference_factor(0.5**ORDER))
+    near = moved(run, ACROSS, 1.1 * DIVERGED * PLAY / single_difference_factor(HALF))
     beside, away = (moved(run, ACROSS, part * DIVERGED * PLAY) for part in (0.6, 1.5))
-    found = divergence(run, {0.5: near, 8.0: beside})
+    found = divergence(run, {HALF: near, EIGHT: beside})
     assert found.growth.horizon is None
     assert found.nearest == 0.0
-    found = divergence(run, {0.5: near, 8.0: away})
+    found = divergence(run, {HALF: near, EIGHT: away})
     assert 0.9 * run.time[-1] < found.growth.horizon <= run.time[-1]
-    assert found.nearest == single_difference_factor(0.5**ORDER)
-    assert found.distances[8.0] > found.distances[0.5] > 0.0
+    assert found.nearest == single_difference_factor(HALF)
+    assert found.distances[EIGHT] > found.distances[HALF] > 0.0
 
 
 def test_a_run_that_was_beside_by_chance_vouches_for_less_still(run):
     """When the coarser one diverged, its distance told an error twelve times the other's."""
     near, away = (moved(run, ACROSS, part * PLAY) for part in (0.035, 10.0 * DIVERGED))
-    found = divergence(run, {0.5: near, 8.0: away})
+    found = divergence(run, {HALF: near, EIGHT: away})
     part = 0.035 / (10.0 * DIVERGED)  # of the coarser one's distance, at all times
-    assert found.nearest == pytest.approx(1.0 / ((8.0**ORDER - 1.0) * part), rel=0.1)
+    assert found.nearest == pytest.approx(1.0 / ((EIGHT - 1.0) * part), rel=0.1)
     assert found.growth.horizon is not None
 
 

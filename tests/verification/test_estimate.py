@@ -3,37 +3,50 @@
 import numpy as np
 import pytest
 
+from exu_press import Scene
 from exu_press.verification.estimate import (
-    ORDER,
     convergent_error,
+    error_ratio,
     prediction_interval,
     single_difference_factor,
 )
 
 
-@pytest.mark.parametrize(("order", "least", "most"), [(ORDER, 1.0, 1.0), (1.0, 2.3, 3.4)])
-def test_errors_that_fall_with_the_tolerance_are_found(order, least, most):
-    """They are stated 2.3 to 3.4 times too large where they go with it itself.
+@pytest.mark.parametrize(
+    ("solver", "order", "least", "most"),
+    [
+        ({"tolerance": 3e-4}, 0.6, 1.0, 1.0),
+        ({"tolerance": 3e-4}, 1.0, 2.3, 3.4),
+        ({"step": 1e-5}, 0.8, 1.0, 1.0),
+        ({"step": 1e-5}, 2.0, 7.0, 22.0),
+    ],
+)
+def test_errors_that_fall_with_the_tolerance_or_the_step_are_found(solver, order, least, most):
+    """They are stated up to 3.4 times too large where they go with the tolerance itself.
 
-    3 / (4**ORDER - 1) of the plan for tolerances, 4 / (8**ORDER - 4**ORDER) of the last ratios.
+    22 times where they go with the square of a fixed step.
+
+    3 / (4**0.6 - 1) of the plan for tolerances, 4 / (8**0.6 - 4**0.6) of the last ratios.
     """
-    true, slope = 5.0, 0.01
+    true, slope, scene = 5.0, 0.01, Scene(solver=solver)
     for ratios in ([1.0, 0.5, 4.0], [1.0, 2.0, 3.0, 4.0], [1.0, 4.0, 8.0]):
-        found = convergent_error([true + slope * ratio**order for ratio in ratios], ratios)
+        values = [true + slope * ratio**order for ratio in ratios]
+        found = convergent_error(values, [error_ratio(scene, ratio) for ratio in ratios])
         assert (1.0 - 1e-9) * least <= found["error"] / slope <= (1.0 + 1e-9) * most
         assert found["determined"]
         assert found["low"] <= true + 1e-12 and true < found["high"]
 
 
 def test_two_values_that_agree_by_chance_do_not_hide_the_error():
-    assert convergent_error([5.0, 5.0, 5.04], [1.0, 4.0, 8.0])["error"] >= 0.02
+    assert convergent_error([5.0, 5.0, 5.04], [1.0, 2.3, 3.5])["error"] >= 0.02
 
 
 def test_levels_of_a_slow_cut():
     """The peak of a dry pin behind a slow cut (168 kN) is 212, -1077, 61, 247, 240, 179 and 96 N
     off at 8, 4, 2, 1, 0.5, 0.25 and 0.1 thousandths: runs at 8, 1 and 0.5 agree by chance."""
-    off = {4.0: -1077.0, 1.0: 247.0, 0.5: 240.0}
-    assert convergent_error([off[r] for r in (1.0, 0.5, 4.0)], [1.0, 0.5, 4.0])["error"] > 247.0
+    off = {1.0: 247.0, 0.5: 240.0, 4.0: -1077.0}
+    ratios = [error_ratio(Scene(), ratio) for ratio in off]
+    assert convergent_error(list(off.values()), ratios)["error"] > 247.0
 
 
 @pytest.mark.parametrize("refinements", [1, 2, 3])

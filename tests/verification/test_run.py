@@ -11,7 +11,7 @@ from exu_press.quantities import Quantity, QuantityAt, quantities_of
 from exu_press.quantities.kind import DIFFERENCE, MOTION, RESULTANT, SHARE
 from exu_press.quantities.value import numbers_of
 from exu_press.scene import flexible_press
-from exu_press.verification.estimate import ORDER
+from exu_press.verification.estimate import ORDERS
 from exu_press.verification.refinement import RefinementRuns, plan
 from exu_press.verification.run import errors_of, with_errors
 
@@ -124,7 +124,7 @@ def test_energies_that_agree_at_the_end_by_chance_are_not_known_so_well(result):
         assert told["horizon"] is None
         found.append(told["errors"]["energy.stored"]["error"])
     assert found[0] < 1e-3
-    expected = 0.2 / (1.0 - 0.5**ORDER)
+    expected = 0.2 / (1.0 - 0.5 ** ORDERS["tolerance"])
     assert expected <= 1.1 * found[1] <= 1.2 * expected
 
 

@@ -14,7 +14,7 @@ from exu_press.studies.attractor import attractor, period_of
 from exu_press.studies.attractor.lyapunov import combine_exponents, exponent_of
 from exu_press.studies.attractor.orbit import NoMotion, Orbit
 from exu_press.verification.distribution import discretization_error
-from exu_press.verification.estimate import ORDER
+from exu_press.verification.estimate import ORDERS
 
 FILM = Scene(
     mechanism="slider_crank",
@@ -85,7 +85,7 @@ def contraction_exponent(random, error, distance=1e-2):
     for _ in range(20):
         ends = [
             separation * [math.exp(-1.2), 0.1] + size * (alike + random.normal(0.0, error, 2))
-            for size in (1.0, 0.1**ORDER)
+            for size in (1.0, 0.1 ** ORDERS["tolerance"])
         ]
         coarse, fine = (math.log(np.linalg.norm(end) / distance) for end in ends)
         growths.append(coarse)

@@ -89,7 +89,12 @@ def _is_users(name: str) -> bool:
 
 def _is_beside(file: Path, text: str) -> bool:
     """Return whether a text is the name of a file beside another one."""
-    return Path(text).suffix != "" and text.isprintable() and (file.parent / text).is_file()
+    if not (Path(text).suffix and text.isprintable()):
+        return False
+    try:
+        return (file.parent / text).is_file()
+    except OSError:  # too long for a name
+        return False
 
 
 def _files(name: str) -> dict[str, Path]:

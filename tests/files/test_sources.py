@@ -37,7 +37,7 @@ def test_what_a_row_comes_from_and_what_only_shows_it(digest):
         "from helper import stiffness",
         "def force():\n    import helper.inner as inside",
         "import middle",
-        "TABLE = 'helper.csv'",
+        f"TABLE, LONG = 'helper.csv', 'no. {500 * 'x'}'",
         "from pathlib import Path\nTABLE = Path(__file__).with_name('helper.csv')",
     ],
 )

@@ -46,7 +46,6 @@ MODULES = [
     "joints/planar",
     "joints/spatial",
     "joints/spherical",
-    "joints/states",
     "joints/guideway",
     "joints/guideway_film",
     "joints/moving_guideway",
@@ -56,13 +55,12 @@ MODULES = [
     "laws/contact/stiffness",
     "laws/film/asperities",
     "laws/film/contract",
-    "laws/film/tabulated",
+    "laws/film/finite_bearing",
     "laws/film/long_bearing",
     "laws/film/plane_pad",
     "laws/film/short_bearing",
     "laws/friction",
     "laws/profile",
-    "numerics/floats",
 ]
 """What is called in every Newton iteration, and for every joint in every step."""
 

@@ -6,10 +6,11 @@ Run it with one BLAS thread: OMP_NUM_THREADS=1 python scripts/tabulate_finite_fi
 import argparse
 import math
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 
-from exu_press.laws.film.finite_bearing import TABLE
+from exu_press.laws.film import finite_bearing
 from exu_press.laws.film.reynolds import solve_reynolds, supply_line
 
 RATIOS = 0.1 * 40.0 ** np.linspace(0.0, 1.0, 14)  # L/D from 0.1 to 4
@@ -76,7 +77,13 @@ def main():
                         found = dissipation_and_turn(eps, turn, forces)
                         table[:, i, j, k] += weight * np.array(found)
         print(f"L/D = {ratio:.3f}", flush=True)
-    save(TABLE, table, ratio=RATIOS, eps=ECCENTRICITIES, turn=DIRECTIONS)
+    save(
+        Path(finite_bearing.__file__).with_suffix(".npz"),
+        table,
+        ratio=RATIOS,
+        eps=ECCENTRICITIES,
+        turn=DIRECTIONS,
+    )
 
 
 if __name__ == "__main__":

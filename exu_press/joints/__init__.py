@@ -18,8 +18,7 @@ if TYPE_CHECKING:
     from exu_press.joints.compiled import COMPILED
     from exu_press.joints.ends import FlexiblePoint
     from exu_press.joints.history import JointHistory
-    from exu_press.joints.joint import ClearanceJoint, JointState
-    from exu_press.joints.states import States
+    from exu_press.joints.joint import ClearanceJoint, JointState, States
     from exu_press.joints.user_force import holds_joints, user_force_of
 
 __all__ = [

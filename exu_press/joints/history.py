@@ -5,8 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from exu_press.joints.joint import ClearanceJoint
-from exu_press.joints.states import States
+from exu_press.joints.joint import ClearanceJoint, States
 from exu_press.numerics.arrays import Array
 
 __all__ = ["JointHistory", "history"]

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.joints.joint import GROUND, SHALLOW, ClearanceJoint, JointState
-from exu_press.numerics.floats import FloatBuffer
 
 __all__ = ["StepWatch", "UserForceElement", "add_massless_item", "holds_joints", "user_force_of"]
 
@@ -80,7 +79,6 @@ class UserForceElement:
         self._idle: list[list[float]] = []
         self._moving: list[int] | None = None  # entries of the Jacobian that are not the ground's
         self._triplets: NDArray[np.float64] = np.zeros((0, 3))
-        self._entries = FloatBuffer(np.zeros(0))
         self._matrix = exu.MatrixContainer()
         self._within: list[tuple[NDArray[np.intp], NDArray[np.intp], int]] = []
         self._silent = False
@@ -115,7 +113,6 @@ class UserForceElement:
         self._moving = moving if len(moving) < len(entries) else None
         self._triplets = np.zeros((3, len(moving))).T
         self._triplets[:, :2] = [entries[i] for i in moving]
-        self._entries = FloatBuffer(self._triplets[:, 2])
         if self.item is None:
             self.item = add_massless_item(self._mbs, nodes, self._forces, self._jacobian)
         else:
@@ -315,7 +312,8 @@ class UserForceElement:
                 values += block
             else:
                 values += block.tolist()
-        self._entries.write(values if self._moving is None else [values[i] for i in self._moving])
+        moving = self._moving
+        self._triplets[:, 2] = values if moving is None else [values[i] for i in moving]
         self._matrix.SetWithSparseMatrix(self._triplets, self.size, self.size)
         return self._matrix
 

@@ -81,7 +81,7 @@ def _actions(run: Recording, name: str) -> Iterator[tuple[Array, Array]]:
             yield np.outer(size, load.direction), load.moment(size, angle)
     if mechanism.springs:
         from exu_press.mechanism.spring_motion import spring_ends
-        from exu_press.result.springs import force_on_second_end
+        from exu_press.result.gears_and_springs import force_on_second_end
 
         for spring in mechanism.springs:
             ends = spring_ends(mechanism, spring)

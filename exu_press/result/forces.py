@@ -9,9 +9,9 @@ from exu_press.mechanism.guide_motion import guide_direction
 from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import UNBALANCED, Channel, Declaration, Declarations, guide_channel
+from exu_press.result.gears_and_springs import force_on_second_end
 from exu_press.result.motion import point_acceleration
 from exu_press.result.recording import Record, Recording
-from exu_press.result.springs import force_on_second_end
 
 __all__ = ["CHANNELS", "record"]
 

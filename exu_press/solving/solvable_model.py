@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 
 import exudyn as exu
 
-from exu_press.joints.joint import ClearanceJoint
-from exu_press.joints.states import States
+from exu_press.joints.joint import ClearanceJoint, States
 from exu_press.mechanism import Mechanism
 from exu_press.mechanism.independent_constraints import IndependentConstraints
 from exu_press.scene import Scene

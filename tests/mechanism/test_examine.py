@@ -9,8 +9,7 @@ from drawings import coupled_cranks, four_bar, slider_crank
 
 from exu_press import InputError, Scene
 from exu_press.mechanism import GROUND, Body, Joint, Press, press
-from exu_press.mechanism.examine import examine
-from exu_press.mechanism.mobility import mobility_of
+from exu_press.mechanism.examine import examine, mobility_of
 
 
 def test_a_drawing_that_moves_has_no_complaints():

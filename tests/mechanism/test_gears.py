@@ -7,9 +7,9 @@ import pytest
 
 from exu_press import InputError
 from exu_press.mechanism import mechanism_from_dict, mechanism_to_dict, shipped_mechanism
+from exu_press.mechanism.examine import mobility_of
 from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.independent_constraints import independent_constraints
-from exu_press.mechanism.mobility import mobility_of
 from exu_press.mechanism.turning import require_turning
 
 TURN = np.linspace(0.0, 4.0 * np.pi, 333)

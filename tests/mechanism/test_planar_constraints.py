@@ -8,8 +8,8 @@ from drawings import coupled_cranks, slider_crank
 from refused import refused
 
 from exu_press import Scene, simulate
+from exu_press.mechanism.examine import mobility_of
 from exu_press.mechanism.independent_constraints import independent_constraints
-from exu_press.mechanism.mobility import mobility_of
 from exu_press.mechanism.parts import ROD
 from exu_press.mechanism.planar_constraints import (
     Coincidence,

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from exu_press.laws.film.asperities import effective_ratio, with_asperities
 from exu_press.laws.film.contract import FilmLaw
-from exu_press.laws.film.tabulated import interpolation_table, tabulated_law
+from exu_press.laws.film.finite_bearing import interpolation_table, tabulated_law
 from exu_press.laws.parameters import demand
 
 __all__ = ["NARROWEST_CAP", "WIDEST_CAP", "BallFilm", "ball", "socket_drag"]

@@ -2,7 +2,7 @@ r"""The film of a grooved bearing from a table of Reynolds' equation over all it
 
 A film is of first degree in its two speeds, so that it depends on eps, on the angle of the
 eccentricity in the bearing, and on the direction of the speeds. Tabulated are ln E and m of
-`tabulated`, with signs,
+`tabulated_law`, with signs,
 
 .. math::
     f_r = -E\, (a + m b), \qquad f_t = s E\, (b - m a), \qquad

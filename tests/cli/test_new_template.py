@@ -5,8 +5,8 @@ import dataclasses
 import pytest
 
 from exu_press import Scene
+from exu_press.cli.new import template
 from exu_press.mechanism import SHIPPED
-from exu_press.scene.template import template
 from exu_press.scene.usage import TABLES
 
 

@@ -1,4 +1,4 @@
-"""Channels of springs between bodies."""
+"""Channels of gears, and of springs between bodies."""
 
 from collections.abc import Mapping
 
@@ -14,6 +14,12 @@ from exu_press.result.recording import Record, Recording
 __all__ = ["CHANNELS", "force_on_second_end", "record"]
 
 CHANNELS = Declarations(
+    Declaration(
+        "gear_{gear}_torque",
+        "N m",
+        "gear {gear}: torque on its body, counter-clockwise",
+        always=False,
+    ),
     Declaration("spring_{spring}_length", "m", "spring {spring}: distance of its ends"),
     Declaration("spring_{spring}_force", "N", "spring {spring}: force that pushes its ends apart"),
     Declaration("spring_{spring}_loss", "J", "spring {spring}: energy dissipated since the start"),
@@ -21,8 +27,14 @@ CHANNELS = Declarations(
 
 
 def record(run: Recording) -> Record:
-    """Return length, force and loss of every spring, and the energy that it stores."""
+    """Return the torque of gears, and length, force, loss and stored energy of springs.
+
+    A gear that is redundant has none; gears do no work.
+    """
     total = Record({})
+    for gear in run.model.constraints.gears:
+        torque = sensor(run.model, f"gear_{gear}", "torque")[:, 0]
+        total += Record(CHANNELS.record(gear, torque=torque))
     for spring in run.model.mechanism.springs:
         name = f"spring_{spring.name}"
         ends, velocity = (sensor(run.model, name, level) for level in ("ends", "velocity"))

@@ -79,11 +79,6 @@ all else, and an array is an object in C, whatever is in it."""
 ASKED = os.environ.get("EXU_PRESS_COMPILE", "")
 
 
-def wanted() -> bool:
-    """Return whether to compile."""
-    return is_compiled(editable="editable_wheel" in sys.argv)
-
-
 class BuildCompiled(build_ext):
     """Where compiling was not demanded, its failure leaves the package in Python."""
 
@@ -155,6 +150,6 @@ def extensions() -> list:
 
 
 setup(
-    ext_modules=extensions() if wanted() else [],
+    ext_modules=extensions() if is_compiled(editable="editable_wheel" in sys.argv) else [],
     cmdclass={"build_ext": BuildCompiled},
 )

@@ -43,17 +43,24 @@ def _slot_ends(mechanism: Mechanism) -> Iterator[Refusal]:
         position = motion_in_guide(mechanism, guide, motions)[0][:, :2] - np.array(guide.at)
         along = position @ np.array(guide.direction)
         beside = np.abs(along - guide.middle_along)
-        beyond = np.flatnonzero(beside > 0.5 * guide.length)
+        beyond = np.flatnonzero(beside > (0.5 + 1e-9) * guide.length)
         if len(beyond):
             angle = float(REVOLUTION[beyond[0]])
+            about_middle, of_way = map(_rounded_up, (2.0 * beside.max(), np.ptp(along)))
+            shorter = f" about its `middle`, or {of_way} m about that of the pin's way,"
             yield (
                 f"the pin of {guide.body} reaches an end of {guide.key} at crank angle "
-                f"{math.degrees(angle):.4g} deg; it needs a length of {2.0 * beside.max():.4g} m "
-                f"about its `middle`, or {np.ptp(along):.4g} m about that of the pin's way, and "
-                f"has {guide.length:g} m",
+                f"{math.degrees(angle):.4g} deg; it needs a length of {about_middle} m"
+                f"{shorter if of_way != about_middle else ''} and has {guide.length:g} m",
                 (guide.body,),
                 angle,
             )
+
+
+def _rounded_up(length: float) -> str:
+    """Return a length of four digits that suffices, m."""
+    unit = 10.0 ** (math.floor(math.log10(length)) - 3)
+    return f"{unit * math.ceil(length / unit - 1e-6):.4g}"
 
 
 def _impossible_springs(mechanism: Mechanism) -> Iterator[Refusal]:

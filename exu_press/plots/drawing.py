@@ -21,7 +21,7 @@ from exu_press.plots.format import picture_format
 from exu_press.plots.panels import figure_with_panels
 from exu_press.plots.scales import spread
 from exu_press.plots.style import GREY, RUN, colour_of, points, with_style
-from exu_press.plots.typesetting import plain, shorten, wrap_text
+from exu_press.plots.typesetting import plain, shorten, wrap_name, wrap_text
 
 __all__ = ["drawing_figure"]
 
@@ -192,7 +192,7 @@ def _column(
 ) -> None:
     """Write names in a column, spread over the height of the drawing."""
     letters = LETTERS_ON_PAPER if picture_format().stacks else LETTERS
-    lines = {name: wrap_text(name.replace("_", "_ "), letters).replace("_ ", "_") for name in named}
+    lines = {name: wrap_name(name, letters, "_") for name in named}
     figure = axes.get_figure(root=True)
     assert figure is not None
     width = 72.0 * figure.get_figwidth() * axes.get_position().width

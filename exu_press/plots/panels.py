@@ -11,7 +11,7 @@ from matplotlib.text import Annotation
 
 from exu_press.plots.format import picture_format
 from exu_press.plots.style import points
-from exu_press.plots.typesetting import plain
+from exu_press.plots.typesetting import plain, wrap_name
 
 __all__ = [
     "Rows",
@@ -120,10 +120,9 @@ def legend_above(axes: Axes, columns: int = 4, **legend: Any) -> None:
 
 def name_rows(axes: Axes, rows: Sequence[float], names: Sequence[str]) -> None:
     """Name rows of a panel at its left; on narrow paper in lines of at most ROW_LETTERS."""
-    if picture_format().stacks:
-        broken = (textwrap.fill(name.replace(".", ". "), ROW_LETTERS) for name in names)
-        names = [name.replace(". ", ".") for name in broken]
-    axes.set_yticks(rows, [plain(name) for name in names])
+    narrow = picture_format().stacks
+    texts = [wrap_name(name, ROW_LETTERS, ".") if narrow else plain(name) for name in names]
+    axes.set_yticks(rows, texts)
 
 
 def _figure(heading: str, text: str, width: float, height: float) -> Figure:

@@ -3,7 +3,7 @@
 import re
 import textwrap
 
-__all__ = ["plain", "shorten", "typeset", "wrap_text"]
+__all__ = ["plain", "shorten", "typeset", "wrap_name", "wrap_text"]
 
 LETTERS = 44
 """In a line beside a panel."""
@@ -34,6 +34,15 @@ def wrap_text(text: str, letters: int = LETTERS) -> str:
     'largest acceleration of the slider, averaged\\nover 1 ms, m/s²'
     """
     return plain("\n".join(textwrap.wrap(typeset(text), letters)))
+
+
+def wrap_name(name: str, letters: int, behind: str) -> str:
+    """Return a name likewise, in lines that end behind a sign of it.
+
+    >>> wrap_name("joints.crank_pin.clearance", 20, ".")
+    'joints.crank_pin.\\nclearance'
+    """
+    return wrap_text(name.replace(behind, f"{behind} "), letters).replace(f"{behind} ", behind)
 
 
 def typeset(text: str) -> str:

@@ -194,13 +194,16 @@ def test_a_pin_at_the_end_of_its_slot_is_told_with_the_crank_angle():
     )
     fault = examine(mechanism_from_dict(changed)).faults[0]
     assert "the pin of crank reaches an end of slots.yoke_slot at crank angle 0 deg" in fault
-    assert "it needs a length of 0.2 m" in fault
+    assert "it needs a length of 0.2 m and has 0.19 m" in fault
     off_middle = change_mechanism(
         mechanism_to_dict(mechanism_from_dict(changed)), {"slots.yoke_slot.middle": [0.0, 0.05]}
     )
     fault = examine(mechanism_from_dict(off_middle)).faults[0]
     assert "of 0.3 m about its `middle`, or 0.2 m about that of the pin's way" in fault
     assert refused(Scene, mechanism=mechanism_from_dict(changed)).startswith("scotch_yoke: the pin")
+    fault = examine(curved_yoke(length=0.3)).faults[0]
+    needed = float(fault.partition("a length of ")[2].split()[0])
+    assert examine(curved_yoke(length=needed)).error is None  # it is rounded up
     assert examine(curved_yoke(length=0.3, middle=(0.01, 0.0))).error is None
     assert "slots.arc at crank angle" in examine(curved_yoke(length=0.3)).faults[0]
 

@@ -122,7 +122,12 @@ def execute(options: argparse.Namespace) -> int:
         print("\n".join(comparison.lines(wide=options.wide)))
         for name, runs_beside in differences.items():
             print("\n".join([*columns(comparison_rows(name, runs_beside)), ""]))
-        show_warnings(f"{label}: {w}" for label, s in summaries.items() for w in s["warnings"])
+        labels: dict[str, list[str]] = {}
+        for label, summary in summaries.items():
+            for warning in summary["warnings"]:
+                labels.setdefault(warning, []).append(label)
+        texts = (f"{', '.join(names)}: {warning}" for warning, names in labels.items())
+        show_warnings(texts, directory / COMPARISON)
         print(f"written to {directory}")
     stopped = {label: s["reason"] for label, s in summaries.items() if s["reason"]}
     for label, reason in stopped.items():

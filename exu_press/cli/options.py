@@ -154,12 +154,12 @@ def directory_of(options: argparse.Namespace, file: str) -> Path:
     return Path(options.out or Path("out") / folder_name(Path(file).stem))
 
 
-def show_warnings(texts: Iterable[str]) -> None:
-    """Print the first few warnings, each of them once."""
+def show_warnings(texts: Iterable[str], file: Path | None = None) -> None:
+    """Print warnings, each of them once; the first few where a file has them all."""
     unique = list(dict.fromkeys(texts))
-    first_texts = unique[:MOST_WARNINGS]
-    if len(unique) > MOST_WARNINGS:
-        first_texts.append(f"{len(unique) - MOST_WARNINGS} more like these")
+    first_texts = unique if file is None else unique[:MOST_WARNINGS]
+    if len(unique) > len(first_texts):
+        first_texts.append(f"{len(unique) - MOST_WARNINGS} more like these in {file}")
     for warning in first_texts:
         lines = textwrap.wrap(
             f"exu-press: warning: {warning}", 100, subsequent_indent="  ", break_on_hyphens=False

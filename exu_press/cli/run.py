@@ -226,7 +226,7 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
     interrupted = False
     doubts = scene_warnings(scene)
     if not options.quiet:  # a drawing in mm may run for long
-        show_warnings(doubts)
+        show_warnings(doubts, directory / "summary.json")
     unfinished = checkpoint_directory(directory / RESULT)
     _make_room(unfinished, options)
     if options.within is not None:
@@ -257,7 +257,7 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
         assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
         texts = [x for text in remarks for x in textwrap.wrap(text, 100, subsequent_indent="    ")]
         print("\n".join([*run_lines(result), *texts, *assumed]), flush=True)
-        show_warnings(text for text in summary["warnings"] if text not in doubts)
+        show_warnings((w for w in summary["warnings"] if w not in doubts), written[1])
     if not options.no_pictures:
         from exu_press.plots import save_pictures
 

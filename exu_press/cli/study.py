@@ -19,7 +19,7 @@ from exu_press.files.lock import lock_directory, remove_unused
 from exu_press.files.output_directory import FORMATS, output_directory
 from exu_press.plots.format import picture_format
 from exu_press.studies.base.command import SceneCommand, StudyCommand
-from exu_press.studies.base.report import Report
+from exu_press.studies.base.report import REPORT_FILE, Report
 from exu_press.studies.base.study import Study
 
 __all__ = ["Command", "command_of", "show_report"]
@@ -100,7 +100,7 @@ def show_report(report: Report, directory: Path, options: argparse.Namespace) ->
     report.save(directory)
     if not options.quiet:
         print("\n".join(report.lines()), flush=True)
-        show_warnings(report.warnings())
+        show_warnings(report.warnings(), directory / REPORT_FILE)
     files = list(report.files)
     for picture in report.pictures():
         for old in FORMATS:

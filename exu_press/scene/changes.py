@@ -1,6 +1,7 @@
 """A scene as a nested mapping with other values, before it is checked."""
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from exu_press.errors import InputError, error_prefix
@@ -75,7 +76,7 @@ def changed_keys(
 
         data["load"] = changed_tables("load", data.get("load", {}), loads, changed_load)
     if "joints" not in changes:
-        data["joints"] = _changed_joints(data["joints"], groups, joints)
+        data["joints"] = _changed_joints(data, groups, joints)
     elif joints:
         raise InputError("joints and a key of joints: allowed is one of the two in one change")
     for name in (name for name, value in changes.items() if value is None):
@@ -86,9 +87,9 @@ def changed_keys(
 
 
 def _changed_joints(
-    joints: Mapping[str, Any], groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]
+    scene: Mapping[str, Any], groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Return joints with other kinds or keys: "NAME" -> a kind, or all keys; "NAME.key", ..."""
+    """Return a scene's joints with others: "NAME" -> a kind, or all keys; "NAME.key", ..."""
     by_member = {}
     for path, value in changes.items():
         name, dot, key = path.partition(".")
@@ -97,17 +98,22 @@ def _changed_joints(
         for member in groups.get(name, (name,)):
             by_member[member if is_whole else f"{member}.{key or 'kind'}"] = keys
     try:
-        return changed_tables("joints", joints, by_member, _changed_joint)
+        change = partial(_changed_joint, scene)
+        return changed_tables("joints", scene["joints"], by_member, change)
     except InputError as error:
         raise InputError(by_group(str(error), groups, changes)) from None
 
 
 def _changed_joint(
-    name: str, joint: Mapping[str, Any] | None, changes: Mapping[str, Any]
+    scene: Mapping[str, Any],
+    name: str,
+    joint: Mapping[str, Any] | None,
+    changes: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Return the keys of a joint with others, also with those of its laws.
 
-    Those that only its former kind has give way to another kind.
+    Those that only its former kind has give way to another kind. A list of which one entry changes
+    is that of the scene's law, unless the joint has its own.
     """
     keys = dict(joint or {})
     if (kind := changes.get("kind")) is not None:
@@ -119,7 +125,11 @@ def _changed_joint(
             keys[key] = value
         elif key in TABLES_OF_JOINTS and isinstance(keys.setdefault(key, {}), dict):
             kind = load_object("scene.worn:WornDepths") if key == "worn" else TABLES[key]
-            keys[key] = changed_table(kind, keys[key], {inner: value})
+            entries = given_keys(scene.get(key)).get(inner.partition(".")[0])
+            if "." in inner and isinstance(entries, list | tuple):
+                keys[key] = {inner.partition(".")[0]: entries, **keys[key]}
+            with error_prefix(f"joints.{name}."):
+                keys[key] = changed_table(kind, keys[key], {inner: value})
         else:
             raise InputError(
                 f"joints.{name}.{path} = {value!r}: {key} is no table of a joint"

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from exu_press import InputError, Result, Scene, simulate
-from exu_press.cli import compare, main
+from exu_press.cli import compare, main, options
 from exu_press.files.output_directory import folder_name
 from exu_press.report.comparison import comparison_report
 
@@ -60,6 +60,22 @@ def test_variants_of_the_joints_that_a_scene_has(mine, tmp_path, capsys):
     }
     loose = {"dry": {"wrist_pin": "dry"}, "lubricated": {"wrist_pin": "lubricated"}}
     assert kinds == {"ideal": {}, **loose}
+
+
+def test_a_warning_names_its_runs_and_the_file_of_those_that_are_not_printed(
+    mine, tmp_path, capsys, monkeypatch
+):
+    wide = ["--set", "joints.wrist_pin.clearance=2e-3", "--set", "speed_rpm=3e4"]
+    command = ["compare", str(mine), str(mine), *wide, *QUICK, "--out", str(tmp_path / "out")]
+    assert main(command) == 0
+    shown = capsys.readouterr().err
+    assert "warning: mine, mine 2: joints.wrist_pin.clearance" in shown
+    monkeypatch.setattr(options, "MOST_WARNINGS", 0)
+    assert main(command) == 0
+    (text,) = re.findall("warning: (.*)", capsys.readouterr().err.replace("\n  ", " "))
+    file = tmp_path / "out" / "comparison.json"
+    count = len(json.loads(file.read_text())["mine"]["warnings"])
+    assert text == f"{count} more like these in {file}"
 
 
 def speeds(out):

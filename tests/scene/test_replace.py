@@ -181,6 +181,14 @@ def test_an_entry_of_a_list_is_changed_by_its_number():
     changed = scene.replace({"film.grooves.1.angle_deg": 80.0, "load.a.offset.0": 0.2})
     assert [groove.angle_deg for groove in changed.film["grooves"]] == [0.0, 80.0]
     assert changed.load["a"].offset == (0.2, 0.0)
-    for name in ("film.grooves.2.angle_deg", "film.grooves.angle_deg", "load.a.offset.2"):
+    one = scene.replace({"joints.crank_pin.film.grooves.1.angle_deg": 70.0})
+    assert [groove.angle_deg for groove in one.joints["crank_pin"].film.law.grooves] == [0.0, 70.0]
+    assert one.film == scene.film
+    for name in (
+        "film.grooves.2.angle_deg",
+        "joints.crank_pin.film.grooves.2.angle_deg",
+        "film.grooves.angle_deg",
+        "load.a.offset.2",
+    ):
         with pytest.raises(InputError, match=rf"^{name} = 1.0: allowed behind .* number below 2"):
             scene.replace({name: 1.0})

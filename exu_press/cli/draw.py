@@ -124,40 +124,36 @@ def _load_mechanism(name: str, changes: Mapping[str, Any]) -> tuple[Mechanism, f
 
     A scene is read as far as its mechanism goes: `Scene` refuses mechanisms with faults.
     """
-    path = Path(name)
-    if not path.exists() and not path.suffix:
-        if name in MECHANISMS:
-            return _build_mechanism(name, {}, changes), None
-        if name in BY_DIMENSIONS:
-            return _of_scene({"mechanism": name}, Path(), changes)
+    path, data = Path(name), dict[str, Any]()
+    if path.exists() or path.suffix:
+        data = read_toml(path)
+    elif name in MECHANISMS or name in BY_DIMENSIONS:
+        data = {"mechanism": name}
+    else:
         demand_known(f"{name}: no such mechanism or scene", name, ["a file", *_names()])
-        path = SHIPPED / f"{name}.toml"
-    data = read_toml(path)
-    if "bodies" in data and "joints" in data and "crank" in data:
-        data = change_mechanism(data, changes)
-        with error_prefix(f"{path}: "):
-            return mechanism_from_dict(data), None
-    return _of_scene(data, path, changes)
+        data = read_toml(path := SHIPPED / f"{name}.toml")
+    with error_prefix(f"{path.name} with --set: " if changes else f"{path}: "):
+        if "bodies" in data and "joints" in data and "crank" in data:
+            return mechanism_from_dict(change_mechanism(data, changes)), None
+        return _of_scene(data, path.parent, changes)
 
 
 def _of_scene(
-    data: Mapping[str, Any], path: Path, changes: Mapping[str, Any]
+    data: Mapping[str, Any], folder: Path, changes: Mapping[str, Any]
 ) -> tuple[Mechanism, float | None]:
     """Return the mechanism that a scene names or holds, and the crank's speed where it says it."""
     own = {name: changes[name] for name in DRAWN if name in changes}
     further = {name: value for name, value in changes.items() if name not in own}
     scene = {**data, **own}
     mechanism = scene.get("mechanism", "press")
-    with error_prefix(f"{path}: " if path.name else ""):
-        speed = _speed(scene)
-        if isinstance(mechanism, Mapping):
-            return mechanism_from_dict(change_mechanism(mechanism, further)), speed
-        if isinstance(mechanism, str) and mechanism.lower().endswith(".toml"):
-            file = path.parent / mechanism
-            drawing = change_mechanism(read_toml(file), further)
-            with error_prefix(f"{file}: "):
-                return mechanism_from_dict(drawing), speed
-        return _build_mechanism(mechanism, scene, further), speed
+    speed = _speed(scene)
+    if isinstance(mechanism, Mapping):
+        return mechanism_from_dict(change_mechanism(mechanism, further)), speed
+    if isinstance(mechanism, str) and mechanism.lower().endswith(".toml"):
+        drawing = change_mechanism(read_toml(file := folder / mechanism), further)
+        with error_prefix(f"{file}: "):
+            return mechanism_from_dict(drawing), speed
+    return _build_mechanism(mechanism, scene, further), speed
 
 
 def _build_mechanism(name: Any, scene: Mapping[str, Any], changes: Mapping[str, Any]) -> Mechanism:

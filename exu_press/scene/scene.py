@@ -626,9 +626,12 @@ def _load(path: str | Path, assignments: Iterable[str] = (), *, allow_code: bool
     changes = dict(map(parse_assignment, assignments))
     with error_prefix(f"{path}: "):
         if allow_code:
-            import_kinds({**data, **changes})
+            import_kinds(data)
         scene = _with_files(Scene.from_dict(data, given_names(data)), files)
-    return scene.replace(changes) if changes else scene
+    with error_prefix(f"{path.name} with --set: "):
+        if allow_code:
+            import_kinds(changes)
+        return scene.replace(changes) if changes else scene
 
 
 def _with_files(scene: Scene, files: Mapping[str, str]) -> Scene:

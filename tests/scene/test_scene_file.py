@@ -75,6 +75,13 @@ def test_assignment_drops_what_is_no_longer_used(tmp_path):
     assert Scene.load(path, ["joints.crank_pin=dry"]).film is None
 
 
+def test_a_wrong_assignment_is_not_the_files(tmp_path):
+    path = write(tmp_path, "[film]\nviscosity = 0.1")
+    for change in ("film.viscocity=1", "joints.crank_pin=wet", "joints.crank_pin=no_such:Kind"):
+        with pytest.raises(InputError, match=rf"^{path.name} with --set: {change[:8]}"):
+            Scene.load(path, [change], allow_code=True)
+
+
 @pytest.mark.parametrize(
     ("text", "value"),
     [

@@ -1,13 +1,24 @@
 """Errors of a user's input; fe_models, on which this package builds, raises them too."""
 
 import importlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from fe_models.errors import DiskFullError, InputError
 
-__all__ = ["DiskFullError", "InputError", "UnusedKeyError", "error_prefix", "required_package"]
+__all__ = [
+    "DiskFullError",
+    "InputError",
+    "MissingKeysError",
+    "Need",
+    "UnusedKeyError",
+    "error_prefix",
+    "required_package",
+]
+
+Need = tuple[str, str]
+"""Dotted name of a place in a scene, and what it needs, in which {path} stands for that name."""
 
 for error in (InputError, DiskFullError):
     error.__module__ = __name__  # as tracebacks and the reference name it
@@ -23,6 +34,25 @@ class UnusedKeyError(InputError):
     def __init__(self, name: str, text: str, reason: str) -> None:
         super().__init__(f"{text}: not used by this scene ({reason}); remove it")
         self.name = name
+
+
+class MissingKeysError(InputError):
+    """Keys that decide the result of a scene, have no default and are missing.
+
+    Attributes:
+        needs: of every place that lacks some.
+    """
+
+    def __init__(self, needs: Iterable[Need]) -> None:
+        self.needs = tuple(dict.fromkeys(needs))
+        paths: dict[tuple[str, str], list[str]] = {}
+        for path, text in self.needs:
+            paths.setdefault((path.partition(".")[0], text), []).append(path)
+        messages = []
+        for (kind, text), names in paths.items():
+            (name, verb) = (names[0], "needs") if len(names) == 1 else (f"{kind}.NAME", "need")
+            messages.append(f"{', '.join(names)} {verb} {text.replace('{path}', name)}")
+        super().__init__("; ".join(messages))
 
 
 @contextmanager

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, Need
 from exu_press.scene.joint import Joint
 from exu_press.schema.checks import key
-from exu_press.schema.table import demand_keys
+from exu_press.schema.table import missing_keys
 
 if TYPE_CHECKING:
     from exu_press.joints.interface import InterfaceLaw
@@ -31,10 +31,10 @@ class CustomJoint(Joint, ABC):
     def interfaces(self) -> Sequence["InterfaceLaw"]:
         """Return the interface laws that act in parallel; the first has the joint's clearance."""
 
-    def demand_keys(self, path: str) -> None:
-        """Raise InputError for the first key without default that is missing."""
+    def missing_keys(self, path: str) -> list[Need]:
+        """Return which of its keys without default are missing."""
         keys = [field.name for field in dataclasses.fields(self) if self.resolved]
-        demand_keys(path, self, keys, "", f"[{path}]")
+        return missing_keys(path, self, keys, "", "[{path}]")
 
     def check_laws(self) -> None:
         """Raise InputError unless it has interface laws."""

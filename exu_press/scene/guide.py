@@ -21,7 +21,6 @@ from exu_press.schema.kinds import CustomKind, kind_module, kind_name
 from exu_press.schema.registry import Registry, alternatives, choice
 from exu_press.schema.table import (
     Table,
-    demand_keys,
     key_values,
     plain,
     resolve,
@@ -173,7 +172,6 @@ class GuideOil(Table):
 
     def check_pads(self, length: float, clearance: float) -> None:
         """Raise InputError unless its pads are of the range of their law; sizes in m."""
-        demand_keys("guide.viscosity", self, (), "guide", "[guide]")
         if not self.contact_gap < clearance:
             raise InputError(
                 f"guide.contact_gap = {self.contact_gap!r}: allowed is a number < "
@@ -213,7 +211,7 @@ class GuidewaySupport(Table):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.oil is not None:
+        if self.oil is not None and None not in (self.oil.face_width, self.oil.contact_gap):
             self.oil.check_pads(self.length, self.clearance)
 
 

@@ -5,11 +5,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, cast
 
-from exu_press.errors import InputError, error_prefix
+from exu_press.errors import InputError, Need, error_prefix
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind
 from exu_press.schema.registry import Registry
-from exu_press.schema.table import Table, demand_keys, key_values, plain
+from exu_press.schema.table import Table, key_values, missing_keys, plain
 
 if TYPE_CHECKING:
     from exu_press.laws.contact.damping import NormalContact
@@ -72,12 +72,13 @@ class Joint(CustomKind, Table):
         """Whether the code of its kind and its laws is loaded."""
         return all(kind.resolved for kind in self.kinds().values())
 
-    def demand_keys(self, path: str) -> None:
-        """Raise InputError for the first missing key that decides its behaviour.
+    def missing_keys(self, path: str) -> list[Need]:
+        """Return which of the keys that decide its behaviour are missing.
 
         Args:
             path: dotted name of the joint.
         """
+        return []
 
     def check_laws(self) -> None:
         """Make every law once, so that values outside its range are refused before a run."""
@@ -133,13 +134,14 @@ class TouchingJoint(Joint):
                 f"clearance = {self.clearance!r}: allowed is a number < radius = {self.radius!r}"
             )
 
-    def demand_keys(self, path: str) -> None:
-        """Raise InputError for the first missing key that decides its behaviour."""
-        demand_keys(path, self, SIZES, "", f"[{path}]")
+    def missing_keys(self, path: str) -> list[Need]:
+        """Return which of the keys that decide its behaviour are missing."""
+        needs = missing_keys(path, self, SIZES, "", "[{path}]")
         if self.contact is not None:
-            lengths = () if self.film_length else ("length",)
-            where = f"[contact] or [{path}.contact]"
-            demand_keys(path, self.contact, lengths, "contact", where)
+            lengths = () if self.film is not None else ("length",)
+            where = "[contact] or [{path}.contact]"
+            needs += missing_keys(path, self.contact, lengths, "contact", where)
+        return needs
 
     def check_laws(self) -> None:
         """Make every law once, so that values outside its range are refused before a run."""
@@ -185,14 +187,16 @@ class LubricatedJoint(TouchingJoint):
         """Gap at which the surfaces' asperities begin to touch, m; None: the film ends the run."""
         return self.film.contact_gap
 
-    def demand_keys(self, path: str) -> None:
-        """Raise InputError for the first missing key that decides its behaviour."""
-        super().demand_keys(path)
-        viscosity = () if self.film.oil is not None else ("viscosity",)
-        demand_keys(path, self.film, viscosity, "film", f"[film] or [{path}.film]")
-        if self.film.oil is not None:
-            where = f"[film.oil] or [{path}.film.oil]"
-            demand_keys(path, self.film.oil, (), "film.oil", where)
+    def missing_keys(self, path: str) -> list[Need]:
+        """Return which of the keys that decide its behaviour are missing."""
+        oil = self.film.oil
+        viscosity = () if oil is not None else ("viscosity",)
+        needs = super().missing_keys(path)
+        needs += missing_keys(path, self.film, viscosity, "film", "[film] or [{path}.film]")
+        if oil is not None:
+            where = "[film.oil] or [{path}.film.oil]"
+            needs += missing_keys(path, oil, (), "film.oil", where)
+        return needs
 
     def check_laws(self) -> None:
         """Make every law once, so that values outside its range are refused before a run."""

@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from exu_press.errors import InputError, UnusedKeyError, error_prefix
+from exu_press.errors import InputError, Need, UnusedKeyError, error_prefix
 from exu_press.mechanism import Mechanism
 from exu_press.scene.custom import CustomJoint
 from exu_press.scene.joint import JOINT_KINDS, SIZES, IdealJoint, Joint
@@ -143,8 +143,8 @@ class Joints(dict[str, Joint]):
         return self.groups.get(name, (name,))
 
 
-def joints_of(tables: Any, mechanism: Mechanism, laws: LawKeys) -> Joints:
-    """Return every joint of a mechanism from a scene's table.
+def joints_of(tables: Any, mechanism: Mechanism, laws: LawKeys) -> tuple[Joints, list[Need]]:
+    """Return every joint of a mechanism from a scene's table, and which keys they lack.
 
     A joint's own keys go before those of its group; a joint that is not named is ideal.
 
@@ -155,8 +155,7 @@ def joints_of(tables: Any, mechanism: Mechanism, laws: LawKeys) -> Joints:
 
     Raises:
         InputError: there is no such joint or group, a joint lies in two groups that are given, a
-            key is not one of this kind of joint or is missing, or a law's parameters are outside
-            its range.
+            key is not one of this kind of joint, or a law's parameters are outside its range.
     """
     if not isinstance(tables, Mapping):
         raise InputError(f"joints = {tables!r}: allowed is a table of joints")
@@ -178,15 +177,23 @@ def joints_of(tables: Any, mechanism: Mechanism, laws: LawKeys) -> Joints:
             own[name] = {**own.get(name, {}), **joint_keys(name, table)}
         elif name not in groups:
             raise InputError(_unknown(name, mechanism.name, names, groups, table))
-    complete = {}
+    complete, needs = {}, list[Need]()
     for joint in mechanism.joints:
         shown_name = joint.name if joint.name in tables else by_group.get(joint.name, joint.name)
         keys = own.get(joint.name, {"kind": "ideal"})
-        complete[joint.name] = _joint(shown_name, keys, laws, sizes, spherical=joint.spherical)
+        table = _joint(shown_name, keys, laws, sizes, spherical=joint.spherical)
+        complete[joint.name] = table
+        if missing := table.missing_keys(f"joints.{shown_name}"):
+            needs += missing
+        elif table.is_resolved:
+            try:
+                table.check_laws()
+            except InputError as error:
+                raise InputError(f"{error} (joints.{shown_name})") from None
     joints = Joints(complete, mechanism)
     for name, table in tables.items():
         _refuse_unused(name, joint_keys(name, table), joints, laws)
-    return joints
+    return joints, needs
 
 
 def _refuse_unused(name: str, table: Mapping[str, Any], joints: Joints, laws: LawKeys) -> None:
@@ -257,12 +264,6 @@ def _joint(
             values["worn"] = table_from(WornDepths, "worn", table["worn"])
     with error_prefix(f"{path}."):
         joint: Joint = chosen(**{key: values[key] for key in keys if key in values})
-    joint.demand_keys(path)
-    try:
-        if joint.is_resolved:
-            joint.check_laws()
-    except InputError as error:
-        raise InputError(f"{error} ({path})") from None
     return joint
 
 

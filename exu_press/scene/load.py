@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError, error_prefix
+from exu_press.errors import InputError, MissingKeysError, error_prefix
 from exu_press.laws.load_curve import LoadCurve
 from exu_press.mechanism import Mechanism
 from exu_press.scene.bodies import Face, face_dict, patch_given
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind
 from exu_press.schema.registry import Registry
-from exu_press.schema.table import Table, demand_keys, plain
+from exu_press.schema.table import Table, missing_keys, plain
 
 __all__ = [
     "ATTACHMENT",
@@ -134,7 +134,9 @@ class CustomLoad(Load, ABC):
     def check_code(self, where: str, angular_speed: float) -> None:
         """Make its curve once, so that it is refused before anything is run."""
         own = [field.name for field in dataclasses.fields(self) if field.default is None]
-        demand_keys(where, self, [name for name in own if name not in ATTACHMENT], "", f"[{where}]")
+        own = [name for name in own if name not in ATTACHMENT]
+        if needs := missing_keys(where, self, own, "", "[{path}]"):
+            raise MissingKeysError(needs)
         if self.over not in COLUMNS:
             raise InputError(
                 f"{where}: {self.kind}.over = {self.over!r}: allowed is one of {COLUMNS}"

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError, error_prefix
+from exu_press.errors import InputError, MissingKeysError, Need, error_prefix
 from exu_press.mechanism import Mechanism
 from exu_press.scene.load import ATTACHMENT, COLUMNS, LOAD_KINDS, Load
 from exu_press.scene.solver import RPM
@@ -43,19 +43,24 @@ def loads_of(
     """
     if not isinstance(tables or {}, Mapping):
         raise InputError(f"load = {tables!r}: allowed is a table of loads")
-    loads = {}
+    loads, needs = {}, list[Need]()
     for name, value in (tables or {}).items():
         where = f"load.{name}"
         demand_name("load", name)
         try:
             loads[name] = load = _load(where, value)
+            load.check_code(where, speed_rpm * RPM)
+        except MissingKeysError as error:
+            needs += [(where, text) for _, text in error.needs]
+            continue
         except InputError as error:
             text = str(error)
             raise InputError(text if text.startswith(where) else f"{where}.{text}") from None
         _check_body(where, load, mechanism, flexible)
-        load.check_code(where, speed_rpm * RPM)
         with error_prefix(f"{where}."):
             load.check(mechanism, 60.0 / speed_rpm)
+    if needs:
+        raise MissingKeysError(needs)
     return loads
 
 

@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, MissingKeysError
 from exu_press.laws.motor import MotorLaw, kloss, torque_table
 from exu_press.scene.solver import RPM
 from exu_press.scene.start_stop import BEGINS, Clutch
 from exu_press.schema.checks import check_columns, check_increasing, key
 from exu_press.schema.registry import alternatives
-from exu_press.schema.table import Table, demand_keys
+from exu_press.schema.table import Table, missing_keys
 
 __all__ = ["InductionMotor", "Motor", "TorqueTable"]
 
@@ -134,15 +134,17 @@ class Motor(Table):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        demand_keys("[drive]", self, (), "drive", "[drive]")
+        needs = missing_keys("[drive]", self, (), "drive", "[drive]")
+        if self.clutch is None and self.begins == "standing":
+            torque = (
+                "drive.clutch_torque (that the clutch transmits at most, reduced to the crank, "
+                "N m), which decides the result and has no default; give it in [drive]"
+            )
+            needs.append(("drive.begins = 'standing'", torque))
+        if needs:
+            raise MissingKeysError(needs)
         if self.clutch is not None:
             self.clutch.check_start(self.begins)
-        elif self.begins == "standing":
-            raise InputError(
-                "drive.begins = 'standing' needs drive.clutch_torque (that the clutch transmits at "
-                "most, reduced to the crank, N m), which decides its result and has no default; "
-                "give it in [drive]"
-            )
 
     @property
     def on_crank(self) -> float:

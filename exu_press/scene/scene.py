@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast, overload
 
-from exu_press.errors import InputError, UnusedKeyError, error_prefix
+from exu_press.errors import InputError, MissingKeysError, Need, UnusedKeyError, error_prefix
 from exu_press.files.digests import recorded_files
 from exu_press.mechanism import (
     SHIPPED,
@@ -31,7 +31,7 @@ from exu_press.scene.solver import RPM, Solver
 from exu_press.scene.usage import LAWS, TABLES, LawKeys
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind, import_kinds, refusal, with_unresolved
-from exu_press.schema.table import Table, demand_keys, given_names, plain, plain_value, table_from
+from exu_press.schema.table import Table, given_names, missing_keys, plain, plain_value, table_from
 
 __all__ = ["STARTS", "Scene", "mechanism_of"]
 
@@ -158,6 +158,7 @@ class Scene(Table):
         shown_name = repr(self.mechanism) if self.shipped_name else "the scene's own"
         dimensions = {"press", "slider_crank"} - {self.shipped_name}
         unused = dict.fromkeys(dimensions, f"mechanism is {shown_name}")
+        needs: list[Need] = []
         for name in TABLES:
             table = getattr(self, name)
             if name in LAWS:  # their defaults are the mechanism's
@@ -165,7 +166,10 @@ class Scene(Table):
             self._refuse(unused, name, table)
             if table is None and (name in unused or name in ONLY_WHERE_GIVEN):
                 continue
-            table = table_from(TABLES[name], name, {} if table is None else table)
+            try:
+                table = table_from(TABLES[name], name, {} if table is None else table)
+            except MissingKeysError as error:
+                needs, table = [*needs, *error.needs], None
             object.__setattr__(self, name, table)
         sampled = self.output is not None and self.output.samples
         if sampled and self.solver.step is not None:
@@ -180,10 +184,15 @@ class Scene(Table):
             )
         self._check_start_stop()
         self._settle_guides()
-        self._settle_joints()
-        self._settle_wear()
+        needs += self._settle_joints()
         self._settle_bodies()
-        self._settle_loads()
+        for settle in (self._settle_wear, self._settle_loads):
+            try:
+                settle()
+            except MissingKeysError as error:
+                needs += error.needs
+        if needs:
+            raise MissingKeysError(needs)
 
     def _check_start_stop(self) -> None:
         """Refuse keys that do not go with a press that starts or stops."""
@@ -215,8 +224,11 @@ class Scene(Table):
         object.__setattr__(self, "guide", table)
         object.__setattr__(self, "guides", guides)
 
-    def _settle_joints(self) -> None:
-        """Complete every joint of the mechanism; a law that no joint has is refused."""
+    def _settle_joints(self) -> list[Need]:
+        """Complete every joint of the mechanism, and return which keys joints and guides lack.
+
+        A law that no joint has is refused.
+        """
         mechanism = mechanism_of(self)
         usual = mechanism.defaults
         tables = usual.get("joints", {}) if self.joints is None else self.joints
@@ -227,7 +239,7 @@ class Scene(Table):
             for law in LAWS.keys() & usual.keys():
                 with error_prefix("defaults."):
                     laws.keys_of(law)
-        joints = joints_of(tables, mechanism, laws)
+        joints, needs = joints_of(tables, mechanism, laws)
         object.__setattr__(self, "joints", joints)
         unused = joints.unused_laws()
         self._refuse(unused, "start", self.start)
@@ -237,10 +249,25 @@ class Scene(Table):
             self._settle_law(law, laws, unused.get(law, ""))
         for name, guide in self.guides.items():
             self._check_guide(mechanism.guide(name), guide)
-            if (contact := guide.contact(laws.keys_of("contact"))) is not None:
-                path = self.guide_key(name, "clearance")
-                demand_keys(path, contact, (), "contact", "[contact]")
-            guide.check_laws(*(laws.keys_of(law) for law in ("contact", "friction")))
+            missing = self._missing_keys_of_guide(name, guide, laws.keys_of("contact"))
+            needs += missing
+            if not missing:
+                guide.check_laws(*(laws.keys_of(law) for law in ("contact", "friction")))
+        return needs
+
+    def _missing_keys_of_guide(
+        self, name: str, guide: "ElasticGuide", contact_keys: Mapping[str, Any]
+    ) -> list[Need]:
+        """Return which keys of its oil and of [contact] a guide needs."""
+        needs: list[Need] = []
+        if guide.oil is not None:
+            path = self.guide_key(name, "viscosity")
+            table = path.rpartition(".")[0]
+            needs += missing_keys(path, guide.oil, (), table, f"[{table}]")
+        if (contact := guide.contact(contact_keys)) is not None:
+            path = self.guide_key(name, "clearance")
+            needs += missing_keys(path, contact, (), "contact", "[contact]")
+        return needs
 
     def guide_key(self, guide: str, key: str) -> str:
         """Return the dotted name of a key of a guide, which is [guide]'s or its own."""
@@ -505,6 +532,9 @@ class Scene(Table):
             try:
                 scene = Scene.from_dict(data, asked, resolve=not self.has_unresolved_kinds)
                 return _with_files(scene, self.files)
+            except MissingKeysError as error:
+                needs = [(by_group(path, groups, changes), text) for path, text in error.needs]
+                raise MissingKeysError(needs) from None
             except InputError as error:
                 if not isinstance(error, UnusedKeyError) or gives_key(error.name, groups, changes):
                     raise InputError(by_group(str(error), groups, changes)) from None

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, MissingKeysError
 from exu_press.laws.schedule import Ramp, Schedule
 from exu_press.schema.checks import check_increasing, key
 from exu_press.schema.registry import alternatives
-from exu_press.schema.table import Table, key_values
+from exu_press.schema.table import Table, declared_keys, key_values, need_text
 
 __all__ = ["BEGINS", "Brake", "Clutch", "Starts", "Stops"]
 
@@ -158,17 +158,15 @@ class Clutch(Table):
 
     def _demand_ramps(self) -> None:
         """Demand how clutch and brake answer to commands that there are."""
-        keys, ramps = self._keys, []
+        keys, fields, ramps = self._keys, declared_keys(Clutch), []
         if self.start is not None:
             ramps += ["clutch_on", *(["brake_off"] if self.brake else [])]
         if self.stop is not None:
             ramps += ["clutch_off", *(["brake_on"] if self.brake else [])]
-        for name in ramps:
-            if name not in keys and f"{name}_deg" not in keys:
-                raise InputError(
-                    f"[drive] with drive.clutch_torque needs drive.{name}, which decides its "
-                    f"result and has no default; give it in [drive], as in {name} = [0.02, 0.06]"
-                )
+        if missing := {n: fields[n] for n in ramps if not {n, f"{n}_deg"} & keys.keys()}:
+            where = f"[drive], as in {next(iter(missing))} = [0.02, 0.06]"
+            text = need_text(missing, "drive", where)
+            raise MissingKeysError([("[drive] with drive.clutch_torque", text)])
 
     def _refuse_overlaps(self) -> None:
         """Refuse clutch and brake that act at once."""

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from exu_press.errors import InputError, UnusedKeyError
+from exu_press.errors import InputError, MissingKeysError, Need, UnusedKeyError
 from exu_press.schema.checks import key
-from exu_press.schema.table import Table, demand_keys, table_from
+from exu_press.schema.table import Table, missing_keys, table_from
 
 __all__ = ["Wear", "WearAt"]
 
@@ -74,13 +74,14 @@ class Wear(WearAt):
             groups: names for several joints at once -> these joints.
 
         Raises:
-            InputError: there is no such place, it does not wear, or a key is missing.
+            InputError: there is no such place, it does not wear, or keys are missing.
         """
         by_joint: dict[str, Mapping[str, float]] = {}
         for name, keys in (self.joints or {}).items():
             for member in groups.get(name, (name,)):
                 by_joint[member] = {**by_joint.get(member, {}), **keys}
         whole, places = dataclasses.replace(self, joints=by_joint or None), {}
+        needs: list[Need] = []
         for kind, tables, known in (
             ("joints", by_joint, joints),
             ("guides", self.guides or {}, guides),
@@ -99,9 +100,11 @@ class Wear(WearAt):
                 if not why
             }
             for name, law in laws.items():
-                where = f"[wear] or [wear.{kind}.{name}]"
-                demand_keys(f"{kind}.{name}", law, KEYS, "wear", where)
+                where = "[wear] or [wear.{path}]"
+                needs += missing_keys(f"{kind}.{name}", law, KEYS, "wear", where)
             places[kind] = laws
+        if needs:
+            raise MissingKeysError(needs)
         return whole, places
 
 

@@ -6,9 +6,9 @@ import typing
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any, ClassVar, Self, TypeVar
 
-from exu_press.errors import InputError, UnusedKeyError, error_prefix
+from exu_press.errors import InputError, MissingKeysError, Need, UnusedKeyError, error_prefix
 from exu_press.lazy import load_object
-from exu_press.schema.checks import allowed_text, checked_value, demand_known, nearest
+from exu_press.schema.checks import checked_value, demand_known, nearest
 from exu_press.schema.kinds import UnresolvedName
 from exu_press.schema.registry import Alternatives
 
@@ -19,11 +19,12 @@ __all__ = [
     "changed_tables",
     "check_keys",
     "declared_keys",
-    "demand_keys",
     "dotted_name",
     "given_keys",
     "given_names",
     "key_values",
+    "missing_keys",
+    "need_text",
     "nested_table",
     "plain",
     "plain_value",
@@ -104,7 +105,7 @@ class Table:
 
     def __post_init__(self) -> None:
         """Check every key; raise InputError for the first wrong one, or all that are missing."""
-        missing: list[Field] = []
+        missing: dict[str, Field] = {}
         for field in _fields(type(self)):
             name = dotted_name(self.table, field.name)
             value, meta = getattr(self, field.name), field.metadata
@@ -117,12 +118,11 @@ class Table:
             elif "meaning" in meta:
                 value = _value_of_key(field, name, value)
                 if value is None and field.name in self.required:
-                    missing.append(field)
+                    missing[field.name] = field
             object.__setattr__(self, field.name, value)
         if missing:
-            names = dotted_name(self.table, ", ".join(field.name for field in missing))
-            allowed = ", ".join(map(allowed_text, missing))
-            raise InputError(f"{names}: missing; allowed is {allowed}")
+            path = self.table or type(self).__name__
+            raise MissingKeysError([(path, need_text(missing, "", "[{path}]"))])
         for pair in self.exclusive:
             if None not in (getattr(self, key, None) for key in pair):
                 names = " and ".join(dotted_name(self.table, key) for key in pair)
@@ -386,41 +386,42 @@ def declared_keys(kind: type[Table]) -> Mapping[str, Field]:
     return keys
 
 
-def demand_keys(path: str, table: Table, keys: Collection[str], law: str, where: str) -> None:
-    """Raise InputError for those of some keys that a table does not have.
+def missing_keys(
+    path: str, table: Table, keys: Collection[str], law: str, where: str
+) -> list[Need]:
+    """Return what a place needs of those of some keys that a table does not have.
 
     Args:
-        path: that needs them.
+        path: dotted name of what needs them.
         table: with them.
         keys: that are needed, each with an example, beside those that the table itself needs.
         law: name of the table in the message, if it has one.
-        where: they may be given.
+        where: they may be given; {path} stands for the name.
     """
     needed = {*keys, *_needed_keys(table)}
     missing = {
-        name: field.metadata
-        for name, value, field in key_values(table)
-        if value is None and name in needed
+        name: field for name, value, field in key_values(table) if value is None and name in needed
     }
-    if not missing:
-        return
+    return [(path, need_text(missing, law, where))] if missing else []
+
+
+def need_text(missing: Mapping[str, Field], law: str, where: str) -> str:
+    """Return which keys are needed, and where they may be given."""
     names, examples = [], []
-    for name, meta in missing.items():
+    for name, field in missing.items():
+        meta = field.metadata
         unit, example = f"; in {meta['unit']}" if meta["unit"] else "", meta.get("example")
         names.append(f"{dotted_name(law, name)} ({meta['meaning']}{unit})")
         if example is not None:
             value = f"{example:g}" if isinstance(example, float) else example
             examples.append(f"{name} = {value}")
     decides, it = (
-        ("decides its result and has", "it")
+        ("decides the result and has", "it")
         if len(names) == 1
-        else ("decide its result and have", "them")
+        else ("decide the result and have", "them")
     )
     example_text = f", as in {', '.join(examples)}" if examples else ""
-    raise InputError(
-        f"{path} needs {', '.join(names)}, which {decides} no default; "
-        f"give {it} in {where}{example_text}"
-    )
+    return f"{', '.join(names)}, which {decides} no default; give {it} in {where}{example_text}"
 
 
 def _needed_keys(table: Table) -> set[str]:

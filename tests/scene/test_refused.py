@@ -213,7 +213,7 @@ film.oil = {viscosity_cst = [68.0, 8.7]} -> needs film.oil.density .. density = 
 radius = 0.05}; film = {law = 'grooved', length = 0.05, viscosity = 0.05}
 speed_rpm = 10 -> film.grooves: missing; allowed is one .. or film.tilt > 0
 film.grooves = [] -> film.grooves = .. allowed is a list of tables
-film.grooves = [{}] -> film.grooves.width_deg: missing
+film.grooves = [{}] -> film.grooves needs width_deg (around the
 film.grooves = [{width_deg = 1e-20}] -> film.grooves.width_deg = 1e-20
 film.grooves = [{width_deg = 5.0, angle_deg = 1e30}] -> film.grooves.angle_deg = 1e
 film.grooves = [{width_deg = 9, angle_deg = 90}, {width_deg = 9, angle_deg = 90}] -> at 90 and 90 de
@@ -266,8 +266,21 @@ load.a = 3 -> load.a = 3: allowed is a table of keys
 load.a.force = 1.0 -> load.a.kind: missing; allowed is one of 'blanking', 'table'
 load.a.kind = [] -> load.a.kind = []: allowed is one of
 load.a.kind = 'blank' -> load.a.kind = 'blank': allowed is one of
-load.a.kind = 'blanking' -> load.a.force: missing
-load.a.kind = 'spring' -> load.a.height, travel, force: missing; allowed is a number > 0 (of the
+load.a.kind = 'blanking' -> load.a needs force (peak force; in N) .. give it in [load.a]
+load.a.kind = 'spring' -> load.a needs height (of .. in m), travel (of .. give them in [load.a]
+
+# what is missing, all at once
+= mechanism = 'six_bar'; joints = {crank_pin = 'dry', rod_pin = 'dry'}
+start = 'loaded' -> joints.crank_pin, joints.rod_pin need clearance (radial .. in [joints.NAME] .. \
+joints.crank_pin, joints.rod_pin need contact.length .. in [contact] or [joints.NAME.contact], as in
+joints.rod_pin = 'lubricated' -> crank_pin needs contact.length .. rod_pin needs film.viscosity
+drive = {begins = 'standing'} -> [drive] needs drive.rated_torque .. drive.inertia .. 'standing' \
+needs drive.clutch_torque .. joints.crank_pin, joints.rod_pin need clearance
+guide = {clearance = 1e-5, viscosity = 0.1} -> joints.rod_pin need clearance .. guide.face_width
+wear = {} -> need clearance .. joints.crank_pin, joints.rod_pin need wear.coefficient
+load = {a = {kind = 'spring'}, b = {kind = 'blanking'}} -> clearance .. load.a needs .. load.b needs
+
+# loads
 = load.a = {kind = 'blanking', force = 1e4}
 load.a = {start_angle_deg = 9, end_angle_deg = 10} -> start_angle_deg and end_angle_deg: allowed is
 load.a.time = [0, 1] -> load.a.time = [0, 1]: not used by this scene

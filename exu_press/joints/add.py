@@ -9,14 +9,13 @@ import numpy as np
 from exudyn.itemInterface import SensorUserFunction
 
 from exu_press.errors import InputError
-from exu_press.joints.ends import BodyEnd
+from exu_press.joints.ends import BodyEnd, BodyPoint, spatial_end
 from exu_press.joints.guideway import GuidewayContact, SpatialGuidewayContact
 from exu_press.joints.guideway_film import GuidewayFilm
 from exu_press.joints.interface import DryInterface, FilmInterface, InterfaceLaw
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.joints.moving_guideway import MovingGuidewayContact
-from exu_press.joints.on_bodies import BodyPoint, in_plane, planar_end, spatial_end
-from exu_press.joints.planar import PlanarJoint
+from exu_press.joints.planar import PlanarJoint, in_plane, planar_end
 from exu_press.joints.spatial import SpatialRevolute
 from exu_press.joints.spherical import SpatialSpherical
 from exu_press.joints.spherical_film import SphericalFilm

@@ -3,15 +3,30 @@
 In floats rather than arrays: less for three components, and this is called at every iteration.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import cos, sin
 
+import exudyn as exu
 import numpy as np
 from exudyn.rigidBodyUtilities import RotationVector2RotationMatrix, RotXYZ2G, RotXYZ2RotationMatrix
 
+from exu_press.errors import InputError
+from exu_press.joints.user_force import user_force_of
 from exu_press.numerics.arrays import Array
 
-__all__ = ["NODES", "BodyEnd", "FlexiblePoint", "Vector", "cross", "cross_matrix", "dot", "rotate"]
+__all__ = [
+    "NODES",
+    "BodyEnd",
+    "BodyPoint",
+    "FlexiblePoint",
+    "Vector",
+    "cross",
+    "cross_matrix",
+    "dot",
+    "rotate",
+    "spatial_end",
+]
 
 Vector = tuple[float, float, float]
 
@@ -37,6 +52,10 @@ class FlexiblePoint:
     centre: Array
     translation: Array
     rotation: Array
+
+
+BodyPoint = tuple[int, Sequence[float]] | FlexiblePoint
+"""Object number of a body and a point in its frame (m), or an interface of a flexible body."""
 
 
 class BodyEnd:
@@ -218,6 +237,40 @@ class BodyEnd:
             ]
             rates[:, size:] = np.array(weights) @ self._both
         return rates
+
+
+def spatial_end(mbs: exu.MainSystem, point: BodyPoint) -> BodyEnd:
+    """Return the end on a body of any kind."""
+    flexible = point if isinstance(point, FlexiblePoint) else None
+    body, centre = (
+        (point.body, point.centre) if isinstance(point, FlexiblePoint) else (point[0], point[1])
+    )
+    item = mbs.GetObject(body)
+    local = np.zeros(3)
+    local[: len(centre)] = centre
+    kind = item["objectType"]
+    if kind == "Ground":
+        local += item["referencePosition"]
+        return BodyEnd("Ground", 0, np.zeros(0), local)
+    if flexible is not None and kind == "FFRFreducedOrder":
+        rigid, modal = (int(node) for node in item["nodeNumbers"])
+    elif flexible is None and kind in ("RigidBody", "RigidBody2D"):
+        rigid, modal = int(item["nodeNumber"]), None
+    else:
+        raise InputError(
+            f"body {body} is a {kind}: allowed are RigidBody, RigidBody2D, Ground and, between "
+            "bodies in the plane, Mass1D and RotationalMass1D with a point of theirs, and "
+            "FFRFreducedOrder with a FlexiblePoint"
+        )
+    node_kind = mbs.GetNode(rigid)["nodeType"]
+    if node_kind not in NODES:
+        raise InputError(f"body {body} has a {node_kind} node: allowed are {', '.join(NODES)}")
+    reference = np.array(mbs.GetNodeParameter(rigid, "referenceCoordinates"), dtype=float)
+    index = user_force_of(mbs).index_of(rigid)
+    if flexible is None or modal is None:
+        return BodyEnd(node_kind, index, reference, local)
+    modes = (user_force_of(mbs).index_of(modal), flexible.translation, flexible.rotation)
+    return BodyEnd(node_kind, index, reference, local, modes)
 
 
 def cross(v: Vector, w: Vector) -> Vector:

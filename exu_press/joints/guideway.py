@@ -38,7 +38,7 @@ class GuidewayContact(InterfaceJoint):
         """
         super().__init__(list(end.indices), [interface], turns=False)
         self.end = end
-        self._length, self._angle = end.polar
+        self._length, self._angle = end.length, end.direction
         self._x, self._y = end.reference[0] - middle[0], end.reference[1] - middle[1]
         self._across = across
         # the normal, and the arm of the point

@@ -270,7 +270,7 @@ class DryInterface(InterfaceLaw):
         self.bristle = self._next_bristle = self._in_bristles = 0.0
         self._normal = self._normal_before = 0.0
         self._sliding = self._sliding_before = None
-        self.approach.reset()
+        self.approach = Approach()
 
     def memory(self) -> list[Any]:
         """Return bristle, sliding velocities and approach speed."""

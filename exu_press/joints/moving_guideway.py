@@ -39,8 +39,8 @@ class MovingGuidewayContact(InterfaceJoint):
         """
         super().__init__([*end.indices, *line.indices], [interface], turns=False)
         self.end, self.line = end, line
-        self._length_j, self._angle_j = end.polar
-        self._length_b, self._angle_b = line.polar
+        self._length_j, self._angle_j = end.length, end.direction
+        self._length_b, self._angle_b = line.length, line.direction
         self._across, self._radius = across + line.reference[2], radius
         self._far = end.reference[0] - line.reference[0]
         self._high = end.reference[1] - line.reference[1]

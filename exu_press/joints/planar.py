@@ -1,15 +1,19 @@
 """A clearance joint between two planar bodies: from coordinates to interface laws and back."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from math import atan2, cos, hypot, sin, sqrt
+from math import atan2, cos, degrees, hypot, sin, sqrt
 
+import exudyn as exu
+import numpy as np
+
+from exu_press.errors import InputError
+from exu_press.joints.ends import BodyPoint, FlexiblePoint
 from exu_press.joints.interface import InterfaceJoint, InterfaceLaw, Load, Motion
+from exu_press.joints.user_force import user_force_of
 
-__all__ = ["PlanarEnd", "PlanarJoint"]
+__all__ = ["PlanarEnd", "PlanarJoint", "in_plane", "planar_end"]
 
 
-@dataclass(frozen=True)
 class PlanarEnd:
     """A point of a planar body.
 
@@ -18,17 +22,65 @@ class PlanarEnd:
             is held still lies where the ground's do.
         reference: their reference values, m and rad.
         point: the point in the body's frame, m.
+        length: its distance from the body's origin, m.
+        direction: of the point from there in the reference, rad.
     """
 
-    indices: tuple[int, int, int]
-    reference: tuple[float, float, float]
-    point: tuple[float, float]
+    def __init__(
+        self,
+        indices: tuple[int, int, int],
+        reference: tuple[float, float, float],
+        point: tuple[float, float],
+    ) -> None:
+        self.indices, self.reference, self.point = indices, reference, point
+        x, y = point
+        self.length, self.direction = hypot(x, y), atan2(y, x) + reference[2]
 
-    @property
-    def polar(self) -> tuple[float, float]:
-        """Distance of the point from the body's origin, and its direction in the reference."""
-        x, y = self.point
-        return hypot(x, y), atan2(y, x) + self.reference[2]
+
+def in_plane(mbs: exu.MainSystem, point: BodyPoint) -> bool:
+    """Return whether a point belongs to a planar body or, in the plane, to the ground."""
+    if isinstance(point, FlexiblePoint):
+        return False
+    kind = mbs.GetObject(point[0])["objectType"]
+    planar = kind in ("RigidBody2D", "Mass1D", "RotationalMass1D")
+    return planar or (kind == "Ground" and (len(point[1]) < 3 or point[1][2] == 0))
+
+
+def planar_end(mbs: exu.MainSystem, point: BodyPoint) -> PlanarEnd:
+    """Return the end on a planar body or the ground.
+
+    Raises:
+        InputError: a body of one coordinate is tilted, or moves neither along x nor along y.
+    """
+    assert not isinstance(point, FlexiblePoint)
+    body, centre = point
+    item = mbs.GetObject(body)
+    local = (float(centre[0]), float(centre[1]))
+    user_force = user_force_of(mbs)
+    still = user_force.index_of(None)
+    indices = still, still + 1, still + 2
+    if item["objectType"] == "Ground":
+        x, y, _ = (float(value) for value in item["referencePosition"])
+        return PlanarEnd(indices, (x, y, 0.0), local)
+    node = int(item["nodeNumber"])
+    first = user_force.index_of(node)
+    start = [float(v) for v in mbs.GetNodeParameter(node, "referenceCoordinates")]
+    if item["objectType"] == "RigidBody2D":
+        x, y, angle = start
+        return PlanarEnd((first, first + 1, first + 2), (x, y, angle), local)
+    rotation = np.array(item["referenceRotation"])
+    if rotation[2, 2] != 1.0:
+        raise InputError(f"body {body} is tilted: allowed in the plane is its z along the global z")
+    x, y, _ = (float(value) for value in item["referencePosition"])
+    angle = atan2(rotation[1, 0], rotation[0, 0])
+    if item["objectType"] == "RotationalMass1D":
+        return PlanarEnd((indices[0], indices[1], first), (x, y, angle + start[0]), local)
+    reference = x + start[0] * float(rotation[0, 0]), y + start[0] * float(rotation[1, 0]), angle
+    if tuple(rotation[:2, 0]) == (1.0, 0.0):
+        return PlanarEnd((first, indices[1], indices[2]), reference, local)
+    if tuple(rotation[:2, 0]) == (0.0, 1.0):
+        return PlanarEnd((indices[0], first, indices[2]), reference, local)
+    raise InputError(f"body {body} moves at {degrees(angle):g} deg: allowed are 0 (x), 90 (y)")
 
 
 class PlanarJoint(InterfaceJoint):
@@ -40,8 +92,8 @@ class PlanarJoint(InterfaceJoint):
         super().__init__([*journal.indices, *bearing.indices], interfaces)
         self.journal = journal
         self.bearing = bearing
-        self._length_j, self._angle_j = journal.polar
-        self._length_b, self._angle_b = bearing.polar
+        self._length_j, self._angle_j = journal.length, journal.direction
+        self._length_b, self._angle_b = bearing.length, bearing.direction
         self._far = journal.reference[0] - bearing.reference[0]
         self._high = journal.reference[1] - bearing.reference[1]
         # the direction from centre to centre, and both arms

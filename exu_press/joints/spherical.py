@@ -54,7 +54,6 @@ class SpatialSpherical(ClearanceJoint):
         self._contact, self._friction = contact, friction
         self._radius = radius
         self._film = film
-        self._approach = Approach()
         self._next_bristle: Array = np.zeros(3)
         self._sliding: Array | None = None
         self._sliding_before: Array | None = None
@@ -102,7 +101,7 @@ class SpatialSpherical(ClearanceJoint):
         self._next_bristle = self._bristle
         self._normal = self._normal_before = self._in_bristles = 0.0
         self._sliding = self._sliding_before = None
-        self._approach.reset()
+        self._approach = Approach()
         self._touching = False
         if self._film is not None:
             self._film.reset()

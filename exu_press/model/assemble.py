@@ -11,13 +11,8 @@ from exudyn.itemInterface import LoadForceVector, SensorNode
 from exu_press.integrate.modal_mass import follow_modes
 from exu_press.joints.joint import ClearanceJoint, States
 from exu_press.mechanism import Body, Motion
-from exu_press.model.drive import (
-    add_drive,
-    add_gear,
-    crank_angle_of,
-)
+from exu_press.model.constraints import add_drive, add_gear, add_ideal_joint, crank_angle_of
 from exu_press.model.guides import add_guide, add_guide_friction
-from exu_press.model.ideal_joints import add_ideal_joint
 from exu_press.model.model import Model, count_items
 from exu_press.model.rigid_body import PivotedBody, RigidBody, SlidingBody
 from exu_press.model.system import System
@@ -107,7 +102,7 @@ def _assemble(
 
         for spring in mechanism.springs:
             add_spring(system, spring)
-    guideways = _guideways(system)
+    guideways = _guideways(system) if any(guide.guideway for guide in mechanism.guides) else {}
     friction = add_guide_friction(system) if system.scene.guides else {}
     crank_angle = crank_angle_of(system)
     start_stop: StartStop | None = None
@@ -244,12 +239,13 @@ def _clearance_joints(system: System) -> dict[str, ClearanceJoint]:
 
 def _guideways(system: System) -> dict[str, tuple[ClearanceJoint, ...]]:
     """Add the guideways with clearance; return the contacts of a body's two ends and its film."""
-    guides = [(guide, guide.guideway) for guide in system.mechanism.guides]
-    if not any(guideway for _, guideway in guides):
-        return {}
     from exu_press.model.guideways import add_guideways
 
-    return {g.name: add_guideways(system, g, guideway) for g, guideway in guides if guideway}
+    return {
+        guide.name: add_guideways(system, guide, guide.guideway)
+        for guide in system.mechanism.guides
+        if guide.guideway
+    }
 
 
 def _warm_films(

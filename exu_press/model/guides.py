@@ -17,7 +17,7 @@ from exudyn.itemInterface import (
 
 from exu_press.errors import InputError
 from exu_press.mechanism import GROUND, Body, Guide, Spring
-from exu_press.model.ideal_joints import hold_direction
+from exu_press.model.constraints import hold_direction
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
 

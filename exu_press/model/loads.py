@@ -11,7 +11,7 @@ from exudyn.itemInterface import LoadForceVector
 
 from exu_press.laws.load_curve import PulseClock
 from exu_press.laws.sheet import PunchStroke, Sheet
-from exu_press.model.drive import crank_angle_of
+from exu_press.model.constraints import crank_angle_of
 from exu_press.model.system import System
 from exu_press.scene import Scene
 from exu_press.scene.applied_load import AppliedLoad

@@ -15,7 +15,7 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.mechanism import Motion
-from exu_press.model.drive import turned_body
+from exu_press.model.constraints import turned_body
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.threads import one_thread

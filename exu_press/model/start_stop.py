@@ -12,7 +12,7 @@ from exu_press.laws.clutch import Coupling
 from exu_press.laws.schedule import Schedule
 from exu_press.mechanism import Body, Mechanism
 from exu_press.mechanism.parts import FLYWHEEL
-from exu_press.model.drive import CrankAngle, turned_body
+from exu_press.model.constraints import CrankAngle, turned_body
 from exu_press.model.rigid_body import PivotedBody
 from exu_press.model.system import System
 

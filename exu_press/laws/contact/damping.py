@@ -113,10 +113,6 @@ class Approach:
     """
 
     def __init__(self) -> None:
-        self.reset()
-
-    def reset(self) -> None:
-        """Forget everything."""
         self._speed, self._gap = 0.0, 0.0  # at the last accepted instant; no gap in contact
         self._next = 0.0, 0.0
 

@@ -32,8 +32,8 @@ WORKERS = 2
 def film_table(bearing: GroovedBearing) -> Array:
     """Return a bearing's table, (eccentricities, angles, directions, 3), from the cache or made.
 
-    Its grooves are at ambient pressure. Making it takes half a minute on two cores, and two where
-    no axis mirrors the grooves; its progress is shown.
+    Its grooves are at ambient pressure. Making it takes 50 to 180 s of processor time, as the
+    grooves have their symmetries; its progress is shown.
 
     Raises:
         RuntimeError: a process that makes it failed.

@@ -136,18 +136,30 @@ class Journal:
         return turned @ -by_place @ turned.T, turned @ -by_rate @ turned.T
 
     def equilibrium(self, load: Vector) -> Vector:
-        """Return the eccentricity, m, at which the film bears a load on the journal, N.
+        """Return the eccentricity, m, at which the joint bears a load on the journal, N.
 
-        Newton's method on the logarithm of the force and on its direction, as a film's force grows
-        without bound towards the wall, over the logarithm of x, to which it is proportional at
-        the centre; from the best of a grid.
+        Where the film does not, surfaces that may touch are pressed into each other.
 
         Raises:
             InputError: there is none.
         """
+        try:
+            return self._equilibrium(load, None)
+        except InputError:
+            if self._beyond_film is None:
+                raise
+            return self._equilibrium(load, self._beyond_film)
+
+    def _equilibrium(self, load: Vector, reach: float | None) -> Vector:
+        """Return the equilibrium below an eccentricity, m; None: where the surfaces touch.
+
+        Newton's method on the logarithm of the force and on its direction, as a film's force grows
+        without bound towards the wall, over the logarithm of x, to which it is proportional at
+        the centre; from the best of a grid.
+        """
 
         def missing(x: float, angle: float) -> Array:
-            f_x, f_y = self.force(self._eccentricity_at(x, angle))
+            f_x, f_y = self.force(self._eccentricity_at(x, angle, reach))
             size = math.hypot(f_x, f_y)
             if not 0.0 < size < math.inf:
                 return np.array([math.inf, math.inf])
@@ -162,7 +174,7 @@ class Journal:
         for _ in range(ITERATIONS):
             now = missing(math.exp(y), angle)
             if not np.abs(now).max() > EXACT:
-                return self._eccentricity_at(math.exp(y), angle)
+                return self._eccentricity_at(math.exp(y), angle, reach)
             by_y = (missing(math.exp(y + SMALL), angle) - now) / SMALL
             by_angle = (missing(math.exp(y), angle + SMALL) - now) / SMALL
             try:
@@ -191,9 +203,8 @@ class Journal:
             interface.orient(math.atan2(e[1], e[0]))
         return [i.load(length, 0.0, 0.0, self._turning, 0.0) for i in self._interfaces]
 
-    def _eccentricity_at(self, x: float, angle: float) -> Vector:
-        """Return the eccentricity, m, at x = -ln(1 - e / largest) and an angle, rad."""
-        reach = self._beyond_film
+    def _eccentricity_at(self, x: float, angle: float, reach: float | None) -> Vector:
+        """Return the eccentricity, m, at x = -ln(1 - e / reach) and an angle, rad."""
         if reach is None:
             self._interfaces[0].orient(angle)
             reach = self._interfaces[0].reach

@@ -72,7 +72,7 @@ class BearingReport(Report):
         row = (pressed or thin)[0]
         gap, (load, speed) = 1e6 * row.min_film, self._state(row)
         text = (
-            f"press the surfaces {-gap:.3g} um into each other: their contact bears, not the film"
+            f"press the surfaces {-gap:.3g} um into each other, where no law of a film holds"
             if pressed
             else f"leave a film of {gap:.3g} um, where surfaces of {1e6 * rough.roughness:g} um "
             "rms touch: film.at_contact = 'mixed' lets them bear their share"

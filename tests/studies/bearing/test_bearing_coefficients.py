@@ -171,6 +171,27 @@ def test_a_film_thinner_than_rough_surfaces_has_a_warning(
     assert ("rms touch" in " ".join(capsys.readouterr().err.split())) == warns
 
 
+def test_a_mixed_film_bears_what_a_film_alone_does_before_the_surfaces_are_pressed(
+    tmp_path, capsys
+):
+    film = {"law": "short", "viscosity": 0.4}
+    mixed, alone = (
+        bearing_coefficients(
+            Scene(film={**film, "at_contact": at_contact}),
+            "crank_pin",
+            load=(0.0, -1e5),
+            speed_rpm=1.0,
+        )
+        for at_contact in ("mixed", "stop")
+    )
+    assert mixed.eccentricity == pytest.approx(alone.eccentricity, rel=1e-6)
+    thin = ["--set", "film.at_contact=mixed", "--set", "film.viscosity=0.004", "--load", "1e5"]
+    words = [*thin, "--set", "film.law=short", "--speed", "1", "--no-pictures"]
+    assert main(["bearing", "press", "crank_pin", *words, "--out", str(tmp_path)]) == 0
+    shown = " ".join(capsys.readouterr().err.split())
+    assert "press the surfaces" in shown and "where no law of a film holds" in shown
+
+
 def test_a_load_has_its_sign_from_the_direction(tmp_path, capsys):
     words = ["--load", "-5", "--speed", "240", "--out", str(tmp_path / "out")]
     assert main(["bearing", "press", "crank_pin", *words]) == 2

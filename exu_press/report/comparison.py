@@ -93,7 +93,7 @@ def _measured_section(directory: Path) -> str:
         tables = [comparison_rows(name, runs) for name, runs in differences.items()]
     parts = [table(head, rows) for head, *rows in tables]
     if drawn.is_file():
-        parts.append(picture(drawn, "Measured curves, and the runs at the measured places."))
+        parts.append(picture(drawn, "Measured curves, and the runs over them."))
     return "\n".join(parts)
 
 

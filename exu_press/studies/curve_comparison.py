@@ -12,7 +12,13 @@ from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import evaluate
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
-from exu_press.studies.curve_file import OVER, CurveFile, channel_polynomials, factor_to
+from exu_press.studies.curve_file import (
+    OVER,
+    CurveFile,
+    channel_polynomials,
+    factor_to,
+    line_over_rows,
+)
 
 __all__ = ["MEASURED", "MEASURED_PICTURE", "CurveComparison", "compare_curve", "comparison_rows"]
 
@@ -29,12 +35,14 @@ class CurveComparison:
     Attributes:
         measured: (m,).
         values: computed ones there, (m,).
+        line: places and values of the computed curve, also at the run's own rows between them.
         unit: of both.
     """
 
     curve: CurveFile
     measured: Array
     values: Array
+    line: tuple[Array, Array]
     unit: str
 
     def plain(self) -> dict[str, float | str]:
@@ -67,7 +75,9 @@ def compare_curve(file: Path, curve: CurveFile, result: Result) -> CurveComparis
             f"{file}: {curve.over} from {curve.at[0]:g} to {curve.at[-1]:g}; allowed is a part of "
             f"the run, from {begin:g} to {end:g} (--set revolutions=... makes it longer)"
         )
-    return CurveComparison(curve, measured, evaluate(at, polynomials, curve.at), unit)
+    values = evaluate(at, polynomials, curve.at)
+    line = line_over_rows(at, polynomials, curve.at)
+    return CurveComparison(curve, measured, values, line, unit)
 
 
 def comparison_rows(name: str, runs: Mapping[str, Mapping[str, Any]]) -> list[list[str]]:

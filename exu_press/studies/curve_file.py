@@ -9,12 +9,12 @@ import numpy as np
 
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
-from exu_press.numerics.piecewise import eno_cubic, hermite
+from exu_press.numerics.piecewise import eno_cubic, evaluate, hermite
 from exu_press.result import Result
 from exu_press.schema.checks import nearest
 from exu_press.schema.two_columns import read_two_columns
 
-__all__ = ["OVER", "CurveFile", "channel_polynomials", "factor_to", "read_curve"]
+__all__ = ["OVER", "CurveFile", "channel_polynomials", "factor_to", "line_over_rows", "read_curve"]
 
 OVER = {"time": "s", "crank_angle": "deg"}
 """First column -> the unit that it is converted to."""
@@ -126,6 +126,23 @@ def channel_polynomials(where: str, curve: CurveFile, result: Result) -> tuple[A
         with np.errstate(divide="ignore", invalid="ignore"):  # where the crank stands
             rate = rate / np.degrees(result["crank_speed"])
     return at, hermite(at, values, rate), result.units[name]
+
+
+def line_over_rows(
+    at: Array, polynomials: Array, samples: Array, shift: float = 0.0
+) -> tuple[Array, Array]:
+    """Return places and values of a computed curve, for its line over a measured one.
+
+    They are the run's own rows between the first and the last sample, and the samples.
+
+    Args:
+        at, polynomials: of the run, as `channel_polynomials` has them.
+        samples: places of the measured curve, (m,).
+        shift: place in the run less that in the measured curve.
+    """
+    inside = (at > samples[0] + shift) & (at < samples[-1] + shift)
+    places = np.union1d(at[inside], samples + shift)
+    return places - shift, evaluate(at, polynomials, places)
 
 
 def factor_to(where: str, unit: str, si_unit: str) -> float:

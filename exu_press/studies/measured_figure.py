@@ -21,11 +21,11 @@ FEW = 100
 @with_style
 def measured_figure(comparisons: Mapping[str, Mapping[str, CurveComparison]]) -> Figure:
     """Return a panel for each curve, by its name, with the runs by label."""
-    text, rows = "Runs at the measured places.", grid_rows(len(comparisons), 1)
+    text, rows = "Lines go through every step of the runs.", grid_rows(len(comparisons), 1)
     figure, panels = figure_with_panels("Measured and computed", text, rows, 9.5, 2.9)
     for panel, (name, runs) in zip(panels, comparisons.items(), strict=True):
         first = next(iter(runs.values()))
-        computed = {label: comparison.values for label, comparison in runs.items()}
+        computed = {label: comparison.line for label, comparison in runs.items()}
         curve_panel(panel, name, first.curve, first.measured, computed, first.unit)
     return figure
 
@@ -35,14 +35,14 @@ def curve_panel(
     name: str,
     curve: CurveFile,
     measured: Array,
-    computed: Mapping[str, Array],
+    computed: Mapping[str, tuple[Array, Array]],
     unit: str,
 ) -> None:
-    """Draw a measured curve, (m,), and computed ones at its places, by label, all in a unit."""
+    """Draw a measured curve, (m,), and places and values of computed ones by label, in a unit."""
     size = 3 if len(measured) > FEW else 7
     axes.plot(curve.at, measured, ".", color=GREY, markersize=size, label="measured")
-    for index, (label, values) in enumerate(computed.items()):
-        axes.plot(curve.at, values, **line_of(index), label=plain(label))
+    for index, (label, line) in enumerate(computed.items()):
+        axes.plot(*line, **line_of(index), label=plain(label))
     axes.set_title(plain(f"Curve {name}"))
     axes.set_xlabel(curve.axis_label)
     axes.set_ylabel(plain(typeset(f"{curve.name.replace('_', ' ')}, {unit}")))

@@ -100,6 +100,16 @@ def test_a_guides_own_table_has_its_keys_over_those_of_all(tmp_path):
     assert unit_of("guide.plunger_left.clearance") == "m"
 
 
+def test_a_key_that_the_only_guide_has_itself_is_used_no_more():
+    """A file that gave it would be refused: what the change itself does not name is dropped."""
+    shared = {"clearance": 2e-5, "length": 0.3, "width": 0.1}
+    scene = Scene(mechanism="slider_crank", joints={}, guide=shared)
+    changed = scene.replace({"guide.slider.length": 0.2})
+    assert changed.guides["slider"].support.length == 0.2
+    assert changed.to_dict()["guide"]["slider"] == {"length": 0.2}
+    assert Scene.from_dict(changed.to_dict()) == changed
+
+
 def test_own_tables_are_changed_as_other_keys(tmp_path):
     scene = Scene(guide=MIXED)
     changed = scene.replace({"guide.lateral_stiffness": 7e8, "guide.plunger_left.clearance": 5e-5})

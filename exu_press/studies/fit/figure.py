@@ -56,7 +56,7 @@ def fit_figure(report: FitReport) -> Figure:
         first.set_title("Numbers")
         first.set_xlabel("(computed - measured) / uncertainty;\nbars: error of the run")
     for panel, entry, (measured, model) in zip(axes, study.curve, report.curves, strict=True):
-        computed = {"computed, through the sensor": model.values}
+        computed = {"computed, through the sensor": model.line(entry.read.at)}
         curve_panel(panel, entry.name, entry.read, measured, computed, model.unit)
     return figure
 

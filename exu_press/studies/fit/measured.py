@@ -15,7 +15,7 @@ from exu_press.numerics.piecewise import eno_cubic, evaluate
 from exu_press.schema.checks import key
 from exu_press.schema.csv_table import flat
 from exu_press.schema.table import Table
-from exu_press.studies.curve_file import CurveFile, factor_to, read_curve
+from exu_press.studies.curve_file import CurveFile, factor_to, line_over_rows, read_curve
 
 __all__ = ["Curve", "MeasuredNumber", "RecordedCurve", "dotted_keys", "fit_sensor"]
 
@@ -149,6 +149,7 @@ class RecordedCurve:
     Attributes:
         values: at the measured samples, (m,).
         offset, shift, low_cut, high_cut: of the sensor; None of a filter that it lacks.
+        at, polynomials: of the computed curve through the sensor's band, without its offset.
         unit: SI, of the values.
     """
 
@@ -157,7 +158,14 @@ class RecordedCurve:
     shift: float
     low_cut: float | None
     high_cut: float | None
+    at: Array
+    polynomials: Array
     unit: str = ""
+
+    def line(self, samples: Array) -> tuple[Array, Array]:
+        """Return places and values of its line over the measured curve, see `line_over_rows`."""
+        places, values = line_over_rows(self.at, self.polynomials, samples, self.shift)
+        return places, values + self.offset
 
     def plain(self) -> dict[str, float]:
         """Return name -> value of the sensor's parameters."""
@@ -189,7 +197,7 @@ def fit_sensor(
             t, coefficients = _apply_band(at, polynomials, low, high)
         computed = evaluate(t, coefficients, samples + shift)
         offset = float((measured - computed).mean()) if curve.offset else 0.0
-        return RecordedCurve(computed + offset, offset, shift, low, high)
+        return RecordedCurve(computed + offset, offset, shift, low, high, t, coefficients)
 
     def misfit(parameters: list[float | None]) -> float:
         shift, low, high = parameters

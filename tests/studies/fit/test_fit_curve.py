@@ -1,14 +1,17 @@
 """What a sensor adds to a curve: zero, clock and band, of sines whose answer is known."""
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, simulate
 from exu_press.numerics.piecewise import eno_cubic, evaluate
+from exu_press.studies.curve_comparison import compare_curve
 from exu_press.studies.curve_file import CurveFile, channel_polynomials, factor_to, read_curve
 from exu_press.studies.fit.measured import Curve, fit_sensor
+from exu_press.studies.measured_figure import measured_figure
 
 AT = np.linspace(0.0, 2.0, 4001)
 PLACES = np.linspace(1.0, 1.9, 120)
@@ -44,6 +47,24 @@ def test_unknown_zero_clock_and_corner_are_found():
     shifted = curve(shift=[-0.02, 0.02])
     found = fit_sensor(shifted, sine(lag=-2.0 * np.pi * FREQUENCY * 0.013), AT, COMPUTED)
     assert found.shift == pytest.approx(0.013, abs=1e-5)
+
+
+def test_the_line_goes_through_the_runs_own_rows_and_the_samples():
+    recorded = fit_sensor(curve(offset=True, shift=[0.01, 0.01]), 0.5 + sine(), AT, COMPUTED)
+    places, values = recorded.line(PLACES)
+    rows = AT[(AT > 1.01) & (AT < 1.91)]
+    assert np.abs(rows - 0.01 - places[np.searchsorted(places, rows - 0.01 - 1e-9)]).max() < 1e-8
+    assert np.interp(PLACES, places, values) == pytest.approx(recorded.values, abs=1e-8)
+    exact = recorded.offset + np.sin(2.0 * np.pi * FREQUENCY * (places + 0.01))
+    assert values == pytest.approx(exact, abs=1e-5)
+
+
+def test_the_picture_has_the_steps_between_samples():
+    result = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=0.05))
+    samples = result.time[[0, -1]]
+    file = CurveFile("time", samples, "slider_velocity", "m/s", result["slider_velocity"][[0, -1]])
+    axes = measured_figure({"c": {"run": compare_curve(Path("c.csv"), file, result)}}).axes[0]
+    assert len(axes.lines[1].get_xdata()) == len(result.time) > 10
 
 
 def test_a_curve_that_is_longer_than_the_run_has_no_values():

@@ -86,6 +86,7 @@ def run_copy(setup: Setup) -> None:
     """Perform requests in a copy of this process; never returns."""
     code = 1
     try:
+        gc.freeze()  # of the parent's objects nothing is freed, and few pages are copied
         gc.enable()  # which starting a process disables
         # the parent's ends of pipes; files stay open
         for number in [int(path.name) for path in Path(DESCRIPTORS).iterdir()]:

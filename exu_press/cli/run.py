@@ -1,6 +1,7 @@
 """Run one scene: summary.json, run.nc and pictures."""
 
 import argparse
+import gc
 import sys
 import textwrap
 from collections.abc import Callable, Iterator
@@ -219,6 +220,7 @@ def _load_pictures(options: argparse.Namespace) -> None:
     """Load what draws pictures, if there are to be any: it takes a fifth of a short run's time."""
     if not options.no_pictures:
         import_module("exu_press.plots.save")
+        gc.freeze()  # what is loaded now stays; collections need not go through it
 
 
 def _run(scene: Scene, start: State | None, directory: Path, options: argparse.Namespace) -> int:
@@ -250,18 +252,25 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
         result = _with_start(result, _start_path(options.start))
     summary = result.summary()
     remove_pictures(directory, "run")
-    result.save(directory / RESULT)
-    write_json(directory / "summary.json", summary)
+
     written = [directory / RESULT, directory / "summary.json"]
-    if not options.quiet:  # before the pictures, which take longer than a short run
+
+    def store() -> None:
+        result.save(written[0])
+        write_json(written[1], summary)
+        if options.quiet:
+            return
         assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
         texts = [x for text in remarks for x in textwrap.wrap(text, 100, subsequent_indent="    ")]
         print("\n".join([*run_lines(result), *texts, *assumed]), flush=True)
         show_warnings((w for w in summary["warnings"] if w not in doubts), written[1])
-    if not options.no_pictures:
+
+    if options.no_pictures:
+        store()
+    else:
         from exu_press.plots import save_pictures
 
-        written += save_pictures(result, directory)
+        written += save_pictures(result, directory, meanwhile=store)
     if not options.quiet:
         print("written:", ", ".join(path.name for path in written), f"in {directory}")
     remove(unfinished)

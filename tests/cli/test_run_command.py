@@ -101,7 +101,8 @@ def test_directory_that_cannot_be_written(tmp_path, capsys):
 
 
 def test_the_figures_are_printed_before_the_pictures_are_drawn(tmp_path, capsys, monkeypatch):
-    def draw(result, directory):
+    def draw(result, directory, meanwhile):
+        meanwhile()
         assert "peak acceleration" in capsys.readouterr().out
         return []
 

@@ -1,6 +1,8 @@
 from functools import partial
 
+import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -27,7 +29,7 @@ def assert_pictures(paths):
 def test_pictures_of_a_run(results, tmp_path, monkeypatch):
     """Of which one is written: each costs half a second."""
 
-    def save_one(draws, folder, _):
+    def save_one(draws, folder, *_):
         return [*draws, *draw_figures({"force": draws["force"]}, folder)]
 
     monkeypatch.setattr("exu_press.plots.save.draw_figures", save_one)
@@ -53,6 +55,25 @@ def test_pictures_of_a_comparison(results, tmp_path):
     assert_pictures(paths)
 
 
+def test_a_file_has_the_pixels_of_its_figure(tmp_path):
+    """Also where it is drawn in another process, beside the first one."""
+    figure = draw_stripes(7)
+    canvas = FigureCanvasAgg(figure)
+    figure.set_dpi(150)
+    canvas.draw()
+    pixels = np.asarray(canvas.buffer_rgba())[:, :, :3]
+    for path in draw_figures({name: partial(draw_stripes, 7) for name in ("a", "b")}, tmp_path):
+        with Image.open(path) as image:
+            assert np.array_equal(np.asarray(image), pixels)
+
+
+def draw_stripes(number):
+    """Return a figure of odd width with stripes in all colours."""
+    figure = Figure(figsize=(1.01, 0.5))
+    figure.add_axes((0.0, 0.0, 1.0, 1.0)).imshow(np.arange(number * 3).reshape(3, number))
+    return figure
+
+
 def draw_blank(number):
     if number < 0:
         raise InputError("no figure of a number below zero")
@@ -63,7 +84,9 @@ def test_figures_are_drawn_beside_each_other(tmp_path):
     """Sizes, order and provenance are those of one after the other; an error is the picture's."""
     sources = {"simulated": {"version": "1.0"}}
     draws = {f"width{number}": partial(draw_blank, number) for number in (3, 1, 2)}
-    paths = draw_figures(draws, tmp_path, sources)
+    before = []
+    paths = draw_figures(draws, tmp_path, sources, lambda: before.extend(tmp_path.glob("width3*")))
+    assert before == [], "the first one is drawn here, after what is done meanwhile"
     assert [path.name for path in paths] == ["width3.png", "width1.png", "width2.png"]
     for path, number in zip(paths, (3, 1, 2), strict=True):
         with Image.open(path) as image:

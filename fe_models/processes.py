@@ -19,12 +19,22 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from fe_models import child
 from fe_models.child import ANSWER, DESCRIPTORS, ERRORS, REPORT, Setup, read, run_copy, send
 
-__all__ = ["ONE_THREAD", "Child", "ChildError", "TimeLimitError", "may_copy", "why_not_copied"]
+__all__ = [
+    "ONE_THREAD",
+    "Child",
+    "ChildError",
+    "TimeLimitError",
+    "computed_beside",
+    "may_copy",
+    "why_not_copied",
+]
+
+Value = TypeVar("Value")
 
 ONE_THREAD = {
     f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "BLIS", "NGS")
@@ -196,6 +206,20 @@ class Child(AbstractContextManager["Child", None]):
         if "Traceback (most recent call last)" in text:
             text = text.splitlines()[-1]
         return f": {' '.join(text.split())}" if text else ""
+
+
+@contextmanager
+def computed_beside(function: Callable[[], Value]) -> Iterator[Callable[[], Value]]:
+    """Yield what returns a function's value, on which a copy of this process works meanwhile.
+
+    With a single core, or where no copy can run, this process works on it when it is called.
+    """
+    if (os.cpu_count() or 1) == 1 or not may_copy():
+        yield function
+        return
+    with Child(function) as child:
+        child.request()
+        yield child.answer
 
 
 def may_copy() -> bool:

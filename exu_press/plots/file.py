@@ -1,12 +1,12 @@
 """A picture as a file."""
 
 import json
-import os
 import struct
 import zlib
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -24,7 +24,7 @@ from exu_press.files.output_directory import FORMATS, replacing
 from exu_press.plots.format import picture_format
 from exu_press.plots.style import DPI, look
 from exu_press.scene.provenance import Provenance, provenance_of
-from fe_models.processes import Child, may_copy
+from fe_models.processes import computed_beside
 
 __all__ = [
     "check_picture",
@@ -33,6 +33,7 @@ __all__ = [
     "read_sources",
     "save_figure",
     "save_figures",
+    "write_png",
 ]
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -61,22 +62,22 @@ def save_figure(
     """
     figure.set_layout_engine("none")  # it has been laid out; not again
     kind = path.suffix.lower().removeprefix(".")
-    with look(), replacing(path) as partial:
+    with look(), replacing(path) as unfinished:
         dpi = rcParams["savefig.dpi"]
         figure.set_dpi(DPI if dpi == "figure" else dpi)
         if kind != "png":
-            figure.savefig(partial, format=kind, metadata=_metadata(kind, sources))
+            figure.savefig(unfinished, format=kind, metadata=_metadata(kind, sources))
             return path
         canvas: Any = figure.canvas
         if not isinstance(canvas, FigureCanvasAgg):
             canvas = FigureCanvasAgg(figure)
         canvas.draw()
-        _write_png(partial, np.asarray(canvas.buffer_rgba()), figure.dpi, png_texts(sources))
+        write_png(unfinished, np.asarray(canvas.buffer_rgba()), figure.dpi, png_texts(sources))
     return path
 
 
-def _write_png(path: Path, pixels: NDArray[np.uint8], dpi: float, texts: PngInfo) -> None:
-    """Write the colours of pixels (n, m, 4), no row of them filtered.
+def write_png(path: Path, pixels: NDArray[np.uint8], dpi: float, texts: PngInfo) -> None:
+    """Write the colours of pixels (n, m, 3 or 4), no row of them filtered.
 
     Pillow would try five filters on each, which takes three times as long for a file as large.
     """
@@ -90,7 +91,7 @@ def _write_png(path: Path, pixels: NDArray[np.uint8], dpi: float, texts: PngInfo
         putchunk(file, b"pHYs", struct.pack(">2IB", across, across, 1))
         for kind, text, *_ in texts.chunks:
             putchunk(file, kind, text)
-        putchunk(file, b"IDAT", zlib.compress(rows, 1))
+        putchunk(file, b"IDAT", zlib.compress(rows.data, 1))
         putchunk(file, b"IEND", b"")
 
 
@@ -164,12 +165,8 @@ def draw_figures(
     def write(name: str) -> Path:
         return save_figures({name: draws[name]()}, directory, sources)[0]
 
-    beside = list(draws)[1:] if (os.cpu_count() or 1) > 1 and may_copy() else []
+    first, *remaining = draws
     with ExitStack() as stack:
-        children = {name: stack.enter_context(Child(write)) for name in beside}
-        for name, child in children.items():
-            child.request(name)
+        beside = [stack.enter_context(computed_beside(partial(write, name))) for name in remaining]
         meanwhile()
-        written = {name: write(name) for name in draws if name not in children}
-        written |= {name: child.answer() for name, child in children.items()}
-    return [written[name] for name in draws]
+        return [write(first), *(written() for written in beside)]

@@ -1,6 +1,7 @@
 """The report of one run."""
 
 from collections.abc import Iterable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,7 @@ from exu_press.scene.provenance import Provenance, rows_of
 from exu_press.view import Animation, moment, save_picture
 from exu_press.view.animation import SIZE
 from exu_press.view.instants import interval
+from fe_models.processes import computed_beside
 from fe_models.temporary import TemporaryFolder
 
 __all__ = [
@@ -93,9 +95,12 @@ def run_report(result: Result, source: str, span: Span = ALL, directory: Path | 
         span: begin and end of its curves, s; None: those of the record.
         directory: in which its pictures may be already.
     """
-    summary = result.summary()
-    numbers = with_headings(quantity_cells({"": result}))
-    live = live_part({"": result}, span)
+    with TemporaryFolder() as folder, computed_beside(partial(_still, result, folder)) as still:
+        summary = result.summary()
+        numbers = with_headings(quantity_cells({"": result}))
+        live = live_part({"": result}, span)
+        drawn = _pictures(result, directory, folder)
+        pictures = "\n".join([still(), *drawn])
     return page(
         describe([result.scene], ONE_LINE),
         f"{source}: {summary['status']} at t = {summary['end_time']:.6g} s, "
@@ -104,7 +109,7 @@ def run_report(result: Result, source: str, span: Span = ALL, directory: Path | 
             ("In motion", live),
             ("Warnings", warnings(warnings_of(summary))),
             ("Results", table(("quantity", "value"), numbers) + joint_table(result)),
-            ("Pictures", stills(_pictures(result, directory), live)),
+            ("Pictures", stills(pictures, live)),
             ("Energy and solver", _energy_and_solver(result)),
             ("Provenance", provenance_section({"": result.info.get("provenance")})),
             *scene_parts(result.scene),
@@ -160,23 +165,24 @@ def warnings_of(summary: Mapping[str, Any]) -> list[str]:
     return [*ended, *summary["warnings"]]
 
 
-def _pictures(result: Result, directory: Path | None) -> str:
-    """Return the pictures of a run, the mechanism at the slider's largest acceleration first.
-
-    Those are taken that the run has drawn, if its provenance is in them.
-    """
+def _still(result: Result, folder: Path) -> str:
+    """Return the mechanism at the slider's largest acceleration, drawn in a folder."""
     peak = float(result.time[int(np.argmax(np.abs(result["slider_acceleration"])))])
-    with TemporaryFolder() as folder:
-        animation = Animation(result, moment(result, peak), Figure(figsize=SIZE))
-        still = save_picture(animation, 1, folder / "mechanism.png")
-        caption = f"The press at the slider's largest acceleration, t = {peak * 1e3:.2f} ms."
-        if result.scene.press is None:
-            caption = caption.replace("press", "mechanism", 1)
-        pictures = [picture(still, caption)]
-        drawn = [] if directory is None else drawn_pictures(result, directory)
-        for path in drawn or save_pictures(result, folder):
-            pictures.append(picture(path, CAPTIONS.get(path.stem, path.stem)))
-    return "\n".join(pictures)
+    animation = Animation(result, moment(result, peak), Figure(figsize=SIZE))
+    still = save_picture(animation, 1, folder / "mechanism.png")
+    caption = f"The press at the slider's largest acceleration, t = {peak * 1e3:.2f} ms."
+    if result.scene.press is None:
+        caption = caption.replace("press", "mechanism", 1)
+    return picture(still, caption)
+
+
+def _pictures(result: Result, directory: Path | None, folder: Path) -> list[str]:
+    """Return the pictures that the run has drawn, if its provenance is in them; else draw them."""
+    drawn = [] if directory is None else drawn_pictures(result, directory)
+    return [
+        picture(path, CAPTIONS.get(path.stem, path.stem))
+        for path in drawn or save_pictures(result, folder)
+    ]
 
 
 def provenance_section(provenances: Mapping[str, Provenance | None]) -> str | None:

@@ -12,7 +12,7 @@ import pytest
 from waiting import alive, until
 
 from fe_models.errors import DiskFullError, InputError
-from fe_models.processes import Child, ChildError, TimeLimitError, may_copy
+from fe_models.processes import Child, ChildError, TimeLimitError, computed_beside, may_copy
 
 HERE = str(Path(__file__).parent)
 
@@ -35,6 +35,14 @@ def test_requests_are_answered_in_their_order(copied, capfd):
         assert squares.alive
     assert not squares.alive
     assert capfd.readouterr() == ("", "")
+
+
+@way
+def test_a_value_is_computed_beside_or_when_it_is_asked_for(copied, monkeypatch):
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    monkeypatch.setattr("fe_models.processes.may_copy", lambda: copied)
+    with computed_beside(os.getpid) as number:
+        assert (number() == os.getpid()) == (not copied)
 
 
 @way

@@ -1,3 +1,4 @@
+import sys
 from functools import partial
 
 import numpy as np
@@ -12,6 +13,8 @@ from exu_press.plots import save_comparison, save_pictures
 from exu_press.plots.file import draw_figures, read_sources
 from exu_press.plots.format import PictureFormat, drawn_as
 from exu_press.studies.curve_comparison import MEASURED_PICTURE
+
+linux = pytest.mark.skipif(sys.platform != "linux", reason="no process is copied there")
 
 EVERY = [f"{name}.png" for name in PICTURES["run"]]
 DEFAULT = ["slider.png", "orbit.png", "force.png"]
@@ -55,8 +58,10 @@ def test_pictures_of_a_comparison(results, tmp_path):
     assert_pictures(paths)
 
 
-def test_a_file_has_the_pixels_of_its_figure(tmp_path):
+@pytest.mark.parametrize("copied", [pytest.param(True, marks=linux), False])
+def test_a_file_has_the_pixels_of_its_figure(copied, tmp_path, monkeypatch):
     """Also where it is drawn in another process, beside the first one."""
+    monkeypatch.setattr("fe_models.processes.may_copy", lambda: copied)
     figure = draw_stripes(7)
     canvas = FigureCanvasAgg(figure)
     figure.set_dpi(150)

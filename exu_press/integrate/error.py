@@ -44,7 +44,7 @@ class Criterion(Protocol):
         It goes with the cube of the step, or as its controller expects.
         """
 
-    def accept(self) -> None:
+    def accept_step(self) -> None:
         """Take the end of the step last tried as the next one's beginning."""
 
 
@@ -115,10 +115,10 @@ class StepError:
         allowed = self._task.tolerance * scales.speed
         return 0.5 * step * jump / allowed if allowed > 0.0 else 0.0
 
-    def accept(self) -> None:
+    def accept_step(self) -> None:
         """Take the end of the step last tried as the next one's beginning."""
         for criterion in self._criteria:
-            criterion.accept()
+            criterion.accept_step()
         state = self._task.system.current
         if self._scales.updates:
             self._scales.update(state.velocities.tolist(), state.accelerations.tolist())

@@ -25,7 +25,7 @@ from exu_press.integrate.variable_step import VariableStepCorrection
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.terminal.progress import Progress
 
-__all__ = ["Monitor"]
+__all__ = ["RunMonitor"]
 
 SECONDS_BETWEEN_UPDATES = 0.1
 
@@ -35,7 +35,7 @@ SOON, LONG = 4.0, 40.0
 ACCEPTED = [0.0, -1.0]
 
 
-class Monitor:
+class RunMonitor:
     """Hands Exudyn's calls on to the parts of an integration; counts, and stops when asked to.
 
     Attributes:
@@ -192,12 +192,12 @@ class Monitor:
             self.steps += 1
             step = end - self._time
             self._time = end
-            self.control.accept(step, at_event=self._event.passed)
-            self._event.accept()
+            self.control.accept_step(step, at_event=self._event.passed)
+            self._event.accept_step()
             accelerations = self._accelerations.tolist()
-            self._predictor.accept(step, accelerations)
+            self._predictor.accept_step(step, accelerations)
             if self.resolution is not None:
-                self.resolution.accept(end, step, accelerations)
+                self.resolution.measure_step(end, step, accelerations)
         self.stalled = self._watch(end)
         go_on, impact = self._functions.call_after_step(end)
         self.go_on = self.go_on and go_on

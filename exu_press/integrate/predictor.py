@@ -59,7 +59,7 @@ class Predictor:
         self._now = self._accelerations.read()
         self._rate = [0.0 for _ in self._now]
 
-    def accept(self, step: float, accelerations: list[float]) -> None:
+    def accept_step(self, step: float, accelerations: list[float]) -> None:
         """Take the accelerations at the end of an accepted step (s)."""
         last, now = self._now, accelerations
         self._rate = [(now[i] - last[i]) / step for i in range(len(now))]

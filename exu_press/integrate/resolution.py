@@ -56,7 +56,7 @@ class ImpactResolution:
         """Begin with the accelerations of all coordinates at the start."""
         self._last, self._started, self._ring = accelerations, [], 1.0
 
-    def accept(self, time: float, step: float, accelerations: list[float]) -> None:
+    def measure_step(self, time: float, step: float, accelerations: list[float]) -> None:
         """Measure an accepted step (s) that ends at a time (s)."""
         last, self._last = self._last, accelerations
         inertias, masses, ends = self._scales.inertias, self._scales.masses, self._scales.ends

@@ -11,7 +11,7 @@ import exudyn as exu
 from exu_press.errors import InputError
 from exu_press.integrate.controller import Controller
 from exu_press.integrate.error import Criteria, default_criteria
-from exu_press.integrate.monitor import Monitor
+from exu_press.integrate.monitor import RunMonitor
 from exu_press.integrate.outcome import Outcome
 from exu_press.integrate.scales import ErrorScales
 from exu_press.integrate.system import System
@@ -115,7 +115,7 @@ def solve_dynamic(
         task = Task(system, settings, tolerance, scales, tuning)
         functions = UserFunctions(system, task.start, (sample or 0.0) * (not task.fixed))
         with Progress("run", task.end - task.start, quiet=quiet) as progress:
-            monitor = Monitor(
+            monitor = RunMonitor(
                 task,
                 functions,
                 functions.with_samples(next_corner or (lambda time: math.inf)),
@@ -146,7 +146,7 @@ def solve_dynamic(
 def _run(
     task: Task,
     settings: exu.SimulationSettings,
-    monitor: Monitor,
+    monitor: RunMonitor,
     words: Advice,
     progress: Progress,
 ) -> Outcome:

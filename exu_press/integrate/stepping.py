@@ -53,9 +53,9 @@ class StepControl:
         self._step = self._asked = step * self._controller.repeat_factor(error)
         return self._step
 
-    def accept(self, step: float, *, at_event: bool = False) -> None:
+    def accept_step(self, step: float, *, at_event: bool = False) -> None:
         """Take the step last tried as done, shortened by an event or not; choose the next ones."""
-        self._estimate.accept()
+        self._estimate.accept_step()
         if not at_event and 0.5 * self._step <= step < (1.0 - SAME) * self._asked:
             self._step = step  # shortened by Exudyn
         ratio = step / self._step
@@ -100,7 +100,7 @@ class FixedSteps:
         """Return 0.0: every step is good enough."""
         return 0.0
 
-    def accept(self, step: float, *, at_event: bool = False) -> None:
+    def accept_step(self, step: float, *, at_event: bool = False) -> None:
         """Take a step (s) as done."""
         halved = step < 0.99 * self._next
         self._size = step if halved else min(self._step, 2.0 * self._size)
@@ -146,6 +146,6 @@ class Event:
             return 0.0
         return min(fraction * step + 0.5 * self._narrow, 0.9 * step)
 
-    def accept(self) -> None:
+    def accept_step(self) -> None:
         """Remember the accepted step's end as the next one's beginning."""
         self._start = self._now or self._start

@@ -6,7 +6,7 @@
 import math
 from collections.abc import Iterator
 
-from exu_press.integrate.monitor import Monitor
+from exu_press.integrate.monitor import RunMonitor
 from exu_press.integrate.outcome import Outcome, SolverStatus
 from exu_press.integrate.resolution import UnresolvedImpact
 from exu_press.integrate.system import System
@@ -138,7 +138,7 @@ class Advice:
 
 
 def termination(
-    task: Task, monitor: Monitor, advice: Advice, *, time: float, failure: str
+    task: Task, monitor: RunMonitor, advice: Advice, *, time: float, failure: str
 ) -> tuple[SolverStatus, str]:
     """Return status and reason of a run that reached a time, s, or failed with a message."""
     system, smallest = task.system, task.smallest
@@ -185,7 +185,7 @@ def termination(
     )
 
 
-def _redundancy(task: Task, monitor: Monitor, advice: Advice) -> str:
+def _redundancy(task: Task, monitor: RunMonitor, advice: Advice) -> str:
     """Return what to do about redundant constraints, or nothing."""
     if task.system.mbs.sys["simulationSettings"].linearSolver.ignoreSingularJacobian:
         return ""

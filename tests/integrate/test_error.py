@@ -17,7 +17,7 @@ from exu_press.scene import flexible_press
 def criterion(error, **attributes):
     """A criterion of one error in every step."""
     return SimpleNamespace(
-        error=lambda step: error, accept=lambda: None, restart=lambda: None, **attributes
+        error=lambda step: error, accept_step=lambda: None, restart=lambda: None, **attributes
     )
 
 
@@ -58,7 +58,7 @@ class PositionError:
     def error(self, step):
         return (step / self.longest) ** 3
 
-    def accept(self):
+    def accept_step(self):
         self.accepted += 1
 
 

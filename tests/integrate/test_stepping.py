@@ -21,7 +21,7 @@ def test_fixed_steps_return_to_their_grid_after_a_halved_one():
     control, times = FixedSteps(task()), [0.0]
     for i in range(20):
         step = control.next_step(times[-1]) * (0.25 if i == 5 else 1.0)
-        control.accept(step)
+        control.accept_step(step)
         times.append(times[-1] + step)
     off_grid = [abs(time / 1e-3 - round(time / 1e-3)) > 1e-9 for time in times]
     assert [i for i, off in enumerate(off_grid) if off] == [6, 7]
@@ -37,7 +37,7 @@ class Estimate:
     def __call__(self, step):
         return (step / self.good) ** 3
 
-    def accept(self):
+    def accept_step(self):
         pass
 
     def of_discontinuity(self, step):
@@ -57,7 +57,7 @@ def steps(good, corner=math.inf, **changes):
         step = control.next_step(time)
         while shorter := control.shorter(step):
             step, repeated = shorter, repeated + 1
-        control.accept(step)
+        control.accept_step(step)
         sizes.append(step)
         time += step
     return sizes, repeated
@@ -115,5 +115,5 @@ def test_a_step_that_an_event_shortens_leaves_the_size_of_those_to_come():
     control = StepControl(task(), Estimate(1.1e-3), lambda time: math.inf)
     step = control.next_step(0.0)
     assert control.shorter(0.6 * step) == 0.0
-    control.accept(0.6 * step, at_event=True)
+    control.accept_step(0.6 * step, at_event=True)
     assert control.next_step(0.1) == pytest.approx(step)

@@ -29,7 +29,7 @@ def alternate(control, time):
 def alternating_steps(monkeypatch):
     monkeypatch.setattr(StepControl, "next_step", alternate)
     monkeypatch.setattr(StepControl, "shorter", lambda control, step: 0.0)
-    monkeypatch.setattr(StepControl, "accept", lambda control, step, at_event=False: None)
+    monkeypatch.setattr(StepControl, "accept_step", lambda control, step, at_event=False: None)
 
 
 def ringing(scene):

@@ -51,7 +51,7 @@ class EccentricityError:
             error = self._relative_error(step, max(self._scales.roundoff, roundoff))
         return error
 
-    def accept(self) -> None:
+    def accept_step(self) -> None:
         """Do nothing: the joint remembers its path itself."""
 
     def _relative_error(self, step: float, roundoff: float) -> float:

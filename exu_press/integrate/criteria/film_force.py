@@ -65,7 +65,7 @@ class FilmForceError:
             last += change * change
         return back > self._taken_back * last > 0.0
 
-    def accept(self) -> None:
+    def accept_step(self) -> None:
         """Take the end of the step last tried as the next one's beginning."""
         if self._start_force:
             self._change = tuple(b - a for a, b in zip(self._start_force, self._now, strict=True))

@@ -57,7 +57,7 @@ class InterpolatedForceError:
         missed = math.hypot(*(force - 0.5 * (force_0 + force_1)))
         return math.pow(missed / (self._tolerance * largest), 1.5)
 
-    def accept(self) -> None:
+    def accept_step(self) -> None:
         """Take the end of the step last tried as the next one's beginning."""
         self._start = self._now
         self._largest = max(self._largest, math.hypot(*self._now[2]))

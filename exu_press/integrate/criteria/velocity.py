@@ -49,7 +49,7 @@ class VelocityError:
                 error = self._of_change(change, step, self._filter.roundoff_of_constraints())
         return error
 
-    def accept(self) -> None:
+    def accept_step(self) -> None:
         """Take the end of the step last tried as the next one's beginning."""
         self._start, self._rate_before = self._now, self._rate
         self._filter.begin_step()
@@ -97,6 +97,6 @@ class PrescribedVelocityError:
             return 0.0
         return math.pow(error / allowed, 1.5)
 
-    def accept(self) -> None:
+    def accept_step(self) -> None:
         """Take the end of the step last tried as the next one's beginning."""
         self._start = self._now

@@ -21,7 +21,7 @@ def error_of(before, after, step=1e-4):
     joint = SimpleNamespace(force=before)
     film = FilmForceError(TASK, joint)
     assert film.error(step) == 0.0  # nothing is known before the first step
-    film.accept()
+    film.accept_step()
     joint.force = after
     return film.error(step)
 
@@ -48,10 +48,10 @@ def test_a_force_is_held_against_the_largest_so_far():
     joint = SimpleNamespace(force=(1e6, 0.0))
     film = FilmForceError(TASK, joint)
     film.error(1e-4)
-    film.accept()
+    film.accept_step()
     joint.force = (0.0, 300.0)
     film.error(1e-4)
-    film.accept()
+    film.accept_step()
     joint.force = (0.0, -300.0)
     assert film.error(1e-4) == pytest.approx(0.15**1.5)
 
@@ -66,7 +66,7 @@ def test_a_force_that_rings_from_step_to_step_is_taken():
     film = FilmForceError(TASK, joint)
     for force in ((-400.0, 10.0), (390.0, 0.0), (-380.0, 5.0)):
         film.error(1e-4)
-        film.accept()
+        film.accept_step()
         joint.force = force
     assert film.error(1e-4) == 0.0
 

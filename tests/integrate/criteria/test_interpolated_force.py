@@ -14,7 +14,7 @@ def error_of(motion, force, step):
     """Return the error of a step in the middle of a motion (time -> r, v) about time 0."""
     now = [-0.5 * step]
     criterion = InterpolatedForceError(TASK, lambda: motion(now[0]), force)
-    criterion.accept()
+    criterion.accept_step()
     now[0] = 0.5 * step
     return criterion.error(step)
 

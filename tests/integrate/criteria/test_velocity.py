@@ -56,7 +56,7 @@ def errors(accelerations, step=0.01, masses=(2.0,), make=None, **keys):
     for now in accelerations:
         task.system.current.accelerations[:] = now
         values.append(criterion.error(step))
-        criterion.accept()
+        criterion.accept_step()
     return values
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from exu_press.laws.film.grooves import Groove, GroovedBearing, solve_grooved
+from exu_press.laws.film.grooves import Groove, GroovedBearing, GroovedFilmState
 
 TABLES = Path(__file__).parents[1] / "tests" / "laws" / "film" / "someya_lund.csv"
 WIDTHS = {"Someya": 10.0, "Lund": 20.0}  # of a groove, deg; neither table says it
@@ -37,8 +37,8 @@ def force(bearing, e, v=(0.0, 0.0)):
     eps, angle = math.hypot(*e), math.atan2(e[1], e[0])
     c, s = e / eps
     eps_dot, across = v[0] * c + v[1] * s, v[1] * c - v[0] * s
-    f_r, f_t, _ = solve_grooved(bearing, eps, angle, eps_dot, eps - 2.0 * across)
-    return np.array([f_r * c - f_t * s, f_r * s + f_t * c])
+    film = GroovedFilmState(bearing, eps, angle, (144, 10)).solve(eps_dot, 0.5 * eps - across)
+    return np.array([film.f_r * c - film.f_t * s, film.f_r * s + film.f_t * c])
 
 
 def place(eps, angle):

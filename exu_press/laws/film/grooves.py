@@ -12,7 +12,7 @@ from exu_press.errors import InputError
 from exu_press.laws.film.cavitation import FilmMatrix, Pressures
 from exu_press.numerics.arrays import Array
 
-__all__ = ["FilmFlow", "Groove", "GroovedBearing", "GroovedFilmState", "solve_grooved"]
+__all__ = ["FilmFlow", "Groove", "GroovedBearing", "GroovedFilmState"]
 
 TURN = 2.0 * math.pi
 
@@ -197,9 +197,17 @@ def _running(eps: float, t: float) -> tuple[float, float]:
 
 
 class GroovedFilmState:
-    """A journal at a place in a grooved bearing: Reynolds' equation for any of its velocities.
+    r"""A journal at a place in a grooved bearing: Reynolds' equation for any of its velocities.
 
-    The grid has the grooves' edges on its lines, and is dense at the narrow gap.
+    .. math::
+        \partial_\theta (h^3 \partial_\theta p) +
+        \frac{1}{(L/D)^2} \partial_\zeta (h^3 \partial_\zeta p)
+        = -(\dot\varepsilon \cos\theta - \tfrac12 \varepsilon W \sin\theta), \qquad
+        h = 1 - \varepsilon \cos\theta
+
+    with p = 0 at both ends, the grooves' pressures in them, and Swift and Stieber's cavitation, as
+    `reynolds.solve_reynolds` has it: a complementarity problem with an M-matrix, solved exactly by
+    policy iteration. The grid has the grooves' edges on its lines, and is dense at the narrow gap.
     """
 
     def __init__(
@@ -286,47 +294,6 @@ class GroovedFilmState:
         """
         p = self.solve(eps_dot, half_w, supply).pressure
         return self._local, p.reshape(len(self._local), -1).max(axis=1)
-
-
-def solve_grooved(
-    bearing: GroovedBearing,
-    eps: float,
-    angle: float,
-    eps_dot: float,
-    eps_w: float,
-    cells: tuple[int, int] = (144, 10),
-    supply: float = 0.0,
-) -> tuple[float, float, float]:
-    r"""Return force and side flow of a bearing with grooves, by Reynolds' equation.
-
-    .. math::
-        \partial_\theta (h^3 \partial_\theta p) +
-        \frac{1}{(L/D)^2} \partial_\zeta (h^3 \partial_\zeta p)
-        = -(\dot\varepsilon \cos\theta - \tfrac12 \varepsilon W \sin\theta), \qquad
-        h = 1 - \varepsilon \cos\theta
-
-    with p = 0 at both ends, the grooves' pressures in them, and Swift and Stieber's cavitation, as
-    `reynolds.solve_reynolds` has it: a complementarity problem with an M-matrix, solved exactly by
-    policy iteration.
-
-    Parameters
-    ----------
-    bearing : its shape
-    eps, eps_dot, eps_w : as for a film law
-    angle : of the eccentricity in the bearing [rad]
-    cells : cells around, and over half the length
-    supply : largest pressure of the grooves, over 12 mu R^2 / c^2 [1/s]
-
-    Returns
-    -------
-    f_r and f_t [1/s], and the side flow over L R c [1/s].
-
-    References
-    ----------
-    .. [1] Someya, T. (ed.) Journal-Bearing Databook. Springer, 1989.
-    """
-    state = GroovedFilmState(bearing, eps, angle, cells)
-    return state.solve(eps_dot, 0.5 * eps_w, supply)[:3]
 
 
 def _angles(bearing: GroovedBearing, eps: float, angle: float, cells: int) -> Array:

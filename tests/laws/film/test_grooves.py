@@ -20,7 +20,7 @@ from exu_press.laws.film.grooved_table import (
     speeds_of,
     tabulated_row,
 )
-from exu_press.laws.film.grooves import Groove, GroovedBearing, GroovedFilmState, solve_grooved
+from exu_press.laws.film.grooves import Groove, GroovedBearing, GroovedFilmState
 from exu_press.laws.film.reynolds import solve_reynolds
 from exu_press.model.film_tables import film_table
 
@@ -102,7 +102,7 @@ def test_a_narrow_groove_at_the_widest_gap_is_the_supply_line():
     """Raimondi and Boyd's bearing, as `reynolds` has it, at the limit of a groove's width."""
     narrow = GroovedBearing(1.0, (Groove(math.pi, 1e-3, 1.0),))
     expected = solve_reynolds(0.6, 0.0, 0.6, 1.0, math.pi, (144, 10))
-    f_r, f_t, flow = solve_grooved(narrow, 0.6, 0.0, 0.0, 0.6)
+    f_r, f_t, flow, *_ = GroovedFilmState(narrow, 0.6, 0.0, (144, 10)).solve(0.0, 0.3)
     assert (f_r, f_t) == pytest.approx(expected[:2], rel=2e-3)
     assert flow == pytest.approx(expected.side_flow, rel=2e-3)
 
@@ -110,7 +110,7 @@ def test_a_narrow_groove_at_the_widest_gap_is_the_supply_line():
 def test_a_groove_around_makes_two_short_bearings():
     """Each half as long as the lands: a quarter of the short bearing's force times the length."""
     bearing = GroovedBearing(0.1, (Groove(0.0, 2.0 * math.pi, 0.02),))
-    f_r, f_t, _ = solve_grooved(bearing, 0.5, 0.3, 0.2, 0.5, (144, 24))
+    f_r, f_t, *_ = GroovedFilmState(bearing, 0.5, 0.3, (144, 24)).solve(0.2, 0.25)
     half = short(0.1 * 0.98 / 2.0)(0.5, 0.2, 0.5)
     assert (f_r, f_t) == pytest.approx((0.98 * half[0], 0.98 * half[1]), rel=0.02)
 
@@ -200,7 +200,8 @@ def test_interpolated_law_of_a_groove_around(ring):
     for eps, eps_dot, eps_w, angle in states(2, 12):
         ring.angle = angle
         force = ring(eps, eps_dot, eps_w)
-        f_r, f_t, flow = solve_grooved(RING, eps, angle, eps_dot, eps_w, (288, 20))
+        state = GroovedFilmState(RING, eps, angle, (288, 20))
+        f_r, f_t, flow, *_ = state.solve(eps_dot, 0.5 * eps_w)
         assert math.hypot(force[0] - f_r, force[1] - f_t) < 0.01 * math.hypot(f_r, f_t)
         (interpolated,) = ring.side_flow(*map(np.atleast_1d, (eps, eps_dot, eps_w, angle)))
         assert interpolated == pytest.approx(flow, rel=0.01)
@@ -218,7 +219,8 @@ def test_interpolated_law_of_two_grooves(bearing):
     for eps, eps_dot, eps_w, angle in states(4, 100):
         law.angle = angle
         force = law(eps, eps_dot, eps_w)
-        f_r, f_t, _ = solve_grooved(bearing, eps, angle, eps_dot, eps_w, (288, 20))
+        state = GroovedFilmState(bearing, eps, angle, (288, 20))
+        f_r, f_t, *_ = state.solve(eps_dot, 0.5 * eps_w)
         deviations.append(math.hypot(force[0] - f_r, force[1] - f_t) / math.hypot(f_r, f_t))
         assert dissipated_power(force, eps_dot, eps_w) > 0.0
         assert_derivatives(law, eps, eps_dot, eps_w)

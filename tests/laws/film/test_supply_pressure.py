@@ -9,7 +9,7 @@ from test_grooves import assert_derivatives, states
 
 from exu_press.joints.oriented import PressurizedInterface
 from exu_press.laws.film import dissipated_power, grooved_table, pressurized
-from exu_press.laws.film.grooves import Groove, GroovedBearing, GroovedFilmState, solve_grooved
+from exu_press.laws.film.grooves import Groove, GroovedBearing, GroovedFilmState
 from exu_press.laws.film.pressurized import CHANNELS, INTERVALS, PressurizedFilm
 from exu_press.model.film_tables import film_table, supply_table
 
@@ -83,10 +83,10 @@ def test_no_pressure_is_the_ambient_film():
     ambient = GroovedBearing(
         0.5, tuple(Groove(g.angle, g.width, g.length) for g in POCKETS.grooves)
     )
-    arguments = 0.6, 0.4, 0.3, 0.8, (72, 8)
-    expected = solve_grooved(ambient, *arguments)
-    assert solve_grooved(POCKETS, *arguments) == pytest.approx(expected, rel=1e-10)
-    assert solve_grooved(POCKETS, *arguments, supply=1e-9) == pytest.approx(expected, rel=1e-6)
+    expected = GroovedFilmState(ambient, 0.6, 0.4, (72, 8)).solve(0.3, 0.4)[:3]
+    state = GroovedFilmState(POCKETS, 0.6, 0.4, (72, 8))
+    assert state.solve(0.3, 0.4)[:3] == pytest.approx(expected, rel=1e-10)
+    assert state.solve(0.3, 0.4, 1e-9)[:3] == pytest.approx(expected, rel=1e-6)
 
 
 def law_of(bearing, tables):

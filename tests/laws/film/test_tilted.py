@@ -8,7 +8,7 @@ import pytest
 from slopes import slopes
 
 from exu_press import InputError
-from exu_press.laws.film.grooves import Groove, GroovedBearing, solve_grooved
+from exu_press.laws.film.grooves import Groove, GroovedBearing, GroovedFilmState
 from exu_press.laws.film.reynolds import solve_reynolds
 from exu_press.laws.film.tilted import CELLS, CELLS_WITH_GROOVES, TiltedFilm
 
@@ -56,7 +56,7 @@ def test_without_a_tilt_it_is_the_parallel_journal():
     for bearing in (AXIAL, RING):
         film = TiltedFilm(bearing, 0.0, 0.0)
         film.angle = 0.3
-        f_r, f_t, flow = solve_grooved(bearing, 0.6, 0.3, 0.1, 0.6, (288, 20))
+        f_r, f_t, flow, *_ = GroovedFilmState(bearing, 0.6, 0.3, (288, 20)).solve(0.1, 0.3)
         inclined = film.respond(0.6, 0.1, 0.6)
         assert inclined[:2] == pytest.approx((f_r, f_t), abs=8e-3 * math.hypot(f_r, f_t))
         assert inclined[8] == pytest.approx(bearing.shear_integral(0.6, 0.3)[0], rel=1e-3)

@@ -1,7 +1,6 @@
 """An assembled Exudyn system as the integration sees it: nodes, states, clearance joints."""
 
 import math
-import struct
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -12,6 +11,7 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.joints.user_force import UserForceElement, user_force_of
 from exu_press.numerics.arrays import Array
+from exu_press.numerics.floats import FloatBuffer
 
 __all__ = ["FLEXIBLE", "MODES", "Node", "State", "System", "modal_item"]
 
@@ -60,27 +60,6 @@ class Node:
     displacements: int = 0
     rotations: int = 0
     carrier: int | None = None
-
-
-class FloatBuffer:
-    """The memory of an array as floats, such as Exudyn's state.
-
-    For a few numbers it takes a third of NumPy's time.
-    """
-
-    def __init__(self, array: Array) -> None:
-        """Take the array, (n,), which is contiguous."""
-        self._array, self._memory = array, array.data
-        self._pack: Any = struct.Struct(f"{len(array)}d").pack_into
-
-    def read(self) -> list[float]:
-        """Return the numbers, (n,)."""
-        values: list[float] = self._array.tolist()
-        return values
-
-    def write(self, values: list[float]) -> None:
-        """Set the numbers, (n,)."""
-        self._pack(self._memory, 0, *values)
 
 
 class State:

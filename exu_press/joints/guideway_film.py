@@ -166,8 +166,11 @@ class GuidewayFilm(ClearanceJoint):
 
     @property
     def relative_velocity(self) -> tuple[float, ...]:
-        """Rate of the eccentricity at the last `add_force`, m/s."""
-        return self._in_plane(0.5 * (self._rates[0] + self._rates[1]), 0.0)
+        """Rate of the eccentricity at the last `add_force`, m/s; the guideway turns it."""
+        middle = 0.5 * (self._places[0] + self._places[1])
+        x, y = self._in_plane(0.5 * (self._rates[0] + self._rates[1]), 0.0)
+        a, b, _ = cross(self._line.angular_velocity, self._across)
+        return x + middle * a, y + middle * b
 
     @property
     def force(self) -> tuple[float, ...]:

@@ -44,7 +44,7 @@ class MovingGuidewayContact(InterfaceJoint):
         self._across, self._radius = across + line.reference[2], radius
         self._far = end.reference[0] - line.reference[0]
         self._high = end.reference[1] - line.reference[1]
-        self._normal = 1.0, 0.0
+        self._normal, self._turning_rate = (1.0, 0.0), 0.0  # and how fast it turns, rad/s
         self._rows: tuple[list[float], list[float]] = [0.0] * 6, [0.0] * 6
 
     def add_force(self, q: list[float], q_t: list[float], out: list[float]) -> None:
@@ -56,6 +56,7 @@ class MovingGuidewayContact(InterfaceJoint):
         r_x, r_y = q[x_j] - q[x_b] + self._far + j_x, q[y_j] - q[y_b] + self._high + j_y
         b_x, b_y = self._length_b * cos(angle_b), self._length_b * sin(angle_b)
         x, y = r_x - b_x, r_y - b_y
+        curvature = 0.0
         if self._radius is None:
             angle = self._across + q[phi_b]
             n_x, n_y = cos(angle), sin(angle)
@@ -63,9 +64,9 @@ class MovingGuidewayContact(InterfaceJoint):
         else:
             distance = hypot(x, y)
             n_x, n_y = x / distance, y / distance
-            beside = distance - self._radius
+            beside, curvature = distance - self._radius, 1.0 / distance
         if beside < 0.0:
-            n_x, n_y, beside = -n_x, -n_y, -beside
+            n_x, n_y, beside, curvature = -n_x, -n_y, -beside, -curvature
         self._normal = n_x, n_y
         lever = self.interfaces[0].arms(beside)[0]
         turn_j, turn_b = j_x * n_y - j_y * n_x, r_x * n_y - r_y * n_x
@@ -78,7 +79,9 @@ class MovingGuidewayContact(InterfaceJoint):
             rate += a * q_t[i]
             sliding += b * q_t[i]
         turning = q_t[phi_j] - q_t[phi_b]
-        (load,) = self._load((beside, rate, sliding - lever * turning, turning, 0.0))
+        v_t = sliding - lever * turning
+        self._turning_rate = q_t[phi_b] + curvature * v_t
+        (load,) = self._load((beside, rate, v_t, turning, 0.0))
         if load is not None:
             for i, a, b in zip(self.indices, normal, along, strict=True):
                 out[i] += load[0] * a + load[1] * b
@@ -97,6 +100,11 @@ class MovingGuidewayContact(InterfaceJoint):
             for a, b in zip(normal, along, strict=True)
             for c, d in zip(normal, along, strict=True)
         ]
+
+    @property
+    def relative_velocity(self) -> tuple[float, ...]:
+        """Rate of the eccentricity at the last `add_force`, m/s; the walls turn its normal."""
+        return self.in_frame(self._motion[1], self._motion[0] * self._turning_rate)
 
     def in_frame(self, along_n: float, along_t: float) -> tuple[float, ...]:
         """Return a vector across and along the walls in the global frame."""

@@ -35,6 +35,17 @@ def assert_balanced(force, q):
     assert moments == pytest.approx(0.0, abs=1e-9 * np.abs(force).max())
 
 
+def assert_rate(joint, q, q_t):
+    """Check that the velocity at which a step's error is measured is the eccentricity's rate."""
+    vectors = []
+    for time in (-1e-6, 1e-6):
+        forces(joint, np.array(q) + time * np.array(q_t), q_t)
+        vectors.append(np.array(joint.eccentricity))
+    forces(joint, q, q_t)
+    rate = (vectors[1] - vectors[0]) / 2e-6
+    assert joint.relative_velocity == pytest.approx(rate, abs=1e-7)
+
+
 def test_the_rows_are_derivatives():
     for i, h in enumerate(1e-6 * np.eye(6)):
         ahead, behind = LINE.lateral_displacement(Q + h), LINE.lateral_displacement(Q - h)
@@ -92,6 +103,7 @@ def test_a_film_on_a_moving_body_keeps_momentum_and_has_its_power_and_jacobian()
     assert state.power == pytest.approx(force @ q_t, rel=1e-6)
     assert state.dissipated_power > 0.0
     assert_jacobian(film, q, q_t, (0.0, 1.0), 1e-3)
+    assert_rate(film, q, q_t)
 
 
 def touching(radius):
@@ -116,3 +128,12 @@ def test_a_contact_on_a_moving_body_keeps_momentum_and_has_its_jacobian(radius):
     assert_balanced(force, q)
     for factors in ((1.0, 0.0), (0.0, 1.0)):
         assert_jacobian(joint, q, q_t, factors, 2e-2, by_rows=False)
+
+
+@pytest.mark.parametrize("radius", [None, 0.1, -0.1])
+def test_the_rate_of_an_eccentricity_turns_with_the_walls(radius):
+    """On either wall; else steps follow the walls' rotation, as if it were an error."""
+    (joint, q), q_t = touching(None if radius is None else abs(radius)), RATES
+    if radius is not None and radius < 0.0:
+        q[:2] -= 2.0 * joint._motion[0] * np.array(joint._rows[0][:2])
+    assert_rate(joint, q, q_t)

@@ -61,6 +61,7 @@ MODULES = [
     "laws/film/short_bearing",
     "laws/friction",
     "laws/profile",
+    "numerics/floats",
 ]
 """What is called in every Newton iteration, and for every joint in every step."""
 

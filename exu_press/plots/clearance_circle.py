@@ -155,7 +155,7 @@ def _draw(axes: Axes, path: Path, half: float, linewidth: float) -> LineCollecti
         lines.set(color=RUN, linewidths=points(2.0))
     else:
         lines.set(cmap=PATH_COLOURS, array=angle[segments].mean(axis=1))
-    axes.add_collection(lines)
+    axes.add_collection(lines, autolim=False)
     return lines
 
 

@@ -24,6 +24,7 @@ from exu_press.files.output_directory import (
     subdirectory,
     write_json,
 )
+from exu_press.report.find import find_run
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.schema.csv_table import write_csv
@@ -197,7 +198,7 @@ def _load_items(
     items: dict[str, Scene | Result] = {}
     for name in names:
         path = Path(name)
-        file = path / RESULT if path.is_dir() else path
+        file = find_run(path) if path.is_dir() else path
         if file.suffix == ".nc":
             item: Scene | Result = Result.load(file)
         else:

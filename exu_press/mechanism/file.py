@@ -139,6 +139,11 @@ def mechanism_from_dict(data: Mapping[str, Any]) -> Mechanism:
     Raises:
         InputError: a key is unknown or missing or has a wrong type, or the data have a fault.
     """
+    if "mechanism" in data:
+        raise InputError(
+            f"mechanism = {data['mechanism']!r:.200}: is a key of a scene; allowed is a mechanism, "
+            f"with {', '.join(TOP[0])}"
+        )
     top = _checked_keys("", data, *TOP)
     elements: dict[str, Any] = {
         section: tuple(

@@ -222,6 +222,7 @@ def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
     for arguments, message in (
         ([str(ideal)], "joints: none has clearance, and so the scene has no variants"),
         (["press", "no_such_file.toml"], "no_such_file.toml: cannot be read"),
+        (["press", str(tmp_path)], "has none of run.nc; allowed is a directory that has one"),
         (["press", str(tmp_path / "none.nc")], "none.nc: cannot be read"),
         ([str(result)], "a result alone; allowed are two or more, or a scene alone"),
         ([str(curve)], "a measurement alone; allowed are scenes or results beside it"),

@@ -158,3 +158,8 @@ def test_a_refusal_names_the_file(tmp_path):
     path.write_text(changed(("mass = 3.0", "")))
     with pytest.raises(InputError, match=r"press\.toml: bodies\.rod\.mass: missing"):
         load_mechanism(path)
+
+
+def test_a_scene_is_no_mechanism():
+    with pytest.raises(InputError, match="mechanism = 'press': is a key of a scene; allowed is"):
+        mechanism_from_dict({"mechanism": "press", "revolutions": 2.0})

@@ -146,9 +146,11 @@ def load_study(path: str | Path, kind: type[S], *, allow_code: bool = False) -> 
     """
     path = Path(path)
     data = read_toml(path)
-    for name, example in (("scene", '"FILE.toml" or a [scene] table'), ("keys", "a [keys] table")):
-        if name not in data and (name == "scene" or kind.with_keys):
-            raise InputError(f"{path}: no {name}; allowed is {name} = {example}")
+    forms = {"scene": 'scene = "FILE.toml" or a [scene] table'}
+    forms |= {"keys": "a [keys] table"} if kind.with_keys else {}
+    if missing := [name for name in forms if name not in data]:
+        allowed = ", and ".join(forms[name] for name in missing)
+        raise InputError(f"{path}: no {' and no '.join(missing)}; allowed is {allowed}")
     if allow_code:
         with error_prefix(f"{path}: "):
             import_kinds(data)

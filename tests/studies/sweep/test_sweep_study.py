@@ -68,7 +68,8 @@ def test_a_time_limit_does_not_make_another_study():
     [
         ("[keys]\nspeed_rpm = [1]  # no scene\n", "no scene; allowed is scene = "),
         ("scene = 3\n[keys]\nspeed_rpm = [1]\n", "scene = 3: allowed is a table"),
-        ("", r"no keys; allowed is keys = a \[keys\] table"),
+        ("", r"no keys; allowed is a \[keys\] table"),
+        ("# no scene\n", r"no scene and no keys; allowed is scene = .*, and a \[keys\] table"),
         ("keys = 3\n", "keys = 3: allowed is a table"),
         ("[keys]\n", r"\[keys\]: empty"),
         ("[keys]\nspeed_rpm = []\n", r"keys.speed_rpm = \[\]: allowed is \[value"),

@@ -33,6 +33,7 @@ __all__ = [
     "set_key",
     "table_from",
     "tables_by_name",
+    "tables_from",
     "unused_reason",
     "used_names",
 ]
@@ -149,15 +150,23 @@ def nested_table(home: str) -> Any:
 def _value_of_key(field: Field, name: str, value: Any) -> Any:
     """Return the value of a key in its declared type; raise InputError for one not allowed."""
     if value is not None and "list_of" in field.metadata:
-        return _tables_from(load_object(field.metadata["list_of"]), name, value)
+        return tables_from(load_object(field.metadata["list_of"]), name, value)
     return checked_value(field, name, value)
 
 
-def _tables_from(kind: type[Table], name: str, value: Any) -> tuple[Table, ...]:
+def tables_from(kind: type[T], name: str, value: Any) -> tuple[T, ...]:
     """Return the tables of a list; the name of each has its number."""
     if not isinstance(value, list | tuple) or not value:
         raise InputError(f"{name} = {value!r:.200}: allowed is a list of tables, [[{name}]]")
-    return tuple(table_from(kind, f"{name}.{k}", entry) for k, entry in enumerate(value))
+    tables, needs = list[T](), list[Need]()
+    for path, entry in ((f"{name}.{k}", entry) for k, entry in enumerate(value)):
+        try:
+            tables.append(table_from(kind, path, entry))
+        except MissingKeysError as error:
+            needs += [(path, text.replace("[{path}]", f"[[{name}]]")) for _, text in error.needs]
+    if needs:
+        raise MissingKeysError(needs)
+    return tuple(tables)
 
 
 def dotted_name(path: str, key: str) -> str:

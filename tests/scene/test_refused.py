@@ -213,7 +213,8 @@ film.oil = {viscosity_cst = [68.0, 8.7]} -> needs film.oil.density .. density = 
 radius = 0.05}; film = {law = 'grooved', length = 0.05, viscosity = 0.05}
 speed_rpm = 10 -> film.grooves: missing; allowed is one .. or film.tilt > 0
 film.grooves = [] -> film.grooves = .. allowed is a list of tables
-film.grooves = [{}] -> film.grooves needs width_deg (around the
+film.grooves = [{}] -> film.grooves.0 needs width_deg (around the .. in [[film.grooves]]
+film.grooves = [{}, {width_deg = 9}, {}] -> film.grooves.0, film.grooves.2 need width_deg (around
 film.grooves = [{width_deg = 1e-20}] -> film.grooves.width_deg = 1e-20
 film.grooves = [{width_deg = 5.0, angle_deg = 1e30}] -> film.grooves.angle_deg = 1e
 film.grooves = [{width_deg = 9, angle_deg = 90}, {width_deg = 9, angle_deg = 90}] -> at 90 and 90 de

@@ -12,7 +12,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.scene import Scene
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import import_kinds
-from exu_press.schema.table import Table, table_from
+from exu_press.schema.table import Table, table_from, tables_from
 from exu_press.schema.toml import read_toml
 from exu_press.studies.base.keys import Key, Values, keys_from
 
@@ -62,10 +62,8 @@ class Study(Table):
             value = getattr(self, name)
             if name not in lists:
                 read: Any = table_from(kind, name, {} if value is None else value)
-            elif isinstance(value, list | tuple):
-                read = tuple(table_from(kind, name, entry) for entry in value)
             else:
-                raise InputError(f"{name} = {value!r:.80}: allowed are tables [[{name}]]")
+                read = () if value in ((), []) else tables_from(kind, name, value)
             object.__setattr__(self, name, read)
         for name in ("scene", "keys"):
             if not isinstance(value := getattr(self, name), (Mapping, Scene)):
@@ -131,7 +129,7 @@ def names_in(name: str, value: Any) -> tuple[str, ...]:
     """Return the value of a key that is a list of names of quantities."""
     if isinstance(value, list | tuple) and value and all(isinstance(text, str) for text in value):
         return tuple(value)
-    raise InputError(f"{name} = {value!r:.200}: allowed is a list of names of quantities")
+    raise InputError(f"{name} = {value or []!r:.200}: allowed is a list of names of quantities")
 
 
 def load_study(path: str | Path, kind: type[S], *, allow_code: bool = False) -> S:

@@ -33,6 +33,7 @@ from exu_press.mechanism import (
 )
 from exu_press.mechanism.drawing_warnings import drawing_warnings
 from exu_press.mechanism.examine import Examination, examine
+from exu_press.mechanism.file import TOP
 from exu_press.mechanism.stroke import units_of_output
 from exu_press.mechanism.transmission import group_equal_angles, least_transmission_angle
 from exu_press.scene import Scene
@@ -56,6 +57,9 @@ SEPARATOR = "  \N{MIDDLE DOT}  "
 
 DRAWN = ("mechanism", "speed_rpm")
 """Keys of a scene that a drawing shows, beside the dimensions of its mechanism."""
+
+OF_DRAWINGS = {*TOP[0], *TOP[1]} - declared_keys(Scene).keys()
+"""Keys of a mechanism file that no scene has."""
 
 ALWAYS_LISTED = ("bodies", "joints", "guides")
 """Kinds of elements that are listed where there are none, too."""
@@ -133,7 +137,7 @@ def _load_mechanism(name: str, changes: Mapping[str, Any]) -> tuple[Mechanism, f
         demand_known(f"{name}: no such mechanism or scene", name, ["a file", *_names()])
         data = read_toml(path := SHIPPED / f"{name}.toml")
     with error_prefix(f"{path.name} with --set: " if changes else f"{path}: "):
-        if "bodies" in data and "joints" in data and "crank" in data:
+        if "mechanism" not in data and data.keys() & OF_DRAWINGS:
             return mechanism_from_dict(change_mechanism(data, changes)), None
         return _of_scene(data, path.parent, changes)
 

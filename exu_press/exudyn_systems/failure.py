@@ -48,11 +48,10 @@ def why_not_converged(refinement: Refinement) -> str:
     worst = int(refinement.differences(*levels[-2:]).max(axis=0).argmax())
     pairs = [(refinement.differences(*pair), *pair) for pair in itertools.pairwise(levels[-3:])]
     last = [f"{d[:, worst].max():.2g} from {a.steps} to {b.steps} steps" for d, a, b in pairs]
-    name = refinement.variables.names[worst]
     return (
         f"the last two levels agree within the tolerance up to {agreed_until(refinement):.4g} s; "
-        f"the largest difference over its scale is that of the {name}: {', '.join(last)}; "
-        f"{_cause(refinement)}"
+        f"the largest difference over its scale is that of the {refinement.variables.names[worst]}"
+        f": {', '.join(last)}; {_cause(refinement)}"
     )
 
 

@@ -18,7 +18,7 @@ from fe_models.processes import Child, ChildError, why_not_copied
 __all__ = ["OUT_OF_TIME", "Level", "Levels"]
 
 OUT_OF_TIME = "the time was used up"  # why a level ended; else Newton's method failed
-SPARES = 3  # copies of the process that are kept for further levels
+SPARES = 4  # copies of the process that are kept for further levels
 
 
 @dataclass
@@ -51,30 +51,30 @@ class Levels:
         """Return the time since the levels began, s."""
         return clock.monotonic() - self.begun
 
-    def run_earlier(self, numbers: list[int]) -> list[Level]:
-        """Return levels that leave no trace on the user's system."""
+    def run_beside(self, numbers: list[int], *, last: bool = False) -> list[Level]:
+        """Return levels beside each other in copies, or the last one on the user's system."""
         if self.build is not None:
-            return [self.run(steps, alone=True) for steps in numbers]
-        children = [self.spares.pop() if self.touched else self._copy() for _ in numbers]
+            return [self.run(steps, alone=not last or steps < numbers[-1]) for steps in numbers]
+        copied = numbers[:-1] if last else numbers
+        if not self.touched:
+            count = len(copied) + (SPARES if last else 0)
+            self.spares = [Child(lambda n: self.run(n, alone=True)) for _ in range(count)]
+        children = [self.spares.pop() for _ in copied[: len(self.spares)]]
         try:
-            for child, steps in zip(children, numbers, strict=True):
+            for child, steps in zip(children, copied, strict=False):
                 child.request(steps)
-            return [child.answer() for child in children]
+            held = [self.run(numbers[-1])] if last else []
+            return [child.answer() for child in children] + held
         except ChildError as error:  # a user function failed
             raise exu.ExudynError(str(error)) from None
         finally:
             for child in children:
                 child.end()
 
-    def _copy(self) -> Child:
-        return Child(lambda steps: self.run(steps, alone=True))
-
     def run(self, steps: int, *, alone: bool = False) -> Level:
         """Return a run in this process; `alone` writes no files, no rows and no text."""
         if self.build is not None and self.touched:
             self.mbs = self.build()
-        elif self.build is None and not (alone or self.touched):
-            self.spares = [self._copy() for _ in range(SPARES)]
         system: Any = self.mbs
         function = user_function(system, "PostStep")
         start, end = self.settings.timeIntegration.startTime, self.settings.timeIntegration.endTime

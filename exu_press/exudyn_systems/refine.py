@@ -16,6 +16,7 @@ COARSEST = 8  # the user's own number of steps over that of the coarsest level, 
 FACTORS = 2, 8  # least and largest factor to the next level's number of steps
 MARGIN = 0.7  # error over the tolerance at which the last level is aimed
 AT_ONCE = 4  # largest factor to the last level: orders of coarse levels do not hold further
+SURE, CONFIRMS = 0.5, 1.5  # below this factor the next level only confirms, at that factor
 GIVE_UP = 16  # times the user's own number of steps, after which a refinement that fails ends
 ALIGNED = 1.35  # largest factor by which steps are raised to put rows at equal distances
 
@@ -41,18 +42,18 @@ class Refinement:
         """Run levels from a number of steps on; return the one that the system holds."""
         held: Level | None = None
         try:
-            self._keep(*self.runs.run_earlier([coarsest, FACTORS[0] * coarsest]))
+            self._keep(*self.runs.run_beside([coarsest, FACTORS[0] * coarsest]))
             while not self.solver_gives_up():
-                steps, last = self._next()
-                repeats = bool(self.levels) and steps == self.levels[-1].steps
+                numbers, last = self._next()
+                repeats = bool(self.levels) and numbers[-1] == self.levels[-1].steps
                 if last and (held is None or (repeats and self.meets_tolerance())):
-                    held = self._run_last(steps, repeats=repeats)
+                    held = self._run_last(numbers, repeats=repeats)
                     if repeats or not self.levels or self.meets_tolerance():
                         return held
                 elif held is not None and (repeats or not (self.runs.build or self.runs.spares)):
                     return held
                 else:
-                    self._keep(*self.runs.run_earlier([steps]))
+                    self._keep(*self.runs.run_beside(numbers))
             return held or self.failures[-1]
         finally:
             for spare in self.runs.spares:
@@ -93,15 +94,15 @@ class Refinement:
         finest = max([run.steps for run in self.levels], default=0)
         return last > finest and last >= GIVE_UP * self.users
 
-    def _run_last(self, steps: int, *, repeats: bool) -> Level:
+    def _run_last(self, numbers: list[int], *, repeats: bool) -> Level:
         """Run a level on the user's system; compare it with the one that it repeats, if any."""
-        level = self.runs.run(steps)
+        *earlier, level = self.runs.run_beside(numbers, last=True)
         if repeats and not level.failure:
             copy, self.levels[-1] = self.levels[-1], level
             self.remembers = bool(self.differences(copy, level).max() > self.tolerance)
-            self.cost.append((steps, level.seconds))
+            self.cost.append((level.steps, level.seconds))
         else:
-            self._keep(level)
+            self._keep(*earlier, level)
         return level
 
     def _keep(self, *levels: Level) -> None:
@@ -125,49 +126,49 @@ class Refinement:
         """Return those of the last three levels whose steps are short enough."""
         return [level for level in self.levels[-3:] if self.excess(level) <= 1.0]
 
-    def _next(self) -> tuple[int, bool]:
-        """Return the next level's number of steps, and whether it is the last one."""
+    def _next(self) -> tuple[list[int], bool]:
+        """Return the next numbers of steps, and whether the system is to hold the last of them."""
         tried = max(level.steps for level in (*self.levels, *self.failures))
-        factor, last = float(FACTORS[0]), False
-        if self.levels and self.levels[-1].steps == tried:
-            factor, last = self._next_factor()
-        least = 1.0 if last else FACTORS[0]
-        steps = tried * math.ceil(min(max(factor, least), FACTORS[1]) - 1e-9)
+        factor, two, last = self._next_factor(tried)
+        parts = 1 if tried % (2 * self.runs.samples) else 2  # halves only where samples divide them
+        steps = tried * math.ceil(parts * min(factor, FACTORS[1]) - 1e-9) // parts
         near = range(steps, int(ALIGNED * steps) + 1, self.runs.samples)
         steps = next((n for n in near if n % self.rows == 0 or self.rows % n == 0), steps)
         remaining = min(self.budget_left())
+        if two and 5 * steps <= remaining:  # with a repetition
+            return [steps, 2 * steps], last
+        last = last and not two
         if steps * (1 if last else 2) <= remaining:
-            return steps, last
-        if not self.levels:
-            return tried, True
-        finest = self.levels[-1].steps
-        return finest * max(int(min(remaining, steps) // finest), 1), True
+            return [steps], last
+        finest = self.levels[-1].steps if self.levels else tried
+        return [finest * max(int(min(remaining, steps) // finest), 1)], True
 
-    def _next_factor(self) -> tuple[float, bool]:
-        """Return the factor to the next level's number of steps, and whether that is the last."""
-        levels, judgement = self._deciding(), self.judgement
-        if judgement is None:
-            if len(levels) < 2 or self.excess(self.levels[-1]) > 1.0:
-                return self.excess(self.levels[-1]), False
-            ratio = levels[1].steps / levels[0].steps  # the order is taken for the method's
-            error = SAFETY * self.differences(*levels).max() / (ratio**ORDER - 1.0)
-            order = ORDER
-        elif judgement.decided:
-            error, order = judgement.error, min(judgement.order, ORDER)
-            if error <= self.tolerance:
-                return 1.0, True
+    def _next_factor(self, tried: int) -> tuple[float, bool, bool]:
+        """Return the next factor, whether two levels are needed, and whether the last suffices."""
+        if not self.levels:
+            return FACTORS[0], True, False
+        finest, judgement, excess = self.levels[-1], self.judgement, self.excess(self.levels[-1])
+        if excess > 1.0 or finest.steps < tried or len(self.levels) == 1:
+            return max(excess, FACTORS[0]), excess > 1.0, False
+        undecided = judgement is not None and not judgement.decided
+        late = undecided and finest.steps >= GIVE_UP * self.users and len(self.orders) > 1
+        if self.meets_tolerance() or (late and max(self.orders[-2:]) < PLAUSIBLE[0]):
+            return 1.0, False, True
+        if judgement is None or undecided:
+            ratio, order = finest.steps / self.levels[-2].steps, ORDER  # taken for the method's
+            error = SAFETY * self.differences(*self.levels[-2:]).max() / (ratio**order - 1.0)
         else:
-            late = self.levels[-1].steps >= GIVE_UP * self.users and len(self.orders) > 1
-            return 1.0, late and max(self.orders[-2:]) < PLAUSIBLE[0]
-        factor = (error / (MARGIN * self.tolerance)) ** (1.0 / max(order, PLAUSIBLE[0]))
-        return (max(factor, FACTORS[0]), True) if factor <= AT_ONCE else (factor / AT_ONCE, False)
+            error, order = judgement.error, max(min(judgement.order, ORDER), PLAUSIBLE[0])
+        factor = (error / (MARGIN * self.tolerance)) ** (1.0 / order)
+        if factor > AT_ONCE:
+            return FACTORS[0] if undecided else max(factor / AT_ONCE, FACTORS[0]), True, False
+        if undecided or len(self._deciding()) < 2:
+            return FACTORS[0], True, True
+        return CONFIRMS if factor < SURE else max(factor, FACTORS[0]), False, True
 
 
 def grid(steps: int, rows: int) -> tuple[int, int]:
-    """Return the number of steps of the coarsest level, and of samples, which divides it.
-
-    Samples fall on rows of output where that costs little.
-    """
+    """Return the coarsest level's number of steps and of samples, on rows of output if cheap."""
     least = max(math.ceil(steps / COARSEST), 3)
 
     def cost(samples: int) -> tuple[int, int]:

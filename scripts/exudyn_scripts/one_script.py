@@ -63,15 +63,15 @@ class Comparison:
 
         def work():
             silence()
-            last, run = [], Levels.run
+            held, beside, run_beside = [], [], Levels.run_beside
 
-            def run_and_keep(levels, steps, *, alone=False):
-                level = run(levels, steps, alone=alone)
-                if not alone:
-                    last.append(level)
-                return level
+            def run_and_keep(levels, numbers, *, last=False):
+                runs = run_beside(levels, numbers, last=last)
+                held.extend(runs[-1:] if last else [])
+                beside.append([level.seconds for level in runs])
+                return runs
 
-            Levels.run = run_and_keep
+            Levels.run_beside = run_and_keep
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 try:
@@ -87,9 +87,10 @@ class Comparison:
                 "reason": outcome.reason,
                 "steps": outcome.steps,
                 "levels": outcome.levels,
+                "beside": beside,
                 "error": outcome.error,
             }
-            return told, last[-1].samples if last else None
+            return told, held[-1].samples if held else None
 
         return branch(work, self.limit)
 

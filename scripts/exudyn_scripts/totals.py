@@ -23,11 +23,11 @@ def ratio(row):
 def elapsed(row):
     """Return the same of elapsed times on two cores that nobody else uses.
 
-    The first two levels run side by side; what is beyond all levels' time is taken as elapsed.
+    Of levels that run beside each other the longest counts; what is beyond all levels' time is
+    taken as elapsed.
     """
-    seconds = [time for _, time in row["levels"]]
-    total = row["seconds"] - sum(seconds) + sum(seconds[2:]) + max(seconds[:2], default=0.0)
-    return total / row["single"]
+    hidden = sum(sum(seconds) - max(seconds) for seconds in row["beside"])
+    return (row["seconds"] - hidden) / row["single"]
 
 
 def line(row, tolerance):

@@ -61,7 +61,7 @@ def test_a_run_that_is_another_one_in_each_process_is_named():
         return mbs.SetObjectParameter(spring, "offset", 1.0 + (os.getpid() == own)) or True
 
     mbs.SetPreStepUserFunction(sample)
-    outcome = refused_result(mbs, settings(2.0, 10), max_steps=20_000)
+    outcome = refused_result(mbs, settings(2.0, 10), max_steps=50_000)
     assert "a user function gives other results in each run" in outcome.reason
 
 

@@ -16,7 +16,7 @@ COARSEST = 8  # the user's own number of steps over that of the coarsest level, 
 FACTORS = 2, 8  # least and largest factor to the next level's number of steps
 MARGIN = 0.7  # error over the tolerance at which the last level is aimed
 AT_ONCE = 4  # largest factor to the last level: orders of coarse levels do not hold further
-SURE, CONFIRMS = 0.5, 1.5  # below this factor the next level only confirms, at that factor
+SURE, CONFIRMS = 0.5, 1.5  # factor below which the next level only confirms, and that level's
 GIVE_UP = 16  # times the user's own number of steps, after which a refinement that fails ends
 ALIGNED = 1.35  # largest factor by which steps are raised to put rows at equal distances
 

@@ -60,11 +60,11 @@ def solve_dynamic(
 
     No scale is below a millionth of the largest one of its like: rounding moves what is smaller.
 
-    Earlier levels run in copies of this process: functions that remember begin afresh. The system,
-    its sensors and its files hold the last one. No level has fewer steps than an eighth of
-    `numberOfSteps`. One in which a body turns by more than 0.5 rad a step, or an oscillation above
-    the tolerance has fewer than 10 steps in a period, decides nothing. Three levels whose observed
-    order lies between 0.5 and 4 decide.
+    Earlier levels run in copies of this process: functions that remember begin afresh; two run at
+    once if both are needed. The system, its sensors and its files hold the last one. No level has
+    fewer steps than an eighth of `numberOfSteps`. One in which a body turns by more than 0.5 rad a
+    step, or an oscillation above the tolerance has fewer than 10 steps in a period, decides
+    nothing. Three levels whose observed order lies between 0.5 and 4 decide.
 
     Args:
         system: assembled; or a function that builds and returns one, for each level anew.

@@ -1,8 +1,6 @@
 """The kind of output in a file or a directory, and its page."""
 
-import warnings
 from enum import Enum
-from functools import partial
 from pathlib import Path
 
 from exu_press.errors import InputError
@@ -10,7 +8,6 @@ from exu_press.report.page_file import ALL, Span
 from exu_press.result import Result
 from exu_press.result.checkpoint import checkpoint_directory
 from exu_press.studies.base.report import REPORT_FILE
-from fe_models.processes import computed_beside
 
 __all__ = ["Kind", "find_output", "find_run", "report_of"]
 
@@ -78,13 +75,11 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
         InputError: the file is of another kind than its name, or the span is not in it.
     """
     if kind is Kind.RUN:
-        with computed_beside(partial(_load, file)) as loaded:
-            from exu_press.report.run import run_report  # meanwhile
+        from exu_press.report.run import run_report
 
-            result, complaints = loaded()
-        for text in complaints:
-            warnings.warn(text, stacklevel=2)
-        return run_report(result, f"{file.resolve().parent.name}/{file.name}", span, file.parent)
+        return run_report(
+            Result.load(file), f"{file.resolve().parent.name}/{file.name}", span, file.parent
+        )
     if kind is Kind.COMPARISON:
         from exu_press.report.comparison import comparison_report
 
@@ -94,11 +89,3 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
     from exu_press.report.study import study_page
 
     return study_page(file)
-
-
-def _load(file: Path) -> tuple[Result, list[str]]:
-    """Return a run and the warnings of reading it."""
-    with warnings.catch_warnings(record=True) as complaints:
-        warnings.simplefilter("always")
-        result = Result.load(file)
-    return result, [str(complaint.message) for complaint in complaints]

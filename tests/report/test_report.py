@@ -1,7 +1,6 @@
 import base64
 import io
 import re
-import warnings
 from dataclasses import replace
 from html.parser import HTMLParser
 
@@ -14,7 +13,7 @@ from exu_press.errors import InputError
 from exu_press.plots.words import joint_in_words
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.summary import run_warnings
-from exu_press.report import Kind, find_output, report_of
+from exu_press.report import Kind, find_output
 from exu_press.report.run import joint_table
 from exu_press.result import Result
 from exu_press.scene import Scene
@@ -220,17 +219,3 @@ def test_without_the_library_the_page_has_pictures(outputs, tmp_path, monkeypatc
     text = target.read_text(encoding="utf-8")
     assert Page(text).images and "script" not in text.split("<body>")[1]
     assert "to zoom and play: pip install exu-press[page]" in capsys.readouterr().out
-
-
-def test_what_reading_a_run_warns_of_is_said(outputs, monkeypatch):
-    """Also where a copy of this process reads it."""
-
-    def load(path):
-        warnings.warn("an earlier run's", stacklevel=2)
-        return usual(path)
-
-    usual = Result.load
-    monkeypatch.setattr(Result, "load", staticmethod(load))
-    monkeypatch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
-    with pytest.warns(UserWarning, match="an earlier run's"):
-        report_of(Kind.RUN, outputs["run"] / "run.nc")

@@ -175,7 +175,7 @@ def contain_bars(axes: Axes) -> None:
 def _log_ticks(above: float, top: float, *, signed: bool) -> Array:
     """Return ticks between two values: decades, or 1-2-5 where those are too few; none too close.
 
-    A signed axis has half the room.
+    A signed axis has half the room: of 1-2-5 it shows every other one.
     """
     nearest, most = (2.5, 2) if signed else (1.9, 4)
     decades = 10.0 ** np.arange(math.floor(math.log10(above)), math.ceil(math.log10(top)))
@@ -184,7 +184,8 @@ def _log_ticks(above: float, top: float, *, signed: bool) -> Array:
         ticks = ticks[(ticks > nearest * above) & (ticks < top)]
         if len(ticks) > 1:
             break
-    return np.asarray(ticks[::-1][:: max(1, math.ceil(len(ticks) / most))][::-1])
+    stride = 2 if signed and len(steps) > 1 else max(1, math.ceil(len(ticks) / most))
+    return np.asarray(ticks[::-1][::stride][::-1])
 
 
 def _multiples(step: float, low: float, high: float) -> Array:

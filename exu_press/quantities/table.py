@@ -52,6 +52,14 @@ SINGULAR = {
 NEAR_CENTRE = 2e-3
 """Revolutions within which a dead centre of the ideal slider is known."""
 
+CENTRES = {
+    "stroke": (2, "both dead centres"),
+    "swing": (2, "both dead centres"),
+    "bottom_dead_centre": (1, "the dead centre itself"),
+    "least_angle": (1, "the dead centre itself"),
+}
+"""Of a quantity, the number of dead centres that it needs, the bottom one first, and their name."""
+
 HORIZON = "predictability horizon, ms"
 
 WIDTH = 100
@@ -145,15 +153,18 @@ def remarks(results: Mapping[str, Result]) -> list[str]:
     """Return what the table of runs by label does not show: strokes of parts, and what none has."""
     values = {label: values_of(result) for label, result in results.items()}
     texts = []
-    for name in ("stroke", "swing"):
+    for name, (centres, without) in CENTRES.items():
         parts = [
             label
             for label, result in results.items()
-            if name in values[label] and "crank_angle" in result and _is_part(Reading(result))
+            if name in values[label]
+            and "crank_angle" in result
+            and _is_part(Reading(result), centres)
         ]
         if parts:
             runs = f" ({', '.join(parts)})" if len(results) > 1 else ""
-            texts.append(f"{name}: of the part that was run, without both dead centres{runs}.")
+            title = name.replace("_", " ")
+            texts.append(f"{title}: of the part that was run, without {without}{runs}.")
     titled = {
         quantity.name
         for result in results.values()
@@ -169,12 +180,12 @@ def remarks(results: Mapping[str, Result]) -> list[str]:
     return texts
 
 
-def _is_part(run: Reading) -> bool:
-    """Return whether a run does not come to both of the output's dead centres."""
+def _is_part(run: Reading, centres: int) -> bool:
+    """Return whether a run misses the output's bottom dead centre or, of two centres, any."""
     first, last = run["crank_angle"][[0, -1]] / (2.0 * np.pi)
     return any(
         np.ceil(first - about - NEAR_CENTRE) > last - about + NEAR_CENTRE
-        for about in np.array(ideal_angles(run.mechanism)) / (2.0 * np.pi)
+        for about in np.array(ideal_angles(run.mechanism)[:centres]) / (2.0 * np.pi)
     )
 
 

@@ -19,7 +19,14 @@ from exu_press.quantities.cost import COSTS
 from exu_press.quantities.energy import BALANCE, has_balance
 from exu_press.quantities.kind import LOAD
 from exu_press.quantities.quantity import Owner
-from exu_press.quantities.table import quantity_cells, shown_value, with_headings
+from exu_press.quantities.reading import Reading
+from exu_press.quantities.table import (
+    quantity_cells,
+    remarks,
+    shown_value,
+    span_text,
+    with_headings,
+)
 from exu_press.quantities.value import values_of
 from exu_press.report.html import details, page, paragraph, picture, stills, table, warnings
 from exu_press.report.page_file import ALL, Span
@@ -98,6 +105,9 @@ def run_report(result: Result, source: str, span: Span = ALL, directory: Path | 
     with TemporaryFolder() as folder, computed_beside(partial(_still, result, folder)) as still:
         summary = result.summary()
         numbers = with_headings(quantity_cells({"": result}))
+        results = table(("quantity", "value"), numbers) + joint_table(result)
+        window = f"Read from revolutions {span_text(Reading(result))}."
+        texts = [window, *remarks({"": result})]
         live = live_part({"": result}, span)
         drawn = _pictures(result, directory, folder)
         pictures = "\n".join([still(), *drawn])
@@ -108,7 +118,7 @@ def run_report(result: Result, source: str, span: Span = ALL, directory: Path | 
         [
             ("In motion", live),
             ("Warnings", warnings(warnings_of(summary))),
-            ("Results", table(("quantity", "value"), numbers) + joint_table(result)),
+            ("Results", "".join(map(paragraph, texts)) + results),
             ("Pictures", stills(pictures, live)),
             ("Energy and solver", _energy_and_solver(result)),
             ("Provenance", provenance_section({"": result.info.get("provenance")})),

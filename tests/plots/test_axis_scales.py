@@ -62,6 +62,14 @@ def test_an_axis_with_impacts_says_where_it_is_linear(signed):
     assert {0.0, 10.0, 100.0} <= set(axes.get_yticks())
 
 
+def test_ticks_of_a_signed_axis_with_impacts_keep_apart():
+    axes, angle = Figure().subplots(), np.linspace(0, 720, 10_001)
+    values = 16.0 * np.sin(np.radians(angle))
+    values[5000] = 195.0
+    impact_scale(axes, [(angle, values)], signed=True)
+    assert [tick for tick in axes.get_yticks() if tick > 20.0] == [200.0]
+
+
 @pytest.mark.parametrize(("low", "high", "ticks"), [(3.0, 40.0, [5, 10, 20]), (20.0, 80.0, 5)])
 def test_a_logarithmic_axis_has_few_ticks_written_out(low, high, ticks):
     axes = Figure().subplots()

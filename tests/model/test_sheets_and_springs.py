@@ -167,7 +167,7 @@ def test_a_motor_stalls_in_a_sheet_that_is_too_strong():
     [
         ({"height": 10.0}, "never leaves it"),
         ({"thickness": 8e-3}, "thinner sheet"),
-        ({"crack_time": None}, "crack_time: missing"),
+        ({"crack_time": None}, "needs crack_time"),
         ({"over_peak": [0.0, 1.0]}, "as many of both"),
         ({"over_fracture": [0.0, 0.5, 0.5, 1.0]}, "increasing"),
     ],
@@ -182,7 +182,7 @@ def test_sheets_that_are_refused(changes, words):
     [
         ({"force": [1e4, 1e4, 2e4]}, "preload"),
         ({"travel": [0.0, 5e-4, 0.01]}, "as long as that"),
-        ({"height": None}, "height: missing"),
+        ({"height": None}, "needs height"),
     ],
 )
 def test_springs_that_are_refused(changes, words):

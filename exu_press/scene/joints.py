@@ -175,6 +175,11 @@ def joints_of(tables: Any, mechanism: Mechanism, laws: LawKeys) -> tuple[Joints,
     for name, table in tables.items():
         if name in names:
             own[name] = {**own.get(name, {}), **joint_keys(name, table)}
+        elif name in [guide.name for guide in mechanism.guides]:
+            raise InputError(
+                f"joints.{name} = {table!r}: {name} is a guide or slot of {mechanism.name}; "
+                f"allowed is [guide.{name}] with its clearance"
+            )
         elif name not in groups:
             raise InputError(_unknown(name, mechanism.name, names, groups, table))
     complete, needs = {}, list[Need]()

@@ -55,6 +55,8 @@ mechanism = 'four_bra' -> mechanism = 'four_bra': allowed is one of .. the path 
 = mechanism = 'four_bar'
 press = {} -> [press]: not used by this scene
 joints.crankpin = 'dry' -> joints.crankpin = 'dry': four_bar has no such joint .. mean 'crank_pin'
+= mechanism = 'scotch_yoke'
+joints.yoke_slot = 'dry' -> yoke_slot is a guide or slot of scotch_yoke; allowed is [guide.
 = mechanism = 'slider_crank'
 press = {} -> [press]: not used .. mechanism is 'slider_crank'
 contact = {} -> [contact]: not used .. no joint is 'dry'

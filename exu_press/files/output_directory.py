@@ -20,6 +20,7 @@ __all__ = [
     "output_directory",
     "plain_data",
     "refuse_link",
+    "remove_partial",
     "remove_pictures",
     "replacing",
     "subdirectory",
@@ -123,7 +124,7 @@ def replacing(path: Path) -> Iterator[Path]:
     Raises:
         InputError: as of `writing`.
     """
-    partial = path.with_name(f".{path.name[:40]}.{secrets.token_hex(8)}.part")
+    partial = path.with_name(_partial_name(path, secrets.token_hex(8)))
     try:
         with writing(path):
             partial.touch(exist_ok=False)
@@ -132,6 +133,17 @@ def replacing(path: Path) -> Iterator[Path]:
     finally:
         with suppress(OSError):  # on a file system that became read-only
             partial.unlink(missing_ok=True)
+
+
+def remove_partial(path: Path) -> None:
+    """Remove what processes left that were killed within `replacing`."""
+    with suppress(OSError):
+        for partial in path.parent.glob(_partial_name(path, "*")):
+            partial.unlink(missing_ok=True)
+
+
+def _partial_name(path: Path, sign: str) -> str:
+    return f".{path.name[:40]}.{sign}.part"
 
 
 def check_writable(path: Path) -> None:

@@ -20,7 +20,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo, putchunk
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import FORMATS, replacing
+from exu_press.files.output_directory import FORMATS, remove_partial, replacing
 from exu_press.plots.format import picture_format
 from exu_press.plots.style import DPI, look
 from exu_press.scene.provenance import Provenance, provenance_of
@@ -156,7 +156,8 @@ def draw_figures(
         draws: functions that return the figures, by name.
         directory: of the files.
         sources: as of `save_figure`.
-        meanwhile: is called when those beside are under way, before the others are drawn.
+        meanwhile: is called when those beside are under way, before the others are drawn; also
+            where they cannot be started, or the user interrupts that.
 
     Raises:
         InputError: a file cannot be written.
@@ -167,6 +168,12 @@ def draw_figures(
 
     first, *remaining = draws
     with ExitStack() as stack:
-        beside = [stack.enter_context(computed_beside(partial(write, name))) for name in remaining]
-        meanwhile()
+        for name in remaining:  # when its process has ended, which an error or Ctrl-C kills
+            stack.callback(remove_partial, Path(directory) / f"{name}{picture_format().ending}")
+        try:
+            beside = [
+                stack.enter_context(computed_beside(partial(write, name))) for name in remaining
+            ]
+        finally:
+            meanwhile()
         return [write(first), *(written() for written in beside)]

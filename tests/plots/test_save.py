@@ -1,4 +1,5 @@
 import sys
+import time
 from functools import partial
 
 import numpy as np
@@ -99,3 +100,33 @@ def test_figures_are_drawn_beside_each_other(tmp_path):
         assert read_sources(path) == sources
     with pytest.raises(InputError, match="below zero"):
         draw_figures({**draws, "wrong": partial(draw_blank, -1)}, tmp_path)
+
+
+class SlowFigure(Figure):
+    def draw(self, _):
+        time.sleep(60.0)
+
+
+@linux
+def test_an_error_leaves_no_half_picture_of_those_drawn_beside(tmp_path):
+    def fail():
+        deadline = time.monotonic() + 30.0
+        while not list(tmp_path.glob(".slow.png.*")) and time.monotonic() < deadline:
+            time.sleep(0.01)
+        assert list(tmp_path.glob(".slow.png.*"))
+        raise InputError("no such figure")
+
+    with pytest.raises(InputError, match="no such figure"):
+        draw_figures({"first": fail, "slow": SlowFigure}, tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_run_is_stored_where_no_picture_can_be_drawn_beside(tmp_path, monkeypatch):
+    def interrupt(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("exu_press.plots.file.computed_beside", interrupt)
+    stored = []
+    with pytest.raises(KeyboardInterrupt):
+        draw_figures(dict.fromkeys("ab", Figure), tmp_path, meanwhile=lambda: stored.append(1))
+    assert stored == [1]

@@ -45,6 +45,7 @@ class Levels:
     build: Callable[[], exu.MainSystem] | None  # for each level; None: copies of the process
     begun: float = field(default_factory=clock.monotonic)
     touched: bool = False  # whether the system has been run
+    holds_last: bool = False  # whether it is of a level that was expected to be the last one
     spares: list[Child] = field(default_factory=list)  # from before that, if the last level misses
 
     def elapsed_time(self) -> float:
@@ -73,9 +74,11 @@ class Levels:
 
     def run(self, steps: int, *, alone: bool = False) -> Level:
         """Return a run in this process; `alone` writes no files, no rows and no text."""
-        if self.build is not None and self.touched:
-            self.mbs = self.build()
         system: Any = self.mbs
+        if self.build is not None and self.touched:
+            system = self.build()
+        if not (alone and self.holds_last):
+            self.mbs, self.holds_last = system, not alone
         function = user_function(system, "PostStep")
         start, end = self.settings.timeIntegration.startTime, self.settings.timeIntegration.endTime
         factors = range(1, MOST_SAMPLES // self.samples + 1)

@@ -11,6 +11,7 @@ from stand_in_system import oscillator
 
 from exu_press import InputError, SolverStatus
 from exu_press.exudyn_systems import solve_dynamic
+from exu_press.exudyn_systems.level import Levels
 from fe_models.processes import why_not_copied
 
 
@@ -62,6 +63,20 @@ def test_a_function_that_builds_the_system_does_without_copies(monkeypatch):
     assert [steps for steps, _ in outcome.levels] == [steps for steps, _ in copied.levels]
     assert outcome.mbs is built[-1][0] and built[-1][1].calls == outcome.steps
     assert outcome.error.motion == pytest.approx(copied.error.motion, rel=1e-9)
+
+
+def test_a_built_system_of_the_last_level_stays_where_it_misses():
+    built = []
+
+    def build():
+        built.append(controlled()[0])
+        return built[-1]
+
+    runs = Levels(build(), settings(1.0, 50), 10, 60.0, build)
+    runs.run_beside([10, 20])
+    runs.run_beside([40, 80], last=True)
+    runs.run_beside([160, 320])
+    assert runs.mbs is built[3]
 
 
 def test_files_are_written_once(tmp_path):

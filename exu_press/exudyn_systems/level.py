@@ -74,9 +74,7 @@ class Levels:
 
     def run(self, steps: int, *, alone: bool = False) -> Level:
         """Return a run in this process; `alone` writes no files, no rows and no text."""
-        system: Any = self.mbs
-        if self.build is not None and self.touched:
-            system = self.build()
+        system: Any = self.build() if self.build and self.touched else self.mbs
         if not (alone and self.holds_last):
             self.mbs, self.holds_last = system, not alone
         function = user_function(system, "PostStep")

@@ -72,8 +72,7 @@ class Refinement:
 
     def excess(self, level: Level) -> float:
         """Return a level's step over the longest one of a level that decides."""
-        samples, scales = level.samples, self.scales()
-        return excess_step(samples, level.step, self.variables, scales, self.tolerance)
+        return excess_step(level.samples, level.step, self.variables, self.scales(), self.tolerance)
 
     def differences(self, first: Level, second: Level) -> Array:
         """Return the differences of two levels over the scales, (instants, quantities)."""

@@ -108,7 +108,10 @@ class SlowFigure(Figure):
 
 
 @linux
-def test_an_error_leaves_no_half_picture_of_those_drawn_beside(tmp_path):
+def test_an_error_leaves_no_half_picture_of_those_drawn_beside(tmp_path, monkeypatch):
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    monkeypatch.setattr("fe_models.processes.may_copy", lambda: True)
+
     def fail():
         deadline = time.monotonic() + 30.0
         while not list(tmp_path.glob(".slow.png.*")) and time.monotonic() < deadline:

@@ -6,6 +6,7 @@ In floats rather than arrays: less for three components, and this is called at e
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import cos, sin
+from typing import Any
 
 import exudyn as exu
 import numpy as np
@@ -54,8 +55,9 @@ class FlexiblePoint:
     rotation: Array
 
 
-BodyPoint = tuple[int, Sequence[float]] | FlexiblePoint
-"""Object number of a body and a point in its frame (m), or an interface of a flexible body."""
+BodyPoint = tuple[Any, Sequence[float]] | FlexiblePoint
+"""Object number of a body (an int, or Exudyn's ObjectIndex) and a point in its frame (m), or an
+interface of a flexible body."""
 
 
 class BodyEnd:

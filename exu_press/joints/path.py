@@ -20,6 +20,7 @@ the factor exp(-h / memory) generalized-alpha damps every vibration, at all step
 """
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 __all__ = ["Path"]
@@ -30,6 +31,7 @@ SMALL_DRIFT = 0.1
 """Part of a penetration up to which a step's error is known well enough to be taken out."""
 
 
+@dataclass
 class Path:
     """Eccentricity and its rates where the last accepted step ended.
 
@@ -40,11 +42,10 @@ class Path:
         acceleration: mean rate of that in the last step, m/s^2; empty at first.
     """
 
-    def __init__(self) -> None:
-        self.drift = 0.0
-        self.eccentricity: Vector = ()
-        self.velocity: Vector = ()
-        self.acceleration: Vector = ()
+    drift: float = 0.0
+    eccentricity: Vector = ()
+    velocity: Vector = ()
+    acceleration: Vector = ()
 
     def memory(self) -> list[Any]:
         """Return its memory."""

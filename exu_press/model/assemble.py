@@ -17,7 +17,7 @@ from exu_press.model.model import Model, count_items
 from exu_press.model.rigid_body import PivotedBody, RigidBody, SlidingBody
 from exu_press.model.system import System
 from exu_press.scene import IdealJoint, Scene
-from exu_press.scene.applied import holding_torque
+from exu_press.scene.holding_torque import holding_torque
 from exu_press.scene.joint import oil_of
 from exu_press.schema.table import plain
 

@@ -12,7 +12,7 @@ import numpy as np
 from exu_press.integrate import ARRIVED, Outcome, SolverTuning
 from exu_press.model.constraints import CrankAngle
 from exu_press.model.rigid_body import RigidBody
-from exu_press.scene.applied import holding_torque
+from exu_press.scene.holding_torque import holding_torque
 from exu_press.solving import DEFAULTS, SolvableModel, solve
 
 if TYPE_CHECKING:

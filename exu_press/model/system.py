@@ -23,7 +23,6 @@ from exu_press.mechanism.independent_constraints import (
 )
 from exu_press.model.rigid_body import RigidBody
 from exu_press.scene import Scene, mechanism_of
-from exu_press.scene.applied import applied_loads
 
 if TYPE_CHECKING:
     from exu_press.model.placed_part import PlacedPart
@@ -77,7 +76,7 @@ class System:
             name: replace(load, point=parts[load.body].middles.get(name, load.point))
             if load.body in parts
             else load
-            for name, load in applied_loads(scene).items()
+            for name, load in scene.applied_loads.items()
         }
         self.clocks: list[tuple[Any, Callable[[float], tuple[float, float]]]] = []
         self.ahead = [0.0]

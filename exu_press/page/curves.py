@@ -9,7 +9,6 @@ from exu_press.quantities.quantity import Owner
 from exu_press.result import Result
 from exu_press.result.channel import AXES, guide_channel
 from exu_press.scene import mechanism_of
-from exu_press.scene.applied import applied_loads
 
 __all__ = ["Curve", "curves_of", "shown_unit"]
 
@@ -65,7 +64,7 @@ def curves_of(result: Result) -> list[Curve]:
     for spring in mechanism.springs:
         begin, group = f"spring_{spring.name}", f"Spring {_label_of(spring.name)}"
         of_owners += _channels_of(result, begin, group, Owner.SPRING, spring.name)
-    for load in applied_loads(result.scene):
+    for load in result.scene.applied_loads:
         of_owners += _channels_of(
             result, f"load_{load}", f"Load {_label_of(load)}", Owner.LOAD, load
         )

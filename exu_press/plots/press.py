@@ -39,7 +39,6 @@ from exu_press.result import Result
 from exu_press.result.channel import guide_channel
 from exu_press.result.windows import settled_part
 from exu_press.scene import mechanism_of
-from exu_press.scene.applied import applied_loads
 
 __all__ = ["press_figure"]
 
@@ -70,7 +69,7 @@ def press_figure(result: Result) -> Figure:
     mechanism = mechanism_of(result.scene)
     guide = mechanism.frame_guide(mechanism.slider)
     elastic = guide is not None and not guide.holds_across
-    loads = list(applied_loads(result.scene))
+    loads = list(result.scene.applied_loads)
     motor = result.scene.drive is not None
     centres = bottom_dead_centres(settled_part(result))
     draws: list[Callable[..., None]] = [_shaking, _drive, _guides]

@@ -7,7 +7,6 @@ from collections.abc import Collection, Iterable, Mapping
 from exu_press.mechanism.press import NoCounterweight
 from exu_press.result import Result
 from exu_press.scene import Scene, mechanism_of
-from exu_press.scene.applied import applied_loads
 from exu_press.scene.guide import ElasticGuide
 
 __all__ = ["ONE_LINE", "describe", "early_stops", "joint_in_words"]
@@ -124,7 +123,7 @@ def _of_bodies(scene: Scene) -> str:
 
 def _of_loads(scene: Scene) -> dict[str, str]:
     parts = {}
-    for name, load in applied_loads(scene).items():
+    for name, load in scene.applied_loads.items():
         what = "blanking" if load.kind == "blanking" else f"{name.replace('_', ' ')}"
         words = f"{what} force {load.curve.peak / 1e3:g} kN"
         if math.isnan(load.curve.peak):

@@ -23,7 +23,6 @@ from exu_press.quantities.slopes import SLOPES
 from exu_press.quantities.start_stop import START_STOP
 from exu_press.quantities.wear import WEAR
 from exu_press.scene import Scene, mechanism_of
-from exu_press.scene.applied import applied_loads
 from exu_press.schema.checks import demand_known, demand_name
 
 __all__ = [
@@ -206,6 +205,6 @@ def _owners(scene: Scene) -> dict[Owner, tuple[str, ...]]:
         Owner.GUIDE: tuple(guide.name for guide in mechanism.guides),
         Owner.GEAR: tuple(gear.name for gear in mechanism.gears),
         Owner.SPRING: tuple(spring.name for spring in mechanism.springs),
-        Owner.LOAD: tuple(applied_loads(scene)),
+        Owner.LOAD: tuple(scene.applied_loads),
         Owner.BODY: tuple(scene.bodies),
     }

@@ -12,7 +12,6 @@ from exu_press.quantities.quantity import Extreme, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result.energy import work
 from exu_press.scene import Scene
-from exu_press.scene.applied import applied_loads
 
 __all__ = ["SHEETS", "released_work"]
 
@@ -28,7 +27,7 @@ def _strokes(run: Reading, load: str) -> list[tuple[Array, Array]]:
     of the crack and on to the bottom dead centre, where impacts of the way back have not begun, nor
     has the stripping.
     """
-    sheet = applied_loads(run.result.scene)[load].sheet
+    sheet = run.result.scene.applied_loads[load].sheet
     assert sheet is not None
     depth, strips = _penetration(run, load), run[f"load_{load}_force"] < 0.0
     strokes = []
@@ -46,7 +45,7 @@ def _strokes(run: Reading, load: str) -> list[tuple[Array, Array]]:
 
 
 def _penetration(run: Reading, load: str) -> Array:
-    top = applied_loads(run.result.scene)[load].top
+    top = run.result.scene.applied_loads[load].top
     return np.asarray(run.mechanism.bottom + top - run["slider_position"])
 
 

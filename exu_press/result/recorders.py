@@ -60,9 +60,7 @@ def _loads(scene: Scene) -> list[str]:
     """Return the names of the loads that act."""
     if not scene.load:
         return []
-    from exu_press.scene.applied import applied_loads
-
-    return list(applied_loads(scene))
+    return list(scene.applied_loads)
 
 
 def _wearing(scene: Scene) -> list[str]:

@@ -42,12 +42,12 @@ def run_once(
             have settled; as many more then go before those that quantities are read from.
     """
     started = time.perf_counter()
-    provenance = provenance_of(scene)
     if scene.output is not None and not isinstance(scene.output.channels, str):
         turned = max(SHORT, 2.0 * SHORTEST_RUN * scene.speed_rpm / 60.0)
         short = run_once(scene.replace({"output": None, "revolutions": turned, "settle": 0.0}))
         scene.output.kept_channels(short.channels)
     model = build(scene, quiet=quiet)
+    provenance = provenance_of(scene)
     if start is not None:
         model = go_on_from(model, start)
     try:

@@ -8,17 +8,10 @@ import numpy as np
 
 from exu_press.laws.load_curve import LoadCurve, PulseClock, closing
 from exu_press.laws.sheet import PunchStroke, Sheet
-from exu_press.mechanism import Point
+from exu_press.mechanism import Mechanism, Point
 from exu_press.numerics.arrays import Array
-from exu_press.scene.load import Load
-from exu_press.scene.scene import Scene, mechanism_of
 
-__all__ = ["AppliedLoad", "applied_load"]
-
-FADE = 1e-3
-"""Speed over the ideal output's largest one: below it, a forming force fades. A crank at constant
-speed passes through it within 0.06 degrees of dead centre, where the output moves by 3e-7 of its
-stroke. A press that stalls creeps at no more than that."""
+__all__ = ["AppliedLoad", "fastest_output"]
 
 
 @dataclass(frozen=True)
@@ -98,17 +91,22 @@ class AppliedLoad:
         c, s = np.cos(angle), np.sin(angle)
         return np.asarray(force * ((c * x - s * y) * v - (s * x + c * y) * u))
 
-    def shortest_edge(self, scene: Scene) -> float:
-        """Return how long the steepest part of the curve would take from zero to the peak, s."""
+    def shortest_edge(self, mechanism: Mechanism, angular_speed: float) -> float:
+        """Return how long the steepest part of the curve would take from zero to the peak, s.
+
+        Args:
+            mechanism: ideal.
+            angular_speed: of the crank, rad/s.
+        """
         if self.sheet is not None:
-            return min(self.sheet.crack_time, self._rise(_fastest(scene)))
+            return min(self.sheet.crack_time, self._rise(fastest_output(mechanism, angular_speed)))
         if self.curve.steepest == 0.0:
             return math.inf
         rate = 1.0
         if self.over == "crank_angle_deg":
-            rate = scene.angular_speed
+            rate = angular_speed
         elif self.over == "height":
-            rate = _fastest(scene)
+            rate = fastest_output(mechanism, angular_speed)
         return self._rise(rate)
 
     def _rise(self, rate: float) -> float:
@@ -133,29 +131,7 @@ def _replay(
     return np.array(values)
 
 
-def _fastest(scene: Scene) -> float:
-    """Return the largest speed of a scene's ideal output, m/s."""
+def fastest_output(mechanism: Mechanism, angular_speed: float) -> float:
+    """Return the largest speed of a mechanism's ideal output, m/s, at one of the crank, rad/s."""
     angle = np.linspace(0.0, 2.0 * math.pi, 361)
-    velocity = mechanism_of(scene).ideal_slider(angle, scene.angular_speed)[1]
-    return float(np.abs(velocity).max())
-
-
-def applied_load(load: Load, scene: Scene) -> AppliedLoad:
-    """Return a load of a scene on its mechanism."""
-    mechanism = mechanism_of(scene)
-    body = mechanism.body(load.body or mechanism.slider)
-    x, y = load.direction or mechanism.output.direction
-    length = math.hypot(x, y)
-    (u, v), (dx, dy) = body.centre_of_mass, load.offset or (0.0, 0.0)
-    position = (u + dx, v + dy)
-    if load.joint is not None:
-        position = next(joint.at for joint in mechanism.joints if joint.name == load.joint)
-    fade = FADE * _fastest(scene) if load.closing else None
-    return AppliedLoad(
-        kind=load.kind,
-        body=body.name,
-        point=body.local(position),
-        direction=(x / length, y / length),
-        fade=fade,
-        **load.law(scene.angular_speed, fade, motor=scene.drive is not None),
-    )
+    return float(np.abs(mechanism.ideal_slider(angle, angular_speed)[1]).max())

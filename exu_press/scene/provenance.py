@@ -19,7 +19,7 @@ class Provenance(TypedDict):
     """Where a result comes from.
 
     Attributes:
-        date: of the run's start, with its zone, as ISO 8601 has it.
+        date: when the integration started, with its zone, as ISO 8601 has it.
         command: for a shell.
         version: of exu_press.
         files: sha256 of the files that went in, by their paths as they were given; a file of this

@@ -52,6 +52,7 @@ ONLY_WHERE_GIVEN = ("drive", "guide", "output", "wear")
 
 
 if TYPE_CHECKING:
+    from exu_press.scene.applied_load import AppliedLoad
     from exu_press.scene.guide import ElasticGuide
     from exu_press.scene.load import Load
     from exu_press.scene.motor import Motor
@@ -575,6 +576,18 @@ class Scene(Table):
             yield self.guide_key(name, "friction"), guide.friction
             if (contact := guide.contact(self.contact or {})) is not None:
                 yield "contact.damping", contact.damping
+
+    @property
+    def applied_loads(self) -> "dict[str, AppliedLoad]":
+        """The loads on their mechanism that are not zero throughout, by name."""
+        loads = {
+            name: load.applied_load(
+                mechanism_of(self), self.angular_speed, motor=self.drive is not None
+            )
+            for name, load in self.load.items()
+        }
+        # the peak of a load of a result may be unknown
+        return {name: load for name, load in loads.items() if not load.curve.peak <= 0.0}
 
     @property
     def shipped_name(self) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from exu_press.mechanism.drawing_warnings import drawing_warnings
-from exu_press.scene.applied import applied_loads, holding_torque
+from exu_press.scene.holding_torque import holding_torque
 from exu_press.scene.joint import LubricatedJoint, TouchingJoint
 from exu_press.scene.scene import Scene, mechanism_of
 from exu_press.schema.table import key_values
@@ -167,7 +167,7 @@ def _modes(scene: Scene) -> Iterator[str]:
 def _heights(scene: Scene) -> Iterator[str]:
     """Yield tables over heights that the output never has, but for a small part."""
     mechanism = mechanism_of(scene)
-    for name, load in applied_loads(scene).items():
+    for name, load in scene.applied_loads.items():
         if load.over != "height":
             continue
         low, high, stroke = load.curve.places[0], load.curve.places[-1], mechanism.stroke
@@ -207,7 +207,7 @@ def _brake(scene: Scene) -> Iterator[str]:
     height = mechanism.ideal_slider(angle, 1.0)[0] - mechanism.bottom
     forces = {
         name: np.array([load.curve(height_there) for height_there in height.tolist()])
-        for name, load in applied_loads(scene).items()
+        for name, load in scene.applied_loads.items()
         if load.over == "height" and load.fade is None
     }
     torque = holding_torque(mechanism, scene, forces, angle)
@@ -223,7 +223,7 @@ def _brake(scene: Scene) -> Iterator[str]:
 def _forming(scene: Scene) -> Iterator[str]:
     """Yield forces that act while the output closes, and help it."""
     output = mechanism_of(scene).output
-    for name, load in applied_loads(scene).items():
+    for name, load in scene.applied_loads.items():
         if load.fade is None or load.body != output.body:
             continue
         along = sum(a * b for a, b in zip(load.direction, output.direction, strict=True))

@@ -9,7 +9,6 @@ from exu_press.integrate.system import System
 from exu_press.integrate.task import Task
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.scene import LubricatedJoint, mechanism_of
-from exu_press.scene.applied import applied_loads
 from exu_press.scene.joint import TouchingJoint
 from exu_press.solving.solvable_model import SolvableModel
 
@@ -174,7 +173,10 @@ def leapt_over_load(model: SolvableModel) -> str:
     scene, solver = model.scene, model.scene.solver
     if solver.step is None:
         return ""
-    edges = {name: load.shortest_edge(scene) for name, load in applied_loads(scene).items()}
+    edges = {
+        name: load.shortest_edge(model.mechanism, scene.angular_speed)
+        for name, load in scene.applied_loads.items()
+    }
     name = min(edges, key=edges.__getitem__, default="")
     begin = model.next_corner(0.0)
     if not name or begin >= scene.duration:

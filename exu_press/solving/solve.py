@@ -11,7 +11,6 @@ from exu_press.integrate import ErrorScales, Outcome, SolverStatus, SolverTuning
 from exu_press.integrate.error import Criterion, default_criteria
 from exu_press.integrate.task import Task
 from exu_press.scene import Scene, mechanism_of
-from exu_press.scene.applied import applied_loads
 from exu_press.solving.advice import SceneAdvice, leapt_over_load
 from exu_press.solving.solvable_model import SolvableModel
 
@@ -91,7 +90,7 @@ def settings_for(scene: Scene, *, keeps_redundant: bool = False) -> exu.Simulati
     integration.endTime = scene.duration
     integration.minimumStepSize = solver.min_step
     integration.verboseMode = 0
-    if any(load.fade is not None for load in applied_loads(scene).values()):
+    if any(load.fade is not None for load in scene.applied_loads.values()):
         integration.computeLoadsJacobian = 2  # by positions and velocities
     integration.generalizedAlpha.spectralRadius = solver.spectral_radius
     # For the 20 to 160 unknowns here no slower than the sparse one, and its matrix is read at once.

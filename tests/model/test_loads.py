@@ -10,7 +10,6 @@ from pressed import FORMING
 
 from exu_press import Scene, simulate
 from exu_press.scene import mechanism_of
-from exu_press.scene.applied import applied_loads
 
 CUSHION = {"kind": "table", "height": [0.0, 0.02], "force": [4e4, 0], "acts": "both"}
 IDEAL = {"joints": {}, "revolutions": 0.5, "solver": {"tolerance": 1e-5}}
@@ -55,7 +54,7 @@ def test_the_drive_takes_out_what_a_load_puts_in(name, free):
     scene = Scene(**IDEAL, load={"one": LOADS[name]})
     result = simulate(scene)
     assert result.completed and free.completed
-    load, speed = applied_loads(scene)["one"], scene.angular_speed
+    load, speed = scene.applied_loads["one"], scene.angular_speed
     angle = speed * result.time
     motion = mechanism_of(scene).motion(angle, speed)
     position, velocity, _ = mechanism_of(scene).ideal_slider(angle, speed)

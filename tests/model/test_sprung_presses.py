@@ -10,7 +10,7 @@ import exu_press
 from exu_press import InputError, Scene, simulate
 from exu_press.mechanism import GROUND, Body, Guide, Joint, Mechanism, Output, shipped_mechanism
 from exu_press.mechanism.springs import GasSpring, LinearSpring
-from exu_press.scene.applied import holding_torque
+from exu_press.scene.holding_torque import holding_torque
 
 GAS = {"area": 0.02, "pressure": 5e5, "volume": 0.05, "exponent": 1.3, "damping": 0.0}
 

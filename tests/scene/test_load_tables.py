@@ -8,7 +8,6 @@ from refused import refused
 
 from exu_press import Scene
 from exu_press.scene import BlankingLoad, TableLoad, mechanism_of
-from exu_press.scene.applied import applied_loads
 from exu_press.scene.warnings import scene_warnings
 
 PULSE = {"kind": "blanking", "force": 1e4}
@@ -29,14 +28,14 @@ def test_any_number_of_loads_by_name():
 
 
 def test_by_default_it_acts_on_the_output_in_its_direction():
-    applied = applied_loads(Scene(mechanism="six_bar", load={"a": PULSE}))["a"]
+    applied = Scene(mechanism="six_bar", load={"a": PULSE}).applied_loads["a"]
     assert (applied.body, applied.point, applied.direction) == ("ram", (0.0, 0.0), (0.0, 1.0))
 
 
 def test_an_offset_is_as_drawn():
     """The linkage is drawn hanging, its x axis downwards: 0.1 m to its right is its +y."""
     load = {"a": {**PULSE, "body": "linkage", "offset": [0.1, 0.0], "direction": [0.0, -2.0]}}
-    applied = applied_loads(Scene(load=load))["a"]
+    applied = Scene(load=load).applied_loads["a"]
     assert applied.point == pytest.approx((0.0, 0.1))
     assert applied.direction == (0.0, -1.0)
 
@@ -91,13 +90,13 @@ def test_a_joint_is_a_place_of_a_rigid_body_too():
     scene = Scene(load={"a": {**PULSE, "joint": "ball_left"}})
     mechanism = mechanism_of(scene)
     ball = next(joint for joint in mechanism.joints if joint.name == "ball_left")
-    assert applied_loads(scene)["a"].point == mechanism.body("slider").local(ball.at)
+    assert scene.applied_loads["a"].point == mechanism.body("slider").local(ball.at)
 
 
 def test_a_force_over_the_height_forms_unless_it_acts_both_ways():
     def fade(**load):
         scene = Scene(mechanism="eccentric_press", speed_rpm=60.0, load={"a": load})
-        return applied_loads(scene)["a"].fade
+        return scene.applied_loads["a"].fade
 
     fastest = 2.0 * math.pi * 0.03  # of the crank pin; the ram is a little faster
     assert fade(**HEIGHT) == pytest.approx(1e-3 * fastest, rel=0.01)
@@ -141,5 +140,5 @@ def test_the_moment_of_a_load_beside_the_centre_of_mass(offset, direction, turne
     pulse = {"kind": "table", "time": [0.0, 1.0], "force": [1.0, 1.0], "body": "slider"}
     load = {**pulse, "offset": list(offset), "direction": list(direction)}
     scene = Scene(mechanism="slider_crank", joints={}, load={"a": load})
-    applied = applied_loads(scene)["a"]
+    applied = scene.applied_loads["a"]
     assert applied.moment(FORCE, np.array([turned]))[0] == pytest.approx(moment, abs=1e-12)

@@ -1,7 +1,6 @@
-"""The loads of a scene on their mechanism, none of which is loaded where there are none."""
+"""The torque with which loads, springs and weights turn a crank."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,21 +9,7 @@ from exu_press.mechanism.spring_motion import spring_motion
 from exu_press.numerics.arrays import Array
 from exu_press.scene.scene import Scene
 
-if TYPE_CHECKING:
-    from exu_press.scene.applied_load import AppliedLoad
-
-__all__ = ["applied_loads", "holding_torque"]
-
-
-def applied_loads(scene: Scene) -> dict[str, "AppliedLoad"]:
-    """Return the loads of a scene that are not zero throughout, by name."""
-    if not scene.load:
-        return {}
-    from exu_press.scene.applied_load import applied_load
-
-    loads = {name: applied_load(load, scene) for name, load in scene.load.items()}
-    # the peak of a load of a result may be unknown
-    return {name: load for name, load in loads.items() if not load.curve.peak <= 0.0}
+__all__ = ["holding_torque"]
 
 
 def holding_torque(
@@ -45,7 +30,7 @@ def holding_torque(
     for body in mechanism.bodies:
         torque += body.mass * scene.gravity * per_angle[body.name].velocity[:, 1]
     closes = mechanism.output_component(per_angle[mechanism.slider].velocity) < 0.0
-    loads = applied_loads(scene) if forces else {}
+    loads = scene.applied_loads if forces else {}
     for name, force in forces.items():
         load = loads[name]
         along = per_angle[load.body].point_motion(load.point).velocity[:, :2]

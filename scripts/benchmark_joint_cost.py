@@ -24,7 +24,7 @@ from exu_press.integrate.system import System
 from exu_press.integrate.task import Task, prepared_settings
 from exu_press.joints import COMPILED
 from exu_press.laws.film import film_scale, pinkus
-from exu_press.solving import settings_for
+from exu_press.model.settings import settings_for
 
 STEP = 1e-5  # s
 PRESS = {

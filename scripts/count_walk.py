@@ -15,7 +15,7 @@ import exu_press
 from exu_press import Scene, simulate
 
 PACKAGE = Path(exu_press.__file__).parent
-ENDS = {"build": "model/assemble.py", "solve": "solving/solve.py", "simulate": "verification/"}
+ENDS = {"build": "model/assemble.py", "solve": "model/model.py", "simulate": "verification/"}
 """Function at whose end the walk is counted -> beginning of its file's path."""
 SCENES = {"ideal joints": Scene(joints={}, revolutions=0.02), "film": Scene(revolutions=0.02)}
 

@@ -92,7 +92,7 @@ def test_a_force_at_the_slider_moves_it_as_the_solids_give_way(crank_model):
     mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVector=[0.0, FORCE, 0.0]))
     mbs.Assemble()
     drive = mbs.GetNodeODE2Index(model.nodes[DRIVE]) + model.rigid[DRIVE].coordinates.index("angle")
-    q, _ = quasi_static_motion(mbs, model.drive, drive, scene.angular_speed)
+    q, _ = quasi_static_motion(mbs, model.forces["drive", "force"], drive, scene.angular_speed)
     moved = float(q[mbs.GetNodeODE2Index(slider) + model.rigid["slider"].coordinates.index("y")])
 
     mechanism, crank_angle = model.mechanism, np.radians(ANGLE)

@@ -1,6 +1,6 @@
 """How a run ended: status and a message that says when, where, why, and what to try.
 
-`Advice` words messages for any system; that of a scene (`exu_press.solving`) names its keys.
+`Advice` words messages for any system; that of a scene (`exu_press.model.advice`) names its keys.
 """
 
 import math

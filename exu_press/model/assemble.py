@@ -9,7 +9,7 @@ import numpy as np
 from exudyn.itemInterface import LoadForceVector, SensorNode
 
 from exu_press.integrate.modal_mass import follow_modes
-from exu_press.joints.joint import ClearanceJoint, States
+from exu_press.joints.joint import States
 from exu_press.mechanism import Body, Motion
 from exu_press.model.constraints import add_drive, add_gear, add_ideal_joint, crank_angle_of
 from exu_press.model.guides import add_guide, add_guide_friction
@@ -18,16 +18,11 @@ from exu_press.model.rigid_body import PivotedBody, RigidBody, SlidingBody
 from exu_press.model.system import System
 from exu_press.scene import IdealJoint, Scene
 from exu_press.scene.holding_torque import holding_torque
-from exu_press.scene.joint import oil_of
 from exu_press.schema.table import plain
 
 if TYPE_CHECKING:
     from exu_press.model.flexible_body import FrameStart
-    from exu_press.model.loads import ActingLoad
     from exu_press.model.placed_part import PlacedPart
-    from exu_press.model.stall import Stall
-    from exu_press.model.start_stop import StartStop
-    from exu_press.model.warm_film import WarmFilm
 
 __all__ = ["build"]
 
@@ -52,15 +47,16 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
     if any(placed.reduced.mode_count for placed in parts.values()):
         from exu_press.model.start import deformed_start
 
-        ideal = System(_ideal_scene(scene), parts)
+        ideal = Model(_ideal_scene(scene), parts)
         _assemble(ideal, {}, {})
         start, frames = deformed_start(ideal, scene.start_speed)
-    system = System(scene, parts)
+    model = Model(scene, parts)
     if scene.start == "loaded" and scene.joints.with_clearance:
         from exu_press.model.loaded_start import moved_start
 
-        start, frames = moved_start(system, start, frames)
-    return _assemble(system, start, frames)
+        start, frames = moved_start(model, start, frames)
+    _assemble(model, start, frames)
+    return model
 
 
 def _ideal_scene(scene: Scene) -> Scene:
@@ -78,83 +74,70 @@ def _ideal_scene(scene: Scene) -> Scene:
 
 
 def _assemble(
-    system: System, start: Mapping[str, Motion], frames: Mapping[str, "FrameStart"]
-) -> Model:
-    """Add the items of a system's scene, and return its assembled model."""
-    mechanism, constraints, joints = system.mechanism, system.constraints, system.scene.joints
-    _add_bodies(system, {**system.ideal, **start}, frames)
-    clearance = _clearance_joints(system) if joints.with_clearance else {}
+    model: Model, start: Mapping[str, Motion], frames: Mapping[str, "FrameStart"]
+) -> None:
+    """Add all items of a model's scene, and assemble them."""
+    mechanism, constraints, scene = model.mechanism, model.constraints, model.scene
+    _add_bodies(model, {**model.ideal, **start}, frames)
+    if scene.joints.with_clearance:
+        _add_clearance_joints(model)
     for joint in mechanism.joints:
         if joint.name in {*constraints.joints, *constraints.single_axis}:
-            add_ideal_joint(system, joint)
-    if system.flexible:
+            add_ideal_joint(model, joint)
+    if model.flexible:
         from exu_press.model.flexible_support import hold_flexible_bodies
 
-        hold_flexible_bodies(system, start)
+        hold_flexible_bodies(model, start)
     for guide in mechanism.guides:
         if guide.name in constraints.guides:
-            add_guide(system, guide)
+            add_guide(model, guide)
     for gear in mechanism.gears:
         if gear.name in constraints.gears:
-            add_gear(system, gear)
+            add_gear(model, gear)
     if mechanism.springs:
         from exu_press.model.springs import add_spring
 
         for spring in mechanism.springs:
-            add_spring(system, spring)
-    guideways = _guideways(system) if any(guide.guideway for guide in mechanism.guides) else {}
-    friction = add_guide_friction(system) if system.scene.guides else {}
-    crank_angle = crank_angle_of(system)
-    start_stop: StartStop | None = None
-    stall: Stall | None = None
-    motor = system.scene.drive
+            add_spring(model, spring)
+    if any(guide.guideway for guide in mechanism.guides):
+        from exu_press.model.guideways import add_guideways
+
+        model.guideways = {
+            guide.name: add_guideways(model, guide, guide.guideway)
+            for guide in mechanism.guides
+            if guide.guideway
+        }
+    if scene.guides:
+        model.guide_friction = add_guide_friction(model)
+    model.crank_angle = crank_angle_of(model)
+    motor = scene.drive
     if motor is not None:
         from exu_press.model.stall import stall_of
 
-        stall = stall_of(motor, system.scene.speed_rpm)
+        model.stall = stall_of(motor, scene.speed_rpm)
     if motor is not None and motor.clutch is not None:
         from exu_press.model.start_stop import add_flywheel, add_start_stop
 
-        add_flywheel(system)
-        start_stop = add_start_stop(system, crank_angle)
-    add_drive(system)
-    loads: dict[str, ActingLoad] = {}
-    if system.loads:
+        add_flywheel(model)
+        model.start_stop = add_start_stop(model, model.crank_angle)
+    add_drive(model)
+    if model.applied_loads:
         from exu_press.model.loads import add_loads
 
-        loads = add_loads(system)
-    if system.flexible:
-        follow_modes(system.mbs)
-    _record_bodies(system)
-    system.mbs.Assemble()
-    if start_stop is not None:
-        begin = np.array([system.scene.start_angle])
-        start_stop.begin(float(holding_torque(mechanism, system.scene, {}, begin)[0]))
-    return Model(
-        scene=system.scene,
-        mechanism=mechanism,
-        constraints=constraints,
-        SC=system.SC,
-        mbs=system.mbs,
-        bodies=system.bodies,
-        nodes=system.nodes,
-        rigid=system.rigid,
-        clearance_joints=clearance,
-        drive=system.forces["drive", "force"],
-        crank_angle=crank_angle,
-        start_stop=start_stop,
-        loads=loads,
-        clocks=system.clocks,
-        ahead=system.ahead,
-        guideways=guideways,
-        guide_friction=friction,
-        sensors=system.sensors,
-        parts=system.parts,
-        warm=_warm_films(system, clearance),
-        states=_states(system.scene, clearance, guideways),
-        stall=stall,
-        scene_items=count_items(system.mbs),
-    )
+        model.loads = add_loads(model)
+    if model.flexible:
+        follow_modes(model.mbs)
+    _record_bodies(model)
+    model.mbs.Assemble()
+    model.scene_items = count_items(model.mbs)
+    if model.start_stop is not None:
+        begin = np.array([scene.start_angle])
+        model.start_stop.begin(float(holding_torque(mechanism, scene, {}, begin)[0]))
+    if scene.warms:
+        from exu_press.model.warm_film import warm_films
+
+        model.warm = warm_films(model.clearance_joints, scene.joints)
+    model.states = _states(model)
 
 
 def _add_bodies(
@@ -226,50 +209,23 @@ def _add_flexible_body(
         system.nodes[f"{name}_modes"] = body.node_modes
 
 
-def _clearance_joints(system: System) -> dict[str, ClearanceJoint]:
-    """Add the joints with clearance; return them by their names."""
+def _add_clearance_joints(system: System) -> None:
+    """Add the joints with clearance."""
     from exu_press.model.clearance_joints import add_clearance_joint
 
-    return {
-        joint.name: add_clearance_joint(system, joint, kind)
-        for joint in system.mechanism.joints
-        if not isinstance(kind := system.scene.joints[joint.name], IdealJoint)
-    }
+    for joint in system.mechanism.joints:
+        kind = system.scene.joints[joint.name]
+        if not isinstance(kind, IdealJoint):
+            system.clearance_joints[joint.name] = add_clearance_joint(system, joint, kind)
 
 
-def _guideways(system: System) -> dict[str, tuple[ClearanceJoint, ...]]:
-    """Add the guideways with clearance; return the contacts of a body's two ends and its film."""
-    from exu_press.model.guideways import add_guideways
-
-    return {
-        guide.name: add_guideways(system, guide, guide.guideway)
-        for guide in system.mechanism.guides
-        if guide.guideway
-    }
-
-
-def _warm_films(
-    system: System, clearance: Mapping[str, ClearanceJoint]
-) -> Mapping[str, "WarmFilm"]:
-    """Return the films whose oil warms."""
-    joints = system.scene.joints
-    if not any(oil_of(joints[name]) for name in clearance):
-        return {}
-    from exu_press.model.warm_film import warm_films
-
-    return warm_films(clearance, joints)
-
-
-def _states(
-    scene: Scene,
-    clearance: Mapping[str, ClearanceJoint],
-    guideways: Mapping[str, tuple[ClearanceJoint, ...]],
-) -> States:
+def _states(system: System) -> States:
     """Return the recorder of the joints' states, and of the friction work of those that wear."""
-    wearing = [clearance[name] for name in scene.wearing["joints"]]
-    wearing += [end for name in scene.wearing["guides"] for end in guideways[name]]
-    ends = [end for contacts in guideways.values() for end in contacts]
-    return States([*clearance.values(), *ends], wearing)
+    wearing, ways = system.scene.wearing, system.guideways
+    rubbing = [system.clearance_joints[name] for name in wearing["joints"]]
+    rubbing += [end for name in wearing["guides"] for end in ways[name]]
+    ends = [end for contacts in ways.values() for end in contacts]
+    return States([*system.clearance_joints.values(), *ends], rubbing)
 
 
 def _record_bodies(system: System) -> None:

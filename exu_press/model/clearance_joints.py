@@ -72,7 +72,7 @@ def interfaces_of(kind: SceneJoint, scene: Scene) -> list[InterfaceLaw]:
 def _film_interface(kind: LubricatedJoint) -> FilmInterface:
     """Return the interface of a film; one with grooves has its table, unless it is inclined."""
     law, sizes = kind.film_law(), (kind.film_scale, kind.clearance)
-    if kind.film.length is None or kind.film.law.kind != "grooved":
+    if not kind.film.law.is_oriented:
         return FilmInterface(law, *sizes)
     from exu_press.joints.oriented import (
         GroovedInterface,
@@ -90,6 +90,7 @@ def _film_interface(kind: LubricatedJoint) -> FilmInterface:
     law.set_table(film_table(law.bearing))
     if not isinstance(law, PressurizedFilm):
         return GroovedInterface(law, *sizes)
+    assert kind.film.length is not None
     law.set_supply_table(supply_table(law.bearing))
     force = kind.film.law.supply_pressure * kind.film.length * kind.radius
     return PressurizedInterface(law, *sizes, force)

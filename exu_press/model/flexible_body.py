@@ -130,7 +130,7 @@ def add_part(system: System, name: str, start: FrameStart) -> FlexibleBody:
             for number, face in enumerate(placed.faces[joint.name] if body == name else ()):
                 position = *placed.to_solid(point), _height(placed, joint, face)
                 points[point_name(joint.name, number)] = face, position
-    for load_name, load in system.loads.items():
+    for load_name, load in system.applied_loads.items():
         for number, face in enumerate(placed.loads[load_name] if load.body == name else ()):
             height = float(placed.reduced.interface(face).centre[2])
             points[load_point(load_name, number)] = face, (*placed.to_solid(load.point), height)

@@ -193,7 +193,7 @@ class _Problem:
             a = moving.acceleration[i]
             fx, fy = mass * a[0], mass * (a[1] + scene.gravity)
             forces[3 * k : 3 * k + 3] = fx, fy, inertia * a[2] + arm[0] * fy - arm[1] * fx
-        for load in self.system.loads.values():
+        for load in self.system.applied_loads.values():
             k = 3 * self.constraints.bodies.index(load.body)
             size = load.force(ANGLES / (speed or math.inf), crank, (height, velocity))
             angle = self.ideal[load.body].position[:, 2]

@@ -112,7 +112,9 @@ class CuttingLoad(ActingLoad):
 def add_loads(system: System) -> dict[str, ActingLoad]:
     """Add every load to its body; return them by name."""
     height = _output_height(system)
-    return {name: _add_load(system, name, load, height) for name, load in system.loads.items()}
+    return {
+        name: _add_load(system, name, load, height) for name, load in system.applied_loads.items()
+    }
 
 
 def _add_load(system: System, name: str, applied: AppliedLoad, height: CurvePosition) -> ActingLoad:

@@ -1,25 +1,27 @@
-"""An assembled Exudyn system with the names of its items."""
+"""A scene's assembled system, and its run."""
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import exudyn as exu
 import numpy as np
 
-from exu_press.integrate import ARRIVED, Outcome, SolverTuning
+from exu_press.integrate import ARRIVED, Outcome, SolverStatus, SolverTuning, solve_dynamic
+from exu_press.integrate.error import default_criteria
+from exu_press.model.advice import SceneAdvice, leapt_over_load
 from exu_press.model.constraints import CrankAngle
-from exu_press.model.rigid_body import RigidBody
+from exu_press.model.settings import scales, settings_for, spring_errors
+from exu_press.model.system import System
+from exu_press.scene import Scene
 from exu_press.scene.holding_torque import holding_torque
-from exu_press.solving import DEFAULTS, SolvableModel, solve
 
 if TYPE_CHECKING:
     from exu_press.joints.guide_friction import GuideFriction
-    from exu_press.laws.sheet import Clock
     from exu_press.mechanism.section import Section
-    from exu_press.model.loads import ActingLoad, CurvePosition
+    from exu_press.model.loads import ActingLoad
     from exu_press.model.placed_part import PlacedPart
     from exu_press.model.stall import Stall
     from exu_press.model.start_stop import StartStop
@@ -27,49 +29,42 @@ if TYPE_CHECKING:
 
 __all__ = ["Model", "count_items"]
 
+DEFAULTS = SolverTuning()
+
 CLOSE = 1e-9
 """rad: a sample that is as close counts as reached."""
 
 
-@dataclass(frozen=True)
-class Model(SolvableModel):
-    """An assembled system with the names of its items.
+class Model(System):
+    """An assembled system, which a run takes to its end; attributes as of `System`, and these.
 
     Attributes:
-        SC: Exudyn's system container; its main system is `mbs`.
-        bodies: name -> object number.
-        rigid: name -> rigid body.
-        drive: object number of the item that turns the crank.
         crank_angle: returns the crank's angle and angular velocity in the current state.
         start_stop: clutch, brake and their schedule, if there is a clutch.
         stall: detects that a press with a motor has stalled.
         loads: name -> acting load.
-        clocks: of pulses and sheets of loads, each with a function that reads its coordinate.
-        ahead: [angle, rad, of a crank at constant speed at time 0 from its start].
-        remembered: memory of the clocks, where the run continues another one.
         guide_friction: name of a body in a guide without clearance -> its friction there.
-        parts: name -> flexible body's part; empty for rigid bodies.
-        scene_items: number of objects and loads of the scene.
         warm: name of a joint -> its film, whose oil warms.
+        scene_items: number of objects and loads of the scene.
+        begin: time of the start, s.
+        first_step: s; 0.0 where the integration finds it.
+        remembered: memory of the clocks, where the run continues another one.
         until: crank angle at which a run with a motor ends, rad; None: it runs to its end time.
     """
 
-    SC: exu.SystemContainer
-    bodies: dict[str, int]
-    rigid: Mapping[str, RigidBody]
-    drive: int
     crank_angle: CrankAngle
-    start_stop: "StartStop | None"
-    stall: "Stall | None"
-    loads: Mapping[str, "ActingLoad"]
-    clocks: "list[tuple[Clock, CurvePosition]]"
-    ahead: list[float]
-    guide_friction: Mapping[str, "GuideFriction"]
-    parts: Mapping[str, "PlacedPart"]
     scene_items: int
-    warm: Mapping[str, "WarmFilm"] = field(default_factory=dict, kw_only=True)
-    remembered: tuple[tuple[float, float | None], ...] = field(default=(), kw_only=True)
-    until: float | None = field(default=None, kw_only=True)
+
+    def __init__(self, scene: Scene, parts: "Mapping[str, PlacedPart]") -> None:
+        super().__init__(scene, parts)
+        self.start_stop: StartStop | None = None
+        self.stall: Stall | None = None
+        self.loads: dict[str, ActingLoad] = {}
+        self.guide_friction: dict[str, GuideFriction] = {}
+        self.warm: Mapping[str, WarmFilm] = {}
+        self.begin = self.first_step = 0.0
+        self.remembered: tuple[tuple[float, float | None], ...] = ()
+        self.until: float | None = None
 
     @property
     def own_items(self) -> int:
@@ -79,6 +74,8 @@ class Model(SolvableModel):
     def solve(self, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
         """Run to the end time or to an early stop; sensors and `states` keep the results.
 
+        Items that were added to `mbs` and assembled take part.
+
         Films whose oil warms keep their temperature; `simulate` updates it between revolutions.
         Items that were added to `mbs`, and assembled, take part.
         `exu_press.result.record(model, outcome)` makes a result of the run.
@@ -87,8 +84,34 @@ class Model(SolvableModel):
             tuning: numbers of the step control.
             quiet: False shows the progress on standard error.
         """
+        scene, solver = self.scene, self.scene.solver
+        masses = {body.name: body.mass for body in self.mechanism.bodies}
+        settings = settings_for(scene, keeps_redundant=self.constraints.keeps_redundant)
+        settings.timeIntegration.startTime = self.begin
+        settings.timeIntegration.endTime = self.begin + scene.duration
+        if solver.tolerance is not None:
+            settings.timeIntegration.initialStepSize = self.first_step
         self.states.clear()
-        return solve(self, tuning=tuning, quiet=quiet)
+        outcome = solve_dynamic(
+            self.mbs,
+            settings,
+            tolerance=solver.tolerance,
+            scales=scales(scene),
+            criteria=lambda task: [*default_criteria(task), *spring_errors(self, task)],
+            next_corner=self.next_corner,
+            watch=self.watch,
+            event=self.event,
+            # modes and drive: excluded from the norm
+            bodies={node: (name, masses.get(name, math.inf)) for name, node in self.nodes.items()},
+            advice=lambda system, by_tolerance: SceneAdvice(self, system, by_tolerance),
+            tuning=tuning,
+            max_steps=solver.max_steps,
+            quiet=quiet,
+        )
+        completed = outcome.status is SolverStatus.COMPLETED
+        if completed and (leapt := leapt_over_load(self, self.next_corner(0.0))):
+            return replace(outcome, status=SolverStatus.UNDER_RESOLVED, reason=leapt)
+        return outcome
 
     def next_corner(self, time: float) -> float:
         """Return the next instant at which a load has a corner or a sample lies, s, or infinity."""

@@ -1,6 +1,5 @@
 """The state at the end of a run, and its continuation by another run."""
 
-from dataclasses import replace
 from typing import Any, NotRequired, TypedDict
 
 import exudyn as exu
@@ -66,8 +65,8 @@ def state_of(model: Model) -> State:
     return state
 
 
-def go_on_from(model: Model, state: State) -> Model:
-    """Return a model that starts in a state, at its time.
+def go_on_from(model: Model, state: State) -> None:
+    """Let a model start in a state, at its time.
 
     Raises:
         InputError: the state belongs to other bodies, joints or modes.
@@ -102,8 +101,8 @@ def go_on_from(model: Model, state: State) -> Model:
             model.warm[name].set_state(temperature, pressure)
     if model.start_stop is not None and "start_stop" in state:
         model.start_stop.recall(state["start_stop"])
-    remembered = tuple(state["clocks"])
-    return replace(model, begin=state["time"], first_step=state["step"], remembered=remembered)
+    model.begin, model.first_step = state["time"], state["step"]
+    model.remembered = tuple(state["clocks"])
 
 
 def _reference(model: Model) -> Array:

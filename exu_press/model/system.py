@@ -1,4 +1,4 @@
-"""An Exudyn system under construction: its bodies by name, and markers and springs on them."""
+"""An Exudyn system of a scene: its items by name, and how to add bodies, markers and springs."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -16,6 +16,7 @@ from exudyn.itemInterface import (
     SensorObject,
 )
 
+from exu_press.joints.joint import ClearanceJoint, States
 from exu_press.mechanism import GROUND, Guide, Joint, Mechanism, Point, Spring
 from exu_press.mechanism.independent_constraints import (
     independent_constraints,
@@ -32,7 +33,7 @@ __all__ = ["System", "carrier_name"]
 
 
 class System:
-    """A system under construction.
+    """A system, under construction or assembled.
 
     Attributes:
         scene: of the system.
@@ -40,7 +41,7 @@ class System:
         mechanism: bodies, joints and guides.
         constraints: independent ones of ideal joints and guides.
         ideal: name -> motion of the ideal mechanism at the start.
-        loads: name -> load.
+        applied_loads: name -> load.
         clocks: of pulses and sheets, updated at the end of every step, each with a function that
             reads its coordinate and rate at a time.
         ahead: [angle, rad, of a crank at constant speed at time 0 from its start]; not 0 where a
@@ -58,6 +59,10 @@ class System:
             moves with the body's face there.
         forces: (name, quantity) -> number of the object that exerts a recorded force or moment.
         sensors: (name, quantity) -> sensor number.
+        clearance_joints: name -> joint.
+        guideways: name of a guide with clearance -> the contacts of a body's two ends, and the film
+            where there is one.
+        states: of clearance joints and guideways at the steps of the last run.
     """
 
     def __init__(self, scene: Scene, parts: Mapping[str, "PlacedPart"]) -> None:
@@ -72,7 +77,7 @@ class System:
         constraints = independent_constraints(self.mechanism, scene.joints.ideal)
         self.constraints = with_all_coordinates(constraints, self.mechanism, bodies)
         self.ideal = self.mechanism.motion(np.array([scene.start_angle]), scene.start_speed)
-        self.loads = {
+        self.applied_loads = {
             name: replace(load, point=parts[load.body].middles.get(name, load.point))
             if load.body in parts
             else load
@@ -95,6 +100,9 @@ class System:
         }
         self.forces: dict[tuple[str, str], int] = {}
         self.sensors: dict[tuple[str, str], int] = {}
+        self.clearance_joints: dict[str, ClearanceJoint] = {}
+        self.guideways: dict[str, tuple[ClearanceJoint, ...]] = {}
+        self.states = States([])
         still = MarkerNodeCoordinate(nodeNumber=self.ground_node, coordinate=0)
         self.still = self.mbs.AddMarker(still)
 

@@ -60,9 +60,9 @@ def block_by_block(
         while True:
             length = min(remaining, longest)
             if model.warm:
-                model, length = _to_next_revolution(model, remaining)
+                length = _to_next_revolution(model, remaining)
             block_of = {"revolutions": length, "settle": 0.0, "solver.max_steps": steps}
-            model = replace(model, scene=scene.replace(block_of))
+            model.scene = scene.replace(block_of)
             block = record(model, model.solve(quiet=quiet))
             if model.warm and block.completed:
                 block = _update_film_temperatures(model, block)
@@ -86,7 +86,7 @@ def block_by_block(
             ended = remaining < _negligible_rest(scene) or model.has_stood(block.info["end_time"])
             if ended or not block.completed or steps < 1:
                 break
-            model = go_on_from(model, state_of(model))
+            go_on_from(model, state_of(model))
     channels_of_run = channels if scene.revolutions > longest else channels.in_memory()
     info: Info = (
         {**_combined_info(infos), "added_revolutions": added} if added else _combined_info(infos)
@@ -131,8 +131,8 @@ def _combined_info(infos: Sequence[Info]) -> Info:
     return combined
 
 
-def _to_next_revolution(model: Model, remaining: float) -> tuple[Model, float]:
-    """Return a model that goes on for one revolution, and its revolutions at the scene's speed.
+def _to_next_revolution(model: Model, remaining: float) -> float:
+    """Let a model go on for one revolution, and return its revolutions at the scene's speed.
 
     Args:
         model: at its start, which may be within a revolution, or at the end of the last one.
@@ -140,14 +140,14 @@ def _to_next_revolution(model: Model, remaining: float) -> tuple[Model, float]:
     """
     solver = model.scene.solver
     if model.scene.drive is None or solver.tolerance is None:
-        return model, min(remaining, 1.0)
+        return min(remaining, 1.0)
     if model.until is not None:
-        return replace(model, until=model.until + TURN), remaining
-    start = model.scene.start_angle
-    completed = math.floor((model.crank_at_start() - start) / TURN + WHOLE)
-    return replace(
-        model, until=start + TURN * (completed + 1)
-    ), remaining  # a motor gets there when it does
+        model.until += TURN
+    else:
+        start = model.scene.start_angle
+        completed = math.floor((model.crank_at_start() - start) / TURN + WHOLE)
+        model.until = start + TURN * (completed + 1)
+    return remaining  # a motor gets there when it does
 
 
 def _update_film_temperatures(model: Model, block: Result) -> Result:

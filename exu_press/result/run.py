@@ -49,7 +49,7 @@ def run_once(
     model = build(scene, quiet=quiet)
     provenance = provenance_of(scene)
     if start is not None:
-        model = go_on_from(model, start)
+        go_on_from(model, start)
     try:
         if scene.revolutions > BLOCK or model.warm:
             from exu_press.result.blocks import block_by_block

@@ -1,11 +1,20 @@
 """[contact]: the normal contact of joints and guides whose surfaces touch, Eqs. 23-26."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from exu_press.errors import InputError
-from exu_press.laws.contact.damping import DAMPING_LAWS, NormalContact
+from exu_press.laws.contact.damping import (
+    NormalContact,
+    flores,
+    gonthier,
+    hu_guo,
+    hunt_crossley,
+    lankarani_nikravesh,
+    step_damping,
+)
 from exu_press.laws.contact.stiffness import Stiffness, cylindrical, hertz, hertz_stiffness
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind
@@ -89,13 +98,14 @@ class StepDamping(ContactDamping):
         self, stiffness: Stiffness, *, tension: bool, usual_slowest: float
     ) -> NormalContact:
         """Return the normal contact; it does not depend on the speed of impact."""
-        return DAMPING_LAWS["step"](stiffness, **plain(self), tension=tension)
+        return step_damping(stiffness, **plain(self), tension=tension)
 
 
 @dataclass(frozen=True)
 class Restitution(ContactDamping):
     """Hysteretic damping, from a wanted restitution."""
 
+    law: ClassVar[Callable[..., NormalContact]]
     restitution: float = key(
         0.9, "wanted restitution", above=0, at_most=1, source="steel pins, Flores et al. 2008"
     )
@@ -113,7 +123,7 @@ class Restitution(ContactDamping):
     ) -> NormalContact:
         """Return the normal contact."""
         slowest = self.slowest_impact or usual_slowest
-        law = DAMPING_LAWS[self.kind]
+        law = type(self).law
         return law(stiffness, self.restitution, tension=tension, slowest_impact=slowest)
 
     def assumed_slowest_impact(self, usual: float) -> float | None:
@@ -125,30 +135,35 @@ class HuntCrossley(Restitution):
     """Hunt and Crossley's."""
 
     registered_name: ClassVar[str] = "hunt_crossley"
+    law = hunt_crossley
 
 
 class LankaraniNikravesh(Restitution):
     """Lankarani and Nikravesh's."""
 
     registered_name: ClassVar[str] = "lankarani_nikravesh"
+    law = lankarani_nikravesh
 
 
 class Flores(Restitution):
     """Flores, Machado, Silva and Martins'."""
 
     registered_name: ClassVar[str] = "flores"
+    law = flores
 
 
 class Gonthier(Restitution):
     """Gonthier, McPhee, Lange and Piedboeuf's."""
 
     registered_name: ClassVar[str] = "gonthier"
+    law = gonthier
 
 
 class HuGuo(Restitution):
     """Hu and Guo's."""
 
     registered_name: ClassVar[str] = "hu_guo"
+    law = hu_guo
 
 
 @dataclass(frozen=True)

@@ -44,6 +44,8 @@ class AlignedAmbientFilm:
     """Relative, of its forces, where they are a table's: 95 % of states are within."""
     flow_error: ClassVar[float] = 0.0
     """The same of the side flow."""
+    is_oriented: ClassVar[bool] = False
+    """Whether it depends on the angle of the eccentricity in the bearing."""
 
     @property
     def errors(self) -> tuple[float, float]:

@@ -55,6 +55,7 @@ class GroovedLaw(FilmLaw):
     length_to_diameter = RANGE
     error: ClassVar[float] = 5e-3
     flow_error: ClassVar[float] = 8e-3
+    is_oriented: ClassVar[bool] = True
     flows_out: ClassVar[bool] = True
 
     grooves: tuple[SupplyGroove, ...] | None = list_of_tables(

@@ -11,9 +11,9 @@ from exu_press.integrate.system import System
 from exu_press.integrate.task import Task, prepared_settings
 from exu_press.joints import user_force_of
 from exu_press.model import build
+from exu_press.model.settings import settings_for
 from exu_press.result import record
 from exu_press.scene import Scene
-from exu_press.solving import settings_for
 from exu_press.studies.precision.cases import Case, Extent
 from exu_press.studies.precision.stated import StatedErrors
 from exu_press.studies.precision.timing import (

@@ -17,7 +17,7 @@ def static_modes(model, body):
     """Return the modal coordinates of a flexible body in its quasi-static motion."""
     mbs, scene = model.mbs, model.scene
     turned = mbs.GetNodeODE2Index(model.nodes["crank"])
-    q, _ = quasi_static_motion(mbs, model.drive, turned, scene.angular_speed)
+    q, _ = quasi_static_motion(mbs, model.forces["drive", "force"], turned, scene.angular_speed)
     return q[mbs.systemData.GetNodeLTGODE2(model.nodes[f"{body}_modes"])]
 
 

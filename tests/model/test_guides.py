@@ -10,8 +10,8 @@ from pressed import by_statics, pressed_slider_crank
 from exu_press import Scene, simulate
 from exu_press.mechanism import Body, Guide, Joint, Mechanism, Output
 from exu_press.mechanism.parts import GROUND
+from exu_press.model.settings import scales
 from exu_press.scene import mechanism_of
-from exu_press.solving import scales
 
 LONG = pytest.mark.long
 MU, FORCE, CLEARANCE = 0.2, 1e5, 2e-5

@@ -9,8 +9,8 @@ from coarse_parts import COARSE
 
 from exu_press import Scene, simulate
 from exu_press.mechanism import Press, mechanism_to_dict, press
+from exu_press.model.settings import scales
 from exu_press.scene import mechanism_of
-from exu_press.solving import scales
 
 GRAVITY = 9.81
 VARIANTS = [

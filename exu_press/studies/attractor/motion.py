@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from exu_press.errors import InputError
+from exu_press.model.settings import scales
 from exu_press.model.state import State
 from exu_press.numerics.arrays import Array
 from exu_press.quantities import quantities_of
@@ -16,7 +17,6 @@ from exu_press.result import Result
 from exu_press.result.run import SHORT, run_once
 from exu_press.scene import Scene
 from exu_press.schema.checks import nearest
-from exu_press.solving.solve import scales
 from exu_press.studies.attractor.lyapunov import BATCHES, Exponent, combine_exponents
 from exu_press.studies.attractor.orbit import NoMotion, Orbit
 from exu_press.studies.attractor.period import MOST, Period, period_of

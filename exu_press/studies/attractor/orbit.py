@@ -3,7 +3,6 @@
 import copy
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -11,13 +10,13 @@ from exu_press.errors import InputError
 from exu_press.integrate import SolverStatus
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.mechanism.parts import DRIVE
-from exu_press.model import Model, build
+from exu_press.model import build
+from exu_press.model.settings import scales
 from exu_press.model.state import State, go_on_from, state_of
 from exu_press.numerics.arrays import Array
 from exu_press.result import Result, record
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.joint import oil_of
-from exu_press.solving.solve import scales
 
 __all__ = ["NoMotion", "Orbit"]
 
@@ -69,7 +68,7 @@ class Orbit:
             )
         length = {"revolutions": MOST_REVOLUTIONS if motor else 1.0, "settle": 0.0}
         self.scene = scene.replace(length)
-        model = build(self.scene)
+        self._model = model = build(self.scene)
         ways = [end for ends in model.guideways.values() for end in ends]
         self._joints: list[ClearanceJoint] = [*model.clearance_joints.values(), *ways]
         speed = scales(scene).speed
@@ -77,7 +76,9 @@ class Orbit:
         self._speed: float = speed
         self._state = state
         self.revolutions = 0
-        self._model = self._towards_section(model if state is None else go_on_from(model, state))
+        if state is not None:
+            go_on_from(model, state)
+        self._aim_at_section()
         self._free = self._free_coordinates()
         if not self._joints and not motor:
             raise InputError(
@@ -120,7 +121,8 @@ class Orbit:
     def set_state(self, state: State) -> None:
         """Continue from another state on the section, at its time."""
         self._state = state
-        self._model = self._towards_section(go_on_from(self._model, state))
+        go_on_from(self._model, state)
+        self._aim_at_section()
 
     def point(self) -> Array:
         """Return the point in the section, (k,), without dimension.
@@ -163,13 +165,13 @@ class Orbit:
             joint[1][1:] = [[], [], []]  # the path's eccentricity, velocity and acceleration
         return state
 
-    def _towards_section(self, model: Model) -> Model:
-        """Return a model on the section that goes on to the next one."""
+    def _aim_at_section(self) -> None:
+        """Let a motor's model, which is on the section, go on to the next one."""
         if self.scene.drive is None:
-            return model
+            return
         turn, start = 2.0 * math.pi, self.scene.start_angle
-        done = round((model.crank_at_start() - start) / turn)
-        return replace(model, until=start + turn * (done + 1))
+        done = round((self._model.crank_at_start() - start) / turn)
+        self._model.until = start + turn * (done + 1)
 
     def _free_coordinates(self) -> Array:
         """Return 1.0 for each coordinate that is free, 0.0 for the crank's and its drive's."""

@@ -5,12 +5,12 @@ from collections.abc import Iterator
 
 from exu_press.integrate import Advice, Outcome
 from exu_press.integrate.resolution import UnresolvedImpact
-from exu_press.integrate.system import System
+from exu_press.integrate.system import System as ExudynSystem
 from exu_press.integrate.task import Task
 from exu_press.joints.joint import ClearanceJoint
+from exu_press.model.system import System
 from exu_press.scene import LubricatedJoint, mechanism_of
 from exu_press.scene.joint import TouchingJoint
-from exu_press.solving.solvable_model import SolvableModel
 
 __all__ = ["SceneAdvice", "leapt_over_load"]
 
@@ -31,7 +31,7 @@ then missed by a tenth at most."""
 class SceneAdvice(Advice):
     """The scene's words: crank angles, and the keys to change."""
 
-    def __init__(self, model: SolvableModel, system: System, by_tolerance: bool) -> None:
+    def __init__(self, model: System, system: ExudynSystem, by_tolerance: bool) -> None:
         super().__init__(system, by_tolerance)
         self._model, self._scene = model, model.scene
 
@@ -114,7 +114,7 @@ class SceneAdvice(Advice):
         solver = self._scene.solver
         if solver.tolerance is not None:
             return f"solver.tolerance = {0.1 * solver.tolerance:.0e}"
-        from exu_press.solving.impact_steps import impact_steps
+        from exu_press.model.impact_steps import impact_steps
 
         needed = min([0.5 * worst.step, *impact_steps(self._model)])
         return f"solver.step = {_rounded_down(needed):.0e}"
@@ -165,10 +165,10 @@ class SceneAdvice(Advice):
         return ""
 
 
-def leapt_over_load(model: SolvableModel) -> str:
+def leapt_over_load(model: System, begin: float) -> str:
     """Return in words that fixed steps are too long for a load, or nothing.
 
-    Steps by tolerance end on its corners.
+    Steps by tolerance end on its corners, of which the first one is at `begin`, s.
     """
     scene, solver = model.scene, model.scene.solver
     if solver.step is None:
@@ -178,13 +178,12 @@ def leapt_over_load(model: SolvableModel) -> str:
         for name, load in scene.applied_loads.items()
     }
     name = min(edges, key=edges.__getitem__, default="")
-    begin = model.next_corner(0.0)
     if not name or begin >= scene.duration:
         return ""
     shortest = edges[name]
     if solver.step <= shortest / STEPS_IN_AN_EDGE * (1.0 + 1e-9):
         return ""
-    advice = SceneAdvice(model, System.of_mbs(model.mbs, None), False)
+    advice = SceneAdvice(model, ExudynSystem.of_mbs(model.mbs, None), False)
     return (
         f"under-resolved {advice.location(begin)}: steps of {solver.step:.2g} s in load.{name} "
         f"with an edge of {shortest:.2g} s; peaks are the step's; try solver.step = "

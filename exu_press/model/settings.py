@@ -1,22 +1,18 @@
 """Settings of the integration from a scene's keys."""
 
-import dataclasses
 import math
 from collections.abc import Iterator
 from functools import partial
 
 import exudyn as exu
 
-from exu_press.integrate import ErrorScales, Outcome, SolverStatus, SolverTuning, solve_dynamic
-from exu_press.integrate.error import Criterion, default_criteria
+from exu_press.integrate import ErrorScales
+from exu_press.integrate.error import Criterion
 from exu_press.integrate.task import Task
+from exu_press.model.system import System
 from exu_press.scene import Scene, mechanism_of
-from exu_press.solving.advice import SceneAdvice, leapt_over_load
-from exu_press.solving.solvable_model import SolvableModel
 
-__all__ = ["DEFAULTS", "scales", "settings_for", "solve"]
-
-DEFAULTS = SolverTuning()
+__all__ = ["scales", "settings_for", "spring_errors"]
 
 FALL = 0.03
 """Least acceleration scale with clearance, over that of free fall: bodies fall through clearances,
@@ -27,53 +23,15 @@ USUAL_STEP = math.radians(1.5)
 """Default of the crank's largest rotation in a step, rad."""
 
 
-def solve(model: SolvableModel, *, tuning: SolverTuning = DEFAULTS, quiet: bool = True) -> Outcome:
-    """Run a model to its end time or to an early stop; its sensors keep the results.
-
-    Args:
-        model: of a scene; items that were added to `model.mbs` and assembled take part.
-        tuning: the numbers of step control, to vary them.
-        quiet: False shows the progress on standard error.
-    """
-    scene = model.scene
-    solver = scene.solver
-    masses = {body.name: body.mass for body in model.mechanism.bodies}
-    settings = settings_for(scene, keeps_redundant=model.constraints.keeps_redundant)
-    settings.timeIntegration.startTime = model.begin
-    settings.timeIntegration.endTime = model.begin + scene.duration
-    if solver.tolerance is not None:
-        settings.timeIntegration.initialStepSize = model.first_step
-    outcome = solve_dynamic(
-        model.mbs,
-        settings,
-        tolerance=solver.tolerance,
-        scales=scales(scene),
-        criteria=lambda task: [*default_criteria(task), *_spring_errors(model, task)],
-        next_corner=model.next_corner,
-        watch=model.watch,
-        event=model.event,
-        # modes and drive: excluded from the norm
-        bodies={node: (name, masses.get(name, math.inf)) for name, node in model.nodes.items()},
-        advice=lambda system, by_tolerance: SceneAdvice(model, system, by_tolerance),
-        tuning=tuning,
-        max_steps=solver.max_steps,
-        quiet=quiet,
-    )
-    leapt = leapt_over_load(model) if outcome.status is SolverStatus.COMPLETED else ""
-    if leapt:
-        return dataclasses.replace(outcome, status=SolverStatus.UNDER_RESOLVED, reason=leapt)
-    return outcome
-
-
-def _spring_errors(model: SolvableModel, task: Task) -> Iterator[Criterion]:
+def spring_errors(system: System, task: Task) -> Iterator[Criterion]:
     """Yield the errors of springs' forces, which ideal joints and guides may bear unmoved."""
-    if not model.mechanism.springs:
+    if not system.mechanism.springs:
         return
     from exu_press.integrate.criteria.interpolated_force import InterpolatedForceError
 
-    for spring in model.mechanism.springs:
-        sensors = [model.sensors[f"spring_{spring.name}", level] for level in ("ends", "velocity")]
-        values = partial(map, model.mbs.GetSensorValues, sensors)
+    for spring in system.mechanism.springs:
+        sensors = [system.sensors[f"spring_{spring.name}", level] for level in ("ends", "velocity")]
+        values = partial(map, system.mbs.GetSensorValues, sensors)
         yield InterpolatedForceError(task, values, spring.force_on_second_end)
 
 

@@ -8,9 +8,9 @@ import numpy as np
 from exu_press.joints.history import history
 from exu_press.laws.contact import NormalContact
 from exu_press.mechanism import GROUND
+from exu_press.model.system import System
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.scene.joint import TouchingJoint
-from exu_press.solving.solvable_model import SolvableModel
 
 __all__ = ["impact_steps"]
 
@@ -18,7 +18,7 @@ STEPS_IN_A_RISE = 3.0
 """So many steps from first touch to the largest force resolve it to some percent."""
 
 
-def impact_steps(model: SolvableModel) -> Iterator[float]:
+def impact_steps(model: System) -> Iterator[float]:
     """Yield the steps that resolve the fastest impact of every joint whose surfaces may touch, s.
 
     The impact of the lighter body alone: bodies that hang on it make the true one slower.

@@ -11,7 +11,7 @@ from exu_press.mechanism.drawing import Drawing, require_kind
 from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.kinematics import kinematics_of
 from exu_press.mechanism.motion import Motion
-from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output, Point
+from exu_press.mechanism.parts import FRAME, Body, Guide, Joint, Output, Point
 from exu_press.mechanism.planar_constraints import PlanarConstraints, planar_constraints
 from exu_press.mechanism.springs import SpringBetween
 from exu_press.numerics.arrays import Array
@@ -91,8 +91,8 @@ class Mechanism(Drawing):
         return max(pins, default=self.size)
 
     def body(self, name: str) -> Body:
-        """Return a body by its name."""
-        return next(body for body in self.bodies if body.name == name)
+        """Return a body by its name, also the frame."""
+        return next(body for body in (*self.bodies, FRAME) if body.name == name)
 
     def guide(self, name: str) -> Guide:
         """Return a guide by its name."""
@@ -104,11 +104,11 @@ class Mechanism(Drawing):
 
     def ends(self, joint: Joint) -> tuple[tuple[str, Point], tuple[str, Point]]:
         """Return (body, point in its frame) of a joint's journal and of its bearing."""
-        journal, bearing = (
-            (name, joint.at if name == GROUND else self.body(name).local(joint.at))
-            for name in (joint.journal, joint.bearing)
-        )
-        return journal, bearing
+        return self.end(joint.journal, joint.at), self.end(joint.bearing, joint.at)
+
+    def end(self, body: str, at: Point) -> tuple[str, Point]:
+        """Return a body, or the frame, and a point of the drawing in its frame."""
+        return body, self.body(body).local(at)
 
     def points(self, body: str) -> list[Point]:
         """Return the positions of a body's joints, pins, and centre in a moving guide, m."""
@@ -118,8 +118,21 @@ class Mechanism(Drawing):
 
     def guided_end(self, guide: Guide) -> tuple[str, Point]:
         """Return a guided body, and in its frame its pin in a slot, or its centre."""
-        at = guide.at
-        return guide.body, (0.0, 0.0) if at is None else self.body(guide.body).local(at)
+        return self.end(guide.body, self.guided_point(guide))
+
+    def guided_point(self, guide: Guide) -> Point:
+        """Return the pin in a slot, or the centre of a body in a guide, in the drawing."""
+        return guide.at or self.body(guide.body).centre_of_mass
+
+    def line_of(self, guide: Guide) -> tuple[Point, float]:
+        """Return a guide's line in the frame of the body that has it.
+
+        Returns:
+            A point of it, or the centre of a circular slot, m, and the angle of its normal, rad.
+        """
+        base, (x, y) = self.body(guide.on), guide.normal
+        point = base.local(guide.centre or self.guided_point(guide))
+        return point, math.atan2(y, x) - base.angle
 
     def motion(self, angle: Array, speed: float) -> dict[str, Motion]:
         """Return the motion (x, y, angle) of every body with ideal joints, by its name.

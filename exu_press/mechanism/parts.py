@@ -7,6 +7,7 @@ from dataclasses import dataclass
 __all__ = [
     "DRIVE",
     "FLYWHEEL",
+    "FRAME",
     "GROUND",
     "PRECISION",
     "ROD",
@@ -63,6 +64,10 @@ class Body:
         x, y = point[0] - self.centre_of_mass[0], point[1] - self.centre_of_mass[1]
         c, s = math.cos(self.angle), math.sin(self.angle)
         return c * x + s * y, c * y - s * x
+
+
+FRAME = Body(GROUND, 0.0)
+"""The frame, whose coordinates are those of the drawing."""
 
 
 @dataclass(frozen=True)
@@ -199,6 +204,11 @@ class Guide:
     def normal(self) -> Point:
         """Unit normal of the guide in the drawing, to the right of its direction."""
         return self.direction[1], -self.direction[0]
+
+    @property
+    def radius(self) -> float | None:
+        """Radius of a circular slot, m; None: the line is straight."""
+        return None if self.at is None or self.centre is None else math.dist(self.at, self.centre)
 
     @property
     def middle_along(self) -> float:

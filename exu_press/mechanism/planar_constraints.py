@@ -14,7 +14,6 @@ Source: E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems
 """
 
 import cmath
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -25,7 +24,7 @@ from numpy.typing import NDArray
 
 from exu_press.mechanism.drawing import Drawing
 from exu_press.mechanism.motion import Motion
-from exu_press.mechanism.parts import GROUND, PRECISION, Body, Joint, Point
+from exu_press.mechanism.parts import FRAME, GROUND, PRECISION, Body, Joint, Point
 from exu_press.numerics.arrays import Array
 
 __all__ = [
@@ -311,7 +310,7 @@ def planar_constraints(
     """Return the constraints of some ideal joints, and of a drawing's guides and gears."""
     size = drawing.size
     index = {body.name: number for number, body in enumerate(bodies)} | {GROUND: len(bodies)}
-    drawn = {body.name: body for body in bodies} | {GROUND: Body(GROUND, 0.0)}
+    drawn = {body.name: body for body in bodies} | {GROUND: FRAME}
 
     def end(name: str, at: Point) -> tuple[int, complex]:
         return index[name], complex(*drawn[name].local(at)) / size
@@ -324,8 +323,8 @@ def planar_constraints(
             body, base = drawn[guide.body], drawn[guide.on]
             at = guide.at or body.centre_of_mass
             ends = *end(guide.body, at), *end(guide.on, guide.centre or at)
-            if guide.centre is not None:
-                yield guide.key, PointOnCircle(*ends, math.dist(at, guide.centre) / size)
+            if guide.radius is not None:
+                yield guide.key, PointOnCircle(*ends, guide.radius / size)
             else:
                 normal = complex(*guide.normal) * cmath.exp(-1j * base.angle)
                 yield guide.key, PointOnLine(*ends, normal)

@@ -47,10 +47,7 @@ class SpringMotion:
 
 def spring_ends(mechanism: Mechanism, spring: SpringBetween) -> list[tuple[str, Point]]:
     """Return (body, point in its frame) of both ends of a spring."""
-    return [
-        (name, at if name == GROUND else mechanism.body(name).local(at))
-        for name, at in zip(spring.between, spring.at, strict=True)
-    ]
+    return [mechanism.end(*end) for end in zip(spring.between, spring.at, strict=True)]
 
 
 def spring_motion(

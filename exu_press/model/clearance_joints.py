@@ -6,7 +6,7 @@ from exu_press.joints.add import add_dry_spherical, add_lubricated_spherical, ad
 from exu_press.joints.interface import DryInterface, FilmInterface, InterfaceLaw
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.laws.friction import no_friction
-from exu_press.mechanism import GROUND, Joint, Point
+from exu_press.mechanism import Joint
 from exu_press.model.system import System
 from exu_press.scene import LubricatedJoint, Scene
 from exu_press.scene.custom import CustomJoint
@@ -22,12 +22,11 @@ __all__ = ["add_clearance_joint", "interfaces_of"]
 
 def add_clearance_joint(system: System, joint: Joint, kind: SceneJoint) -> ClearanceJoint:
     """Add a joint with clearance."""
-    journal, bearing = (_end(system, joint, *end) for end in system.mechanism.ends(joint))
+    journal, bearing = (system.end(*end, joint) for end in system.mechanism.ends(joint))
     if not joint.spherical or not isinstance(kind, TouchingJoint):
         worn = _worn_surfaces(system, joint, kind)
         interfaces = interfaces_of(kind, system.scene)
-        rigid = joint.bearing in system.rigid
-        turned = system.rigid[joint.bearing].frame_angle if rigid else 0.0
+        turned = system.frame_angle(joint.bearing)
         return add_revolute(
             system.mbs, journal, bearing, interfaces, worn=worn, bearing_turned=turned
         )
@@ -103,16 +102,5 @@ def _worn_surfaces(system: System, joint: Joint, kind: SceneJoint) -> "WornSurfa
         return None
     from exu_press.joints.worn import WornSurfaces
 
-    angles = [
-        0.0 if body == GROUND else system.rigid[body].frame_angle
-        for body in (joint.journal, joint.bearing)
-    ]
+    angles = map(system.frame_angle, (joint.journal, joint.bearing))
     return WornSurfaces(*profiles, *angles)
-
-
-def _end(system: System, joint: Joint, body: str, point: Point) -> Any:
-    if body not in system.flexible:
-        return system.end(body, point)
-    from exu_press.model.flexible_body import joint_end
-
-    return joint_end(system, body, joint, point)

@@ -74,7 +74,7 @@ def hold_direction(
     """
     body, local = end
     if body != GROUND:
-        local, angle = system.rigid[body].local(local), angle + system.rigid[body].frame_angle
+        local, angle = system.rigid[body].local(local), angle + system.frame_angle(body)
     frame = exu.HT().Set(RotationMatrixZ(angle), [*local, 0.0])
     marker = MarkerBodyRigid(bodyNumber=system.bodies[body], localHT=frame)
     constraint = ObjectJointGeneric(

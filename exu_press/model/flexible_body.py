@@ -4,7 +4,6 @@ Modes come from fe_models.
 """
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import exudyn as exu
 import numpy as np
@@ -14,10 +13,8 @@ from exudyn.rigidBodyUtilities import (
     RotationMatrixZ,
 )
 
-from exu_press.errors import InputError
-from exu_press.joints.ends import FlexiblePoint
-from exu_press.mechanism import Guide, Joint, Motion, Point
-from exu_press.model.placed_part import PlacedPart, point_name
+from exu_press.mechanism import Guide, Motion
+from exu_press.model.placed_part import PlacedPart
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
 from fe_models import FlexibleBody, add_flexible_body
@@ -27,11 +24,7 @@ __all__ = [
     "FrameStart",
     "add_part",
     "fit_to_guide",
-    "guide_end",
     "guide_points",
-    "guided_motion",
-    "joint_end",
-    "load_point",
     "shift_start",
     "start_from_state",
     "undeformed_start",
@@ -127,13 +120,12 @@ def add_part(system: System, name: str, start: FrameStart) -> FlexibleBody:
     points = {}
     for joint in mechanism.joints:
         for body, point in mechanism.ends(joint):
-            for number, face in enumerate(placed.faces[joint.name] if body == name else ()):
-                position = *placed.to_solid(point), _height(placed, joint, face)
-                points[point_name(joint.name, number)] = face, position
+            for face, moved in placed.joint_points(joint.name) if body == name else ():
+                points[moved] = face, placed.joint_centre(joint, face, point)
     for load_name, load in system.applied_loads.items():
-        for number, face in enumerate(placed.loads[load_name] if load.body == name else ()):
+        for face, moved in placed.load_points(load_name) if load.body == name else ():
             height = float(placed.reduced.interface(face).centre[2])
-            points[load_point(load_name, number)] = face, (*placed.to_solid(load.point), height)
+            points[moved] = face, (*placed.to_solid(load.point), height)
     carriers = {guide_points(guide): face for guide, face in placed.carriers.items()}
     for names, face in (carriers | ({DRIVEN: placed.drive} if placed.drive else {})).items():
         interface = placed.reduced.interface(face)
@@ -158,39 +150,9 @@ def add_part(system: System, name: str, start: FrameStart) -> FlexibleBody:
     )
 
 
-def _height(placed: PlacedPart, joint: Joint, face: str) -> float:
-    """Return the height of a joint's face over the plane, m; balls lie in the plane."""
-    return 0.0 if joint.spherical else float(placed.reduced.interface(face).centre[2])
-
-
-def load_point(load: str, number: int = 0) -> str:
-    """Return the name of the point where a load acts on one of its faces."""
-    return f"load {load} {number + 1}"
-
-
 def guide_points(guide: str) -> tuple[str, str]:
     """Return the names of the points that move with a slot's or a moving guide's face."""
     return f"guide {guide}", f"guide {guide} rim"
-
-
-def joint_end(system: System, name: str, joint: Joint, point: Point) -> Any:
-    """Return the end of a clearance joint that moves with an interface, at a point (x, y).
-
-    Raises:
-        InputError: the joint holds several faces.
-    """
-    body, placed = system.flexible[name], system.parts[name]
-    face, *further = placed.faces[joint.name]
-    if further:
-        raise InputError(
-            f"joints.{joint.name}: holds {1 + len(further)} faces of the flexible "
-            f"{body.reduced.name}; allowed is 'ideal'"
-        )
-    interface = body.reduced.interface(face)
-    centre = np.array([*placed.to_solid(point), _height(placed, joint, face)])
-    if body.node_modes is None:
-        return body.object_number, centre
-    return FlexiblePoint(body.object_number, centre, interface.translation, interface.rotation)
 
 
 def fit_to_guide(
@@ -231,38 +193,3 @@ def fit_to_guide(
         velocity=velocity,
         angular_velocity=omega,
     )
-
-
-def guide_end(system: System, name: str, point: Point) -> Any:
-    """Return an end for guideways with clearance: a point that moves with the guide's faces."""
-    body, placed = system.flexible[name], system.parts[name]
-    position, modes = placed.carried_point((placed.guide,), point)
-    if body.node_modes is None:
-        return body.object_number, position
-    rotation = placed.reduced.interface(placed.guide).rotation
-    return FlexiblePoint(body.object_number, position, modes, rotation)
-
-
-def guided_motion(system: System, name: str) -> tuple[Array, Array]:
-    """Return the guided motion of a body, linear in its coordinates: x, y (m), angle (rad).
-
-    It is the mean motion of the faces in the guide, at the body's centre of mass. In a guide a body
-    hardly turns: the error goes with the square of its tilt.
-
-    Returns:
-        Its values at the reference values of the coordinates, (3,), and its derivatives by the
-        coordinates of the frame and of the modes, (3, coordinates).
-    """
-    body, placed = system.flexible[name], system.parts[name]
-    pose = np.asarray(system.mbs.GetNodeParameter(body.node_rigid, "referenceCoordinates"))
-    rotation = np.asarray(EulerParameters2RotationMatrix(pose[3:]))
-    centre, modes = placed.carried_point((placed.guide,), (0.0, 0.0))
-    arm = rotation @ centre
-    turning = 2.0 * np.array([-pose[6], 0.0, 0.0, pose[3]])
-    rows = np.zeros((3, len(pose) + placed.reduced.mode_count))
-    rows[:2, :2] = np.eye(2)
-    rows[:, 3:7] = np.outer((-arm[1], arm[0], 1.0), turning)
-    rows[:2, 7:] = (rotation @ modes)[:2]
-    rows[2, 7:] = placed.reduced.interface(placed.guide).rotation[2]
-    angle = 2.0 * np.arctan2(pose[6], pose[3]) + placed.angle
-    return np.array([pose[0] + arm[0], pose[1] + arm[1], angle]), rows

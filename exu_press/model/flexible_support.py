@@ -20,7 +20,6 @@ from exudyn.rigidBodyUtilities import RotationMatrixZ
 from exu_press.mechanism import GROUND, Body, Joint, Motion, Point
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model.flexible_body import DRIVEN, guide_points
-from exu_press.model.placed_part import point_name
 from exu_press.model.rigid_body import RigidBody
 from exu_press.model.system import System
 
@@ -76,11 +75,15 @@ def _add_disc(system: System, disc: Body, relaxed: Motion, start: Mapping[str, M
 
 def _hold_pivot(system: System, name: str, pivot: Joint) -> None:
     """Hold a body in the frame by the faces of an ideal joint, numbered where there are several."""
-    mbs, body, faces = system.mbs, system.flexible[name], system.parts[name].faces[pivot.name]
-    for number, face in enumerate(faces):
+    mbs, body, faces = (
+        system.mbs,
+        system.flexible[name],
+        system.parts[name].joint_points(pivot.name),
+    )
+    for number, (face, moved) in enumerate(faces):
         position = [*pivot.at, float(body.reduced.interface(face).centre[2])]
         seat = mbs.AddMarker(MarkerBodyRigid(bodyNumber=system.ground, localPosition=position))
-        ends = [body.add_point_marker(mbs, point_name(pivot.name, number)), seat]
+        ends = [body.add_point_marker(mbs, moved), seat]
         joint = ObjectJointSpherical(
             name=pivot.name if len(faces) == 1 else f"{pivot.name}_{number + 1}",
             markerNumbers=ends if pivot.bearing == GROUND else ends[::-1],

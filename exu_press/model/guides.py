@@ -1,6 +1,5 @@
 """The guides of a system without clearance: constraints or springs, and friction."""
 
-import math
 from typing import TYPE_CHECKING
 
 import exudyn as exu
@@ -16,7 +15,7 @@ from exudyn.itemInterface import (
 )
 
 from exu_press.errors import InputError
-from exu_press.mechanism import GROUND, Body, Guide, Spring
+from exu_press.mechanism import Guide, Spring
 from exu_press.model.constraints import hold_direction
 from exu_press.model.system import System
 from exu_press.numerics.arrays import Array
@@ -53,10 +52,8 @@ def _add_flexible_guide(system: System, guide: Guide) -> None:
 
     Springs are one item with constant matrices; their forces follow from the recorded motion.
     """
-    from exu_press.model.flexible_body import guided_motion
-
     mbs, body = system.mbs, system.flexible[guide.body]
-    values, rows = guided_motion(system, guide.body)
+    values, rows = system.parts[guide.body].guided_motion(mbs, body)
     change = values - system.ideal[guide.body].position[0]
     change[2] = np.remainder(change[2] + np.pi, 2.0 * np.pi) - np.pi
     is_held = dict(zip(("force", "moment"), system.constraints.guides[guide.name], strict=True))
@@ -103,20 +100,16 @@ def _hold_row(system: System, nodes: list[int], row: Array, frame: int, offset: 
 
 def _hold_across(system: System, guide: Guide) -> None:
     """Hold a rigid body along its guide's normal; in the frame linear in the coordinates."""
-    mechanism = system.mechanism
     if not guide.is_rail:
-        (body, on), (_, point) = system.in_guide(guide), mechanism.guided_end(guide)
-        pin = system.marker(body, point)
-        base = Body(GROUND, 0.0) if guide.on_frame else mechanism.body(guide.on)
-        at = guide.at or mechanism.body(guide.body).centre_of_mass
-        if guide.centre is not None:
-            markers = [system.marker(on, base.local(guide.centre)), pin]
-            distance = math.dist(at, guide.centre)
-            circle = ObjectConnectorDistance(markerNumbers=markers, distance=distance)
-            system.record(guide.key, "force", system.mbs.AddObject(circle))
-        else:
-            angle = math.atan2(guide.normal[1], guide.normal[0]) - base.angle
-            hold_direction(system, guide.key, (on, base.local(at)), angle, pin)
+        (body, on), (_, point) = system.in_guide(guide), system.mechanism.guided_end(guide)
+        pin, (line, angle) = system.marker(body, point), system.mechanism.line_of(guide)
+        if guide.radius is None:
+            hold_direction(system, guide.key, (on, line), angle, pin)
+            return
+        circle = ObjectConnectorDistance(
+            markerNumbers=[system.marker(on, line), pin], distance=guide.radius
+        )
+        system.record(guide.key, "force", system.mbs.AddObject(circle))
         return
     rigid = system.rigid[guide.body]
     offset = np.dot(system.mechanism.body(guide.body).centre_of_mass, guide.normal)
@@ -144,15 +137,8 @@ def _turning_line(system: System, guide: Guide) -> "TurningLine":
     """Return the line of a guide on a moving body, by the coordinates of both."""
     from exu_press.joints.guide_line import TurningLine  # few scenes have one
 
-    mechanism = system.mechanism
-    body, base = mechanism.body(guide.body), mechanism.body(guide.on)
     guided, on = (system.rigid[name] for name in system.in_guide(guide))
-    return TurningLine(
-        guided.reference,
-        on.reference,
-        base.local(body.centre_of_mass),
-        math.atan2(guide.normal[1], guide.normal[0]) - base.angle,
-    )
+    return TurningLine(guided.reference, on.reference, *system.mechanism.line_of(guide))
 
 
 def _add_springs_on_body(system: System, guide: Guide, lateral: Spring, tilting: Spring) -> None:
@@ -206,10 +192,8 @@ def _guide_friction(system: System, guide: Guide) -> "GuideFriction":
         nodes = [system.rigid[name].node for name in system.in_guide(guide)]
         line = _turning_line(system, guide)
     elif guide.body in system.flexible:
-        from exu_press.model.flexible_body import guided_motion
-
         body = system.flexible[guide.body]
-        values, rows = guided_motion(system, guide.body)
+        values, rows = system.parts[guide.body].guided_motion(mbs, body)
         missed = float(normal @ (values - system.ideal[guide.body].position[0])[:2])
         nodes = body.nodes
         line = FixedLine(np.array(guide.direction) @ rows[:2], normal @ rows[:2], missed)

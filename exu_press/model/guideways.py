@@ -1,6 +1,5 @@
 """Guideways with clearance: contacts of both ends of a body, and a film between them."""
 
-import math
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from exu_press.joints.add import (
 )
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.laws.contact import hertz
-from exu_press.mechanism import GROUND, Body, Guide, Guideway, Point
+from exu_press.mechanism import Body, Guide, Guideway
 from exu_press.model.system import System
 
 __all__ = ["add_guideways"]
@@ -27,10 +26,10 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
     friction = table.friction_table(scene.friction or {})
     body = system.mechanism.body(guide.body)
     along = np.array(guide.direction)
-    middle = np.array(guide.at or body.centre_of_mass)
+    middle = np.array(system.mechanism.guided_point(guide))
     points = (middle + 0.5 * side * guideway.length * along for side in (-1.0, 1.0))
     guided, _ = system.in_guide(guide)
-    ends = [_end(system, guided, body.local((float(x), float(y)))) for x, y in points]
+    ends = [system.end(guided, body.local((float(x), float(y)))) for x, y in points]
     onset = 0.0 if oil is None else oil.contact_gap
     elastic = hertz(guideway.stiffness, 1.0)
     laws: dict[str, Any] = {
@@ -73,25 +72,13 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
 
 def _add_moving(system: System, guide: Guide, end: Any, **laws: Any) -> ClearanceJoint:
     """Add the contact of a point with the walls of a moving guide, or of a slot."""
-    mechanism = system.mechanism
-    base = Body(GROUND, 0.0) if guide.on_frame else mechanism.body(guide.on)
-    at = guide.at or mechanism.body(guide.body).centre_of_mass
     _, on = system.in_guide(guide)
-    frame_angle = 0.0 if guide.on_frame else system.rigid[on].frame_angle
-    line = base.local(guide.centre or at)
+    line, angle = system.mechanism.line_of(guide)
     return add_moving_guideway_contact(
         system.mbs,
         end,
-        _end(system, on, line),
-        across=math.atan2(guide.normal[1], guide.normal[0]) - base.angle + frame_angle,
-        radius=None if guide.centre is None else math.dist(at, guide.centre),
+        system.end(on, line),
+        across=angle + system.frame_angle(on),
+        radius=guide.radius,
         **laws,
     )
-
-
-def _end(system: System, body: str, point: Point) -> Any:
-    if body not in system.flexible:
-        return system.end(body, point)
-    from exu_press.model.flexible_body import guide_end
-
-    return guide_end(system, body, point)

@@ -132,10 +132,7 @@ def _add_load(system: System, name: str, applied: AppliedLoad, height: CurvePosi
         return [size * x, size * y, 0.0]
 
     if applied.body in system.flexible:
-        from exu_press.model.flexible_body import load_point
-
-        count = len(system.parts[applied.body].loads[name])
-        points = (load_point(name, number) for number in range(count))
+        points = (point for _, point in system.parts[applied.body].load_points(name))
         marker = system.flexible[applied.body].add_point_marker(system.mbs, *points)
     else:
         marker = system.marker(applied.body, applied.point)

@@ -11,9 +11,12 @@ from importlib.util import find_spec
 from math import atan2, cos, degrees, hypot, inf, radians, sin
 from typing import Any
 
+import exudyn as exu
 import numpy as np
+from exudyn.rigidBodyUtilities import EulerParameters2RotationMatrix
 
 from exu_press.errors import InputError, error_prefix
+from exu_press.joints.ends import FlexiblePoint
 from exu_press.mechanism import Body, Joint, Mechanism, Motion, Point
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.threads import one_thread
@@ -30,6 +33,7 @@ from exu_press.terminal.progress import Progress
 from fe_models import (
     CRANK_STEEL,
     Axis,
+    FlexibleBody,
     Interface,
     Material,
     MatrixPart,
@@ -99,6 +103,68 @@ class PlacedPart:
             positions.append([*self.to_solid(point), float(interface.centre[2])])
             modes.append(interface.moved_point(positions[-1])[1])
         return np.mean(positions, axis=0), np.mean(modes, axis=0)
+
+    def joint_points(self, joint: str) -> list[tuple[str, str]]:
+        """Return the interfaces that a joint holds, each with the name of its point."""
+        return [(face, point_name(joint, n)) for n, face in enumerate(self.faces[joint])]
+
+    def load_points(self, load: str) -> list[tuple[str, str]]:
+        """Return the interfaces that carry a load, each with the name of its point."""
+        return [(face, f"load {load} {n}") for n, face in enumerate(self.loads[load], 1)]
+
+    def joint_centre(self, joint: Joint, face: str, point: Point) -> tuple[float, float, float]:
+        """Return a joint's centre on one of its faces in the solid; balls lie in the plane."""
+        height = 0.0 if joint.spherical else float(self.reduced.interface(face).centre[2])
+        return *self.to_solid(point), height
+
+    def joint_end(self, body: FlexibleBody, joint: Joint, point: Point) -> Any:
+        """Return the end of a clearance joint that moves with an interface, at a point (x, y).
+
+        Raises:
+            InputError: the joint holds several faces.
+        """
+        face, *further = self.faces[joint.name]
+        if further:
+            raise InputError(
+                f"joints.{joint.name}: holds {1 + len(further)} faces of the flexible "
+                f"{body.reduced.name}; allowed is 'ideal'"
+            )
+        interface = body.reduced.interface(face)
+        centre = np.array(self.joint_centre(joint, face, point))
+        if body.node_modes is None:
+            return body.object_number, centre
+        return FlexiblePoint(body.object_number, centre, interface.translation, interface.rotation)
+
+    def guide_end(self, body: FlexibleBody, point: Point) -> Any:
+        """Return an end for guideways with clearance, which moves with the guide's faces."""
+        position, modes = self.carried_point((self.guide,), point)
+        if body.node_modes is None:
+            return body.object_number, position
+        rotation = self.reduced.interface(self.guide).rotation
+        return FlexiblePoint(body.object_number, position, modes, rotation)
+
+    def guided_motion(self, mbs: exu.MainSystem, body: FlexibleBody) -> tuple[Array, Array]:
+        """Return the guided motion of a body, linear in its coordinates: x, y (m), angle (rad).
+
+        It is the mean motion of the faces in the guide, at the body's centre of mass. In a guide a
+        body hardly turns: the error goes with the square of its tilt.
+
+        Returns:
+            Its values at the reference values of the coordinates, (3,), and its derivatives by the
+            coordinates of the frame and of the modes, (3, coordinates).
+        """
+        pose = np.asarray(mbs.GetNodeParameter(body.node_rigid, "referenceCoordinates"))
+        rotation = np.asarray(EulerParameters2RotationMatrix(pose[3:]))
+        centre, modes = self.carried_point((self.guide,), (0.0, 0.0))
+        arm = rotation @ centre
+        turning = 2.0 * np.array([-pose[6], 0.0, 0.0, pose[3]])
+        rows = np.zeros((3, len(pose) + self.reduced.mode_count))
+        rows[:2, :2] = np.eye(2)
+        rows[:, 3:7] = np.outer((-arm[1], arm[0], 1.0), turning)
+        rows[:2, 7:] = (rotation @ modes)[:2]
+        rows[2, 7:] = self.reduced.interface(self.guide).rotation[2]
+        angle = 2.0 * np.arctan2(pose[6], pose[3]) + self.angle
+        return np.array([pose[0] + arm[0], pose[1] + arm[1], angle]), rows
 
     def to_solid(self, point: Point) -> Point:
         """Return a point of the body's frame in the solid's, m."""

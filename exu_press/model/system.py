@@ -117,9 +117,21 @@ class System:
         marker = MarkerBodyRigid(bodyNumber=number, localPosition=[*local, 0.0])
         return int(self.mbs.AddMarker(marker))
 
-    def end(self, body: str, point: Point) -> tuple[int, Point]:
-        """Return the object of a rigid body or the frame, and a point of the body in its frame."""
-        return self.bodies[body], point if body == GROUND else self.rigid[body].local(point)
+    def end(self, body: str, point: Point, joint: Joint | None = None) -> Any:
+        """Return the end of a joint, or of guideways, at a point of a body's frame, m.
+
+        Of a rigid body or the frame that is the number of its object, and the point in that.
+        """
+        if body not in self.flexible:
+            return self.bodies[body], point if body == GROUND else self.rigid[body].local(point)
+        placed, flexible = self.parts[body], self.flexible[body]
+        if joint is None:
+            return placed.guide_end(flexible, point)
+        return placed.joint_end(flexible, joint, point)
+
+    def frame_angle(self, body: str) -> float:
+        """Return the angle of a body's frame in that of Exudyn's object, rad."""
+        return self.rigid[body].frame_angle if body in self.rigid else 0.0
 
     def in_guide(self, guide: Guide) -> tuple[str, str]:
         """Return both rigid bodies of a slot or moving guide: a flexible body's is its disc."""
@@ -131,11 +143,8 @@ class System:
         """Add a marker for a joint; on a flexible body it follows its faces' mean motion."""
         if body not in self.flexible:
             return self.marker(body, point)
-        from exu_press.model.placed_part import point_name
-
-        count = len(self.parts[body].faces[joint.name])
-        points = (point_name(joint.name, number) for number in range(count))
-        return self.flexible[body].add_point_marker(self.mbs, *points)
+        points = self.parts[body].joint_points(joint.name)
+        return self.flexible[body].add_point_marker(self.mbs, *(point for _, point in points))
 
     def coordinate(self, body: str, coordinate: str) -> int:
         """Return a marker of a rigid body's "x", "y" or "angle", or of one that stands still."""

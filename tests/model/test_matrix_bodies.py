@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from exudyn.FEM import FEMinterface
 
 import exu_press
 from exu_press import InputError, Scene, simulate
@@ -19,6 +20,7 @@ from fe_models.elasticity import full_model
 pytestmark = pytest.mark.usefixtures("sound_files")
 
 ROD = Path(exu_press.__file__).parent / "scenes" / "six_bar_rod.step"
+ANSYS = Path(__file__).parent / "ansys_rotor"
 PINS = {"rod_pin": (0.015, 0.232), "wrist_pin": (0.043, -0.595)}
 MESH = 0.1
 
@@ -71,6 +73,37 @@ def test_matrices_of_ngsolve_give_the_run_of_the_step_file(matrices, compare):
         expected = from_step.quantity(name).value
         compare(name, expected, result.quantity(name).value, error=None, rel=1e-4, unit="N")
     assert not [name for name in result.channels if "stress" in name]
+
+
+@pytest.mark.validation(
+    "code",
+    "natural frequency of a free rotor, from files that Ansys exported",
+    "Exudyn (jgerstmayr/EXUDYN e44aca1b, TestModels/compareAbaqusAnsysRotorEigenfrequencies.py)",
+    "EXUDYN General License (BSD)",
+)
+def test_an_export_of_ansys_runs(compare, tmp_path):
+    """Half of each matrix is in the solver's order of nodes; numbers of nodes have commas."""
+    files = {name: str(ANSYS / f"{name}.txt") for name in ("nodes", "stiffness", "mass", "order")}
+    fem = FEMinterface()
+    fem.ReadNodalCoordinatesFromAnsys(files["nodes"])
+    fem.ReadStiffnessMatrixFromAnsys(files["stiffness"], files["order"])
+    fem.ReadMassMatrixFromAnsys(files["mass"], files["order"])
+    nodes = fem.GetNodePositionsAsArray()
+    _, y, z = nodes.T
+    ends, pin = (z < 1e-6) | (z > 0.5 - 1e-6), (y > 0.04) & (z > 0.09) & (z < 0.16)
+    sets = {"shaft": np.flatnonzero(ends), "crank_pin": np.flatnonzero(pin)}
+    units = {"length": "m", "mass": "kg", "force": "N"}
+    path, matrices = tmp_path / "rotor.toml", (fem.GetStiffnessMatrix(), fem.GetMassMatrix())
+    write_matrices(path, nodes, *matrices, sets, units=units)
+    crank = {"matrices": str(path), "modes": 8, "method": "free"}
+    size = {"crank_radius": 0.104, "rod_length": 0.8}
+    rotor = Scene(
+        mechanism="slider_crank", slider_crank=size, bodies={"crank": crank}, revolutions=0.1
+    )
+    reduced = placed_parts(rotor)["crank"].reduced
+    compare("frequency", 104.63701055, reduced.frequencies[0], error=None, rel=1e-9, unit="Hz")
+    assert reduced.mass == pytest.approx(77.966, abs=1e-3)  # of 7850 kg/m^3
+    assert simulate(rotor).completed
 
 
 def test_a_set_lies_within_its_pin(matrices):

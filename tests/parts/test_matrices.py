@@ -201,30 +201,3 @@ def test_exudyn_reads_what_abaqus_writes(bar_model, sets, bar_files, tmp_path):
     assert abs(model.nodal_mass - bar_model.nodal_mass).max() < 1e-12
     written = scipy.io.mmread(path.parent / "bar_stiffness.mtx")
     assert abs(written - bar_model.stiffness).max() < 1e-9 * bar_model.stiffness.max()
-
-
-def test_exudyn_reads_what_ansys_writes(bar_model, sets, tmp_path):
-    """*EXPORT in MMF: half of each matrix in the solver's order of nodes, and that order."""
-    count = len(bar_model.nodes)
-    order = np.random.default_rng(0).permutation(count)
-    rows = (3 * order[:, None] + np.arange(3)).ravel()
-    stiffness, mass, mapping = (str(tmp_path / f"{name}.mtx") for name in ("K", "M", "order"))
-    for file, matrix in ((stiffness, bar_model.stiffness), (mass, bar_model.mass)):
-        half = sp.tril(sp.csr_array(matrix)[rows][:, rows])
-        scipy.io.mmwrite(file, half, precision=17, symmetry="general")
-    scipy.io.mmwrite(mapping, order[:, None] + 1)
-    numbered = np.column_stack([np.arange(count) + 1, bar_model.nodes])[order]
-    lines = ["\t".join([f"{int(row[0])}", *(f"{x:.17g}" for x in row[1:])]) for row in numbered]
-    text = "\n".join(["Node Number\tX Location (m)\tY Location (m)\tZ Location (m)", *lines])
-    nodes = tmp_path / "nodes.txt"
-    nodes.write_text(text.replace(".", ","))  # as a German Workbench writes them
-    fem = FEMinterface()
-    fem.ReadNodalCoordinatesFromAnsys(str(nodes))
-    fem.ReadStiffnessMatrixFromAnsys(stiffness, mapping)
-    fem.ReadMassMatrixFromAnsys(mass, mapping)
-    matrices = fem.GetNodePositionsAsArray(), fem.GetStiffnessMatrix(), fem.GetMassMatrix()
-    write_matrices(tmp_path / "bar.toml", *matrices, sets, units=SI)
-    model = matrix_model(MatrixPart(tmp_path / "bar.toml", ENDS))
-    assert model.nodes == pytest.approx(bar_model.nodes)
-    assert abs(model.stiffness - bar_model.stiffness).max() < 1e-9 * bar_model.stiffness.max()
-    assert abs(model.nodal_mass - bar_model.nodal_mass).max() < 1e-12

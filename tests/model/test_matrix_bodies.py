@@ -79,7 +79,7 @@ def test_matrices_of_ngsolve_give_the_run_of_the_step_file(matrices, compare):
     "code",
     "natural frequency of a free rotor, from files that Ansys exported",
     "Exudyn (jgerstmayr/EXUDYN e44aca1b, TestModels/compareAbaqusAnsysRotorEigenfrequencies.py)",
-    "EXUDYN General License (BSD)",
+    "BSD-3-Clause",
 )
 def test_an_export_of_ansys_runs(compare, tmp_path):
     """Half of each matrix is in the solver's order of nodes; numbers of nodes have commas."""

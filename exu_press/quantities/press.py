@@ -112,7 +112,8 @@ def _mean_speed(run: Reading, _: str) -> float | None:
 def _mean_of(channel: str, column: int | None, window: float, run: Reading, _: str) -> float | None:
     """Return the largest mean of a channel, or of one of its columns, over a window, s."""
     values = run[channel]
-    return mean_peak_of(run.time, values if column is None else values[:, column], window)
+    mean = mean_peak_of(run.time, values if column is None else values[:, column], window)
+    return run.at_most_peak(mean, channel, column or 0)
 
 
 DRIVE = (

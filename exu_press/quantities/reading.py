@@ -53,6 +53,13 @@ class Reading:
         """Return the largest magnitude of such a channel, None where the run does not have it."""
         return None if self.channel(name) is None else self.peaks(name).length
 
+    def at_most_peak(self, mean: float | None, channel: str, column: int = 0) -> float | None:
+        """Return the mean of a channel over a window, which may be shorter than steps.
+
+        It is no larger than the peak, which has no oscillation from step to step.
+        """
+        return None if mean is None else min(mean, float(self.peaks(channel).columns[column]))
+
     def once(self, read: Callable[["Reading"], Read]) -> Read:
         """Return a function of this reading, which is called once."""
         if read not in self._computed:

@@ -67,12 +67,14 @@ def _ends(run: Reading) -> tuple[float, float]:
 
 
 def _mean_acceleration(window: float, run: Reading, _: str) -> float | None:
-    return mean_peak(run.time, run["slider_velocity"], window)
+    mean = mean_peak(run.time, run["slider_velocity"], window)
+    return run.at_most_peak(mean, "slider_acceleration")
 
 
 def _differentiated_acceleration(rate: float, run: Reading, _: str) -> float | None:
     position, velocity = run["slider_position"], run["slider_velocity"]
-    return differentiated_peak(run.time, position, velocity, rate)
+    mean = differentiated_peak(run.time, position, velocity, rate)
+    return run.at_most_peak(mean, "slider_acceleration")
 
 
 _SLIDER = (

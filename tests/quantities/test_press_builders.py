@@ -98,6 +98,15 @@ def test_peaks_are_those_of_the_channels(run):
     assert mean < run.quantity("shaking.vertical").value
 
 
+def test_no_mean_over_a_part_of_a_step_is_above_the_peak():
+    """Forces alternate from step to step: their means over 1 ms were 11 % above the peaks."""
+    coarse = {"solver": {"step": 5e-3}, "speed_rpm": 240.0, "revolutions": 1.0}
+    run = simulate(Scene(mechanism="slider_crank", joints={}, **coarse))
+    for direction in ("horizontal", "vertical"):
+        peak, mean = (f"shaking.frame.{direction}{end}" for end in ("", "_mean_1ms"))
+        assert 0.9 * run.quantity(peak).value < run.quantity(mean).value <= run.quantity(peak).value
+
+
 def test_means_are_over_the_last_whole_revolutions(run):
     """Two of the 2.25 revolutions; the drive's power there balances what the rest takes."""
     time = run.time

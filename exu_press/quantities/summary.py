@@ -35,6 +35,9 @@ RESIDUAL = 0.01
 ALIKE = 0.01
 """Difference of a solid, over mass, inertia and the mechanism's size, without a warning."""
 
+CENTRED = 1e-6
+"""Eccentricity ratio below which a journal starts centred; flexible bodies leave 1e-8."""
+
 NEARLY_TOUCHING = 0.95
 """Eccentricity ratio from which a film is thinner than its law is good for."""
 
@@ -112,6 +115,12 @@ def run_warnings(run: Reading) -> list[str]:
                     "laws for smooth surfaces are hardly valid there"
                 )
         texts += _penetration_warnings(name, joint, scene.joints[name])
+    if centred := _centred_joints(run):
+        texts.append(
+            f"{', '.join(centred)}: started centred, not loaded: without an equilibrium position, "
+            "as the load is changing sides or the film hardly turns. First peaks may be those of a "
+            "fall; settle = 1 leaves them out"
+        )
     if scene.drive is not None and scene.drive.stops and still_turns(run):
         speed = float(result["crank_speed"][-1]) * 30.0 / math.pi
         texts.append(
@@ -125,6 +134,17 @@ def run_warnings(run: Reading) -> list[str]:
         *_redundancy_warnings(scene),
         *_solid_warnings(result),
         *scene_warnings(scene),
+    ]
+
+
+def _centred_joints(run: Reading) -> list[str]:
+    """Return the joints without an equilibrium position at a loaded start that figures include."""
+    if run.run.scene.start != "loaded" or run.result.time[0] > run.run.time[0]:
+        return []
+    return [
+        name.replace("_", " ")
+        for name, joint in run.run.joints.items()
+        if joint.kind != "ideal" and joint.distance[0] < CENTRED * joint.clearance
     ]
 
 

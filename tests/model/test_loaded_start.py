@@ -103,6 +103,8 @@ def test_a_film_whose_journal_hardly_turns_starts_centred():
     scene = Scene(mechanism="slider_crank", joints=joints, start_angle_deg=90.0, revolutions=1e-3)
     result = simulate(scene)
     assert np.linalg.norm(result["wrist_pin_eccentricity"][0]) < 1e-9
+    (warning,) = result.summary()["warnings"]
+    assert warning.startswith("wrist pin: started centred, not loaded")
 
 
 def test_the_papers_press_starts_centred():
@@ -179,5 +181,6 @@ def test_a_joint_that_changes_sides_starts_centred(angle, pressed):
     away = np.linalg.norm(result["wrist_pin_eccentricity"][0])
     clearance = result.joints["wrist_pin"].clearance
     assert away > clearance if pressed else away < 1e-6 * clearance
+    assert any("started centred" in text for text in result.summary()["warnings"]) is not pressed
     if not pressed:
         assert np.abs(result["slider_acceleration"]).max() < 50.0

@@ -5,9 +5,11 @@ import gc
 import sys
 import textwrap
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
 from importlib import import_module
+from itertools import chain
 from pathlib import Path
 
 from exu_press.cli.options import (
@@ -34,6 +36,7 @@ from exu_press.result.checkpoint import (
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.assumptions import assumed_line
 from exu_press.scene.warnings import scene_warnings
+from exu_press.terminal.interrupt import postponed_interrupt
 from exu_press.verification.refine import refinements
 from exu_press.verification.simulate import simulate
 from exu_press.verification.within import accuracy_lines, find_tolerance
@@ -250,30 +253,35 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
         remarks = [remark] if remark else []
     if options.start is not None:
         result = _with_start(result, _start_path(options.start))
-    summary = result.summary()
-    remove_pictures(directory, "run")
-
     written = [directory / RESULT, directory / "summary.json"]
+    with ExitStack() as stack:
+        storage = stack.enter_context(ExitStack())
+        storage.enter_context(postponed_interrupt())
+        summary = result.summary()
+        remove_pictures(directory, "run")
 
-    def store() -> None:
-        result.save(written[0])
-        write_json(written[1], summary)
-        if options.quiet:
-            return
-        assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
-        texts = [x for text in remarks for x in textwrap.wrap(text, 100, subsequent_indent="    ")]
-        print("\n".join([*run_lines(result), *texts, *assumed]), flush=True)
-        show_warnings((w for w in summary["warnings"] if w not in doubts), written[1])
+        def show() -> None:
+            assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
+            lines = [textwrap.wrap(text, 100, subsequent_indent="    ") for text in remarks]
+            print("\n".join([*run_lines(result), *chain(*lines), *assumed]), flush=True)
+            show_warnings((w for w in summary["warnings"] if w not in doubts), written[1])
 
-    if options.no_pictures:
-        store()
-    else:
-        from exu_press.plots import save_pictures
+        def store() -> None:
+            result.save(written[0])
+            stack.callback(remove, unfinished)
+            write_json(written[1], summary)
+            if not options.quiet:
+                show()
+            storage.close()
 
-        written += save_pictures(result, directory, meanwhile=store)
-    if not options.quiet:
-        print("written:", ", ".join(path.name for path in written), f"in {directory}")
-    remove(unfinished)
+        if options.no_pictures:
+            store()
+        else:
+            from exu_press.plots import save_pictures
+
+            written += save_pictures(result, directory, meanwhile=store)
+        if not options.quiet:
+            print("written:", ", ".join(path.name for path in written), f"in {directory}")
     if interrupted:
         raise KeyboardInterrupt
     if summary["reason"]:

@@ -1,11 +1,8 @@
 """The run monitor: the one place where Exudyn calls, before, in and after every step."""
 
-import signal
-import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from types import FrameType
 from typing import Any
 
 import exudyn as exu
@@ -23,6 +20,7 @@ from exu_press.integrate.task import Task
 from exu_press.integrate.user_functions import UserFunctions
 from exu_press.integrate.variable_step import VariableStepCorrection
 from exu_press.joints.joint import ClearanceJoint
+from exu_press.terminal.interrupt import handled_interrupt
 from exu_press.terminal.progress import Progress
 
 __all__ = ["RunMonitor"]
@@ -104,7 +102,7 @@ class RunMonitor:
             self._functions.replaced_by(
                 self._before_step, self._before_residual, self._after_newton, self._after_step
             ),
-            self._catching_interrupts(),
+            handled_interrupt(self._interrupt),
         ):
             try:
                 yield
@@ -208,19 +206,6 @@ class RunMonitor:
             self._iteration.currentStepSize = step
         return self.go_on and not self.stalled
 
-    @contextmanager
-    def _catching_interrupts(self) -> Iterator[None]:
+    def _interrupt(self) -> None:
         """Let Ctrl-C end the run after the step under way, so that nothing is lost."""
-        ignored = signal.getsignal(signal.SIGINT) is signal.SIG_IGN
-        if ignored or threading.current_thread() is not threading.main_thread():
-            yield
-            return
-
-        def on_interrupt(number: int, frame: FrameType | None) -> None:
-            self.interrupted = True
-
-        handler = signal.signal(signal.SIGINT, on_interrupt)
-        try:
-            yield
-        finally:
-            signal.signal(signal.SIGINT, handler)
+        self.interrupted = True

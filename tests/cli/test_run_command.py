@@ -2,6 +2,8 @@
 
 import json
 import re
+import signal
+from pathlib import Path
 
 import pytest
 
@@ -110,6 +112,20 @@ def test_the_figures_are_printed_before_the_pictures_are_drawn(tmp_path, capsys,
     arguments = ["run", "slider_crank", "--set", "revolutions=0.01", "--no-error"]
     assert main([*arguments, "--out", str(tmp_path)]) == 0
     assert capsys.readouterr().out.startswith("written: ")
+
+
+def test_ctrl_c_while_a_finished_run_is_stored_loses_nothing(tmp_path, capsys, monkeypatch):
+    def write(file, text, **keys):
+        signal.raise_signal(signal.SIGINT)
+        return file.write_bytes(text.encode())
+
+    monkeypatch.setattr(Path, "write_text", write)
+    arguments = ["run", "slider_crank", "--set", "revolutions=1.01", "--no-error"]
+    assert main([*arguments, "--out", str(tmp_path)]) == 130
+    assert capsys.readouterr().err.endswith("exu-press: interrupted\n")
+    assert json.loads((tmp_path / "summary.json").read_text())["status"] == "completed"
+    assert Result.load(tmp_path / "run.nc").completed
+    assert {path.name for path in tmp_path.iterdir()} == {"run.nc", "summary.json", ".lock"}
 
 
 @pytest.mark.long

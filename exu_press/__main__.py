@@ -1,5 +1,7 @@
 """Entry of `exu-press`: until the command runs, Ctrl-C ends the process quietly."""
 
+import atexit
+import gc
 import signal
 
 __all__ = ["main"]
@@ -14,6 +16,7 @@ def main() -> int:
 
     if usual:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    atexit.register(gc.freeze)  # Python's end looks for cycles in all else, for a tenth of a second
     return run()
 
 

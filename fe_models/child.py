@@ -22,7 +22,17 @@ from typing import Any, BinaryIO, NamedTuple
 from fe_models.errors import DiskFullError, InputError, disk_full
 from fe_models.lazy import named_object
 
-__all__ = ["ANSWER", "DESCRIPTORS", "ERRORS", "REPORT", "Setup", "read", "run_copy", "send"]
+__all__ = [
+    "ANSWER",
+    "DESCRIPTORS",
+    "ERRORS",
+    "OF_PIPES",
+    "REPORT",
+    "Setup",
+    "read",
+    "run_copy",
+    "send",
+]
 
 PR_SET_PDEATHSIG = 1
 """Of prctl(2): the signal that a process gets when its parent ends."""
@@ -35,6 +45,9 @@ ANSWER, REPORT, WRONG_INPUT, NO_ROOM, FAILURE = range(5)
 
 ERRORS = {WRONG_INPUT: InputError, NO_ROOM: DiskFullError}
 """Kind of a message about an error that the parent raises likewise."""
+
+OF_PIPES = "pipe of a child"
+"""Name of a child's threads that read requests and write answers."""
 
 DESCRIPTORS = "/proc/self/fd"
 """Linux's folder of the files and pipes that a process has open."""
@@ -121,8 +134,8 @@ def _perform(setup: Setup, requests: BinaryIO, answers: BinaryIO) -> None:
             resource.setrlimit(resource.RLIMIT_AS, (setup.memory, setup.memory))
     received: SimpleQueue[bytes] = SimpleQueue()
     ready: SimpleQueue[bytes] = SimpleQueue()
-    threading.Thread(target=_receive, args=(requests, received), daemon=True).start()
-    threading.Thread(target=_deliver, args=(answers, ready), daemon=True).start()
+    for serve, of_pipe in ((_receive, (requests, received)), (_deliver, (answers, ready))):
+        threading.Thread(target=serve, args=of_pipe, name=OF_PIPES, daemon=True).start()
 
     def report(*values: Any) -> None:
         ready.put(pickle.dumps((REPORT, values)))

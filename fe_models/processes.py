@@ -31,6 +31,7 @@ __all__ = [
     "TimeLimitError",
     "computed_beside",
     "may_copy",
+    "performed_beside",
     "why_not_copied",
 ]
 
@@ -209,17 +210,31 @@ class Child(AbstractContextManager["Child", None]):
 
 
 @contextmanager
-def computed_beside(function: Callable[[], Value]) -> Iterator[Callable[[], Value]]:
-    """Yield what returns a function's value, on which a copy of this process works meanwhile.
+def performed_beside(
+    function: Callable[..., Value],
+) -> Iterator[Callable[..., Callable[[], Value]]]:
+    """Yield what begins to compute a function of arguments, and returns what returns its value.
 
-    With a single core, or where no copy can run, this process works on it when it is called.
+    A copy of this process computes, in the order of the beginnings; values are asked for in it,
+    too. With a single core, or where no copy can run, this process computes when it is asked.
     """
     if (os.cpu_count() or 1) == 1 or not may_copy():
-        yield function
+        yield partial(partial, function)
         return
     with Child(function) as child:
-        child.request()
-        yield child.answer
+
+        def begin(*arguments: Any) -> Callable[[], Value]:
+            child.request(*arguments)
+            return child.answer
+
+        yield begin
+
+
+@contextmanager
+def computed_beside(function: Callable[[], Value]) -> Iterator[Callable[[], Value]]:
+    """Yield what returns a function's value, as `performed_beside` has begun to compute it."""
+    with performed_beside(function) as begin:
+        yield begin()
 
 
 def may_copy() -> bool:
@@ -230,14 +245,14 @@ def may_copy() -> bool:
 def why_not_copied() -> str:
     """Return why a copy of this process cannot run by itself, or nothing.
 
-    It has this thread alone, so it never gets a lock that another thread holds; NGSolve has
-    threads of its own.
+    It has this thread alone, so it never gets a lock that another thread holds, but those of a
+    child's pipes, which hold none that it needs; NGSolve has threads of its own.
     """
     if sys.platform != "linux" or not Path(DESCRIPTORS).is_dir():
         return f"this is {sys.platform}"
     if "ngsolve" in sys.modules:
         return "NGSolve is loaded"
-    threads = threading.active_count()
+    threads = sum(thread.name != child.OF_PIPES for thread in threading.enumerate())
     return f"there are {threads} threads" if threads > 1 else ""
 
 

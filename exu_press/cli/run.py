@@ -1,14 +1,12 @@
 """Run one scene: summary.json, run.nc and pictures."""
 
 import argparse
-import gc
 import sys
 import textwrap
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from functools import partial
-from importlib import import_module
 from itertools import chain
 from pathlib import Path
 
@@ -22,10 +20,18 @@ from exu_press.cli.options import (
 from exu_press.errors import InputError
 from exu_press.files.digests import file_digest
 from exu_press.files.lock import lock_directory
-from exu_press.files.output_directory import output_directory, remove_pictures, write_json
+from exu_press.files.output_directory import (
+    PICTURES,
+    output_directory,
+    remove_partial,
+    remove_pictures,
+    write_json,
+)
 from exu_press.model.state import State
+from exu_press.plots.format import picture_format
 from exu_press.quantities.table import run_lines
 from exu_press.result import Result
+from exu_press.result.channels import is_on_disk
 from exu_press.result.checkpoint import (
     checkpoint_directory,
     has_blocks,
@@ -40,6 +46,7 @@ from exu_press.terminal.interrupt import postponed_interrupt
 from exu_press.verification.refine import refinements
 from exu_press.verification.simulate import simulate
 from exu_press.verification.within import accuracy_lines, find_tolerance
+from fe_models.processes import performed_beside
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
@@ -150,7 +157,10 @@ def execute(options: argparse.Namespace) -> int:
     if options.figure is not None and options.within is None:
         raise InputError(f"--figure {options.figure}: only together with --within")
     with lock_directory(output_directory(directory_of(options, options.scene))) as directory:
-        return _run(scene, start, directory, options)
+        if options.no_pictures:
+            return _run(scene, start, directory, options, lambda _: list)
+        with _drawing(scene, directory) as begin_to_draw:
+            return _run(scene, start, directory, options, begin_to_draw)
 
 
 def _with_start(result: Result, path: Path) -> Result:
@@ -182,12 +192,7 @@ def _make_room(unfinished: Path, options: argparse.Namespace) -> None:
 
 
 def _run_refined(
-    scene: Scene,
-    start: State | None,
-    unfinished: Path,
-    *,
-    quiet: bool,
-    meanwhile: Callable[[], None],
+    scene: Scene, start: State | None, unfinished: Path, *, quiet: bool
 ) -> tuple[Result, bool, str]:
     """Run a scene, and at finer tolerances where that is needed.
 
@@ -203,12 +208,7 @@ def _run_refined(
     interrupted = False
     try:
         for outcome in refinements(
-            scene,
-            start=start,
-            unfinished=unfinished,
-            quiet=quiet,
-            announce=announce,
-            meanwhile=meanwhile,
+            scene, start=start, unfinished=unfinished, quiet=quiet, announce=announce
         ):
             finished.append(outcome)
     except KeyboardInterrupt:
@@ -219,14 +219,49 @@ def _run_refined(
     return result, interrupted, remark
 
 
-def _load_pictures(options: argparse.Namespace) -> None:
-    """Load what draws pictures, if there are to be any: it takes a fifth of a short run's time."""
-    if not options.no_pictures:
-        import_module("exu_press.plots.save")
-        gc.freeze()  # what is loaded now stays; collections need not go through it
+def _draw(scene: Scene, directory: Path, result: Result | None) -> list[Path]:
+    """Draw a run's pictures; without one, load what draws them, and find what all of them show."""
+    from exu_press.plots import save_pictures
+
+    if result is not None:
+        return save_pictures(result, directory)
+    _ = mechanism_of(scene).dead_centres  # kept
+    return []
 
 
-def _run(scene: Scene, start: State | None, directory: Path, options: argparse.Namespace) -> int:
+@contextmanager
+def _drawing(
+    scene: Scene, directory: Path
+) -> Iterator[Callable[[Result], Callable[[], list[Path]]]]:
+    """Yield what begins to draw a run's pictures, and returns what returns their files.
+
+    A process beside the run loads what draws them meanwhile. A run on the disk is drawn here, as in
+    another process it would be in memory. No half picture is left of a process that is killed.
+    """
+    draw = partial(_draw, scene, directory)
+    try:
+        with performed_beside(draw) as begin:
+            loaded = begin(None)
+
+            def begin_to_draw(result: Result) -> Callable[[], list[Path]]:
+                if is_on_disk(result.channels):
+                    return partial(draw, result)
+                written = begin(result)
+                return lambda: loaded() + written()
+
+            yield begin_to_draw
+    finally:
+        for name in PICTURES["run"]:
+            remove_partial(directory / f"{name}{picture_format().ending}")
+
+
+def _run(
+    scene: Scene,
+    start: State | None,
+    directory: Path,
+    options: argparse.Namespace,
+    begin_to_draw: Callable[[Result], Callable[[], list[Path]]],
+) -> int:
     remarks: list[str] = []
     interrupted = False
     doubts = scene_warnings(scene)
@@ -243,43 +278,25 @@ def _run(scene: Scene, start: State | None, directory: Path, options: argparse.N
             scene, errors=errors, start=start, unfinished=unfinished, quiet=options.quiet
         )
     else:
-        result, interrupted, remark = _run_refined(
-            scene,
-            start,
-            unfinished,
-            quiet=options.quiet,
-            meanwhile=partial(_load_pictures, options),
-        )
+        result, interrupted, remark = _run_refined(scene, start, unfinished, quiet=options.quiet)
         remarks = [remark] if remark else []
     if options.start is not None:
         result = _with_start(result, _start_path(options.start))
     written = [directory / RESULT, directory / "summary.json"]
     with ExitStack() as stack:
-        storage = stack.enter_context(ExitStack())
-        storage.enter_context(postponed_interrupt())
-        summary = result.summary()
-        remove_pictures(directory, "run")
-
-        def show() -> None:
-            assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
-            lines = [textwrap.wrap(text, 100, subsequent_indent="    ") for text in remarks]
-            print("\n".join([*run_lines(result), *chain(*lines), *assumed]), flush=True)
-            show_warnings((w for w in summary["warnings"] if w not in doubts), written[1])
-
-        def store() -> None:
+        with postponed_interrupt():
+            summary = result.summary()
+            remove_pictures(directory, "run")
+            drawn = begin_to_draw(result)
             result.save(written[0])
             stack.callback(remove, unfinished)
             write_json(written[1], summary)
             if not options.quiet:
-                show()
-            storage.close()
-
-        if options.no_pictures:
-            store()
-        else:
-            from exu_press.plots import save_pictures
-
-            written += save_pictures(result, directory, meanwhile=store)
+                assumed = textwrap.wrap(assumed_line(scene), 100, subsequent_indent="  ")
+                lines = [textwrap.wrap(text, 100, subsequent_indent="    ") for text in remarks]
+                print("\n".join([*run_lines(result), *chain(*lines), *assumed]), flush=True)
+                show_warnings((w for w in summary["warnings"] if w not in doubts), written[1])
+        written += drawn()
         if not options.quiet:
             print("written:", ", ".join(path.name for path in written), f"in {directory}")
     if interrupted:

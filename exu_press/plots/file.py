@@ -148,7 +148,6 @@ def draw_figures(
     draws: Mapping[str, Callable[[], Figure]],
     directory: str | Path,
     sources: Mapping[str, Provenance] = MappingProxyType({}),
-    meanwhile: Callable[[], None] = lambda: None,
 ) -> list[Path]:
     """Draw and write each figure under its name, beside each other on the cores; return the files.
 
@@ -156,8 +155,6 @@ def draw_figures(
         draws: functions that return the figures, by name.
         directory: of the files.
         sources: as of `save_figure`.
-        meanwhile: is called when those beside are under way, before the others are drawn; also
-            where they cannot be started, or the user interrupts that.
 
     Raises:
         InputError: a file cannot be written.
@@ -170,10 +167,5 @@ def draw_figures(
     with ExitStack() as stack:
         for name in remaining:  # when its process has ended, which an error or Ctrl-C kills
             stack.callback(remove_partial, Path(directory) / f"{name}{picture_format().ending}")
-        try:
-            beside = [
-                stack.enter_context(computed_beside(partial(write, name))) for name in remaining
-            ]
-        finally:
-            meanwhile()
+        beside = [stack.enter_context(computed_beside(partial(write, name))) for name in remaining]
         return [write(first), *(written() for written in beside)]

@@ -1,6 +1,6 @@
 """The pictures of a run or a comparison, as files."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 
@@ -21,19 +21,12 @@ RUN = "simulated"
 """Label of a run that is drawn alone."""
 
 
-def save_pictures(
-    result: Result, directory: str | Path, meanwhile: Callable[[], None] = lambda: None
-) -> list[Path]:
+def save_pictures(result: Result, directory: str | Path) -> list[Path]:
     """Draw slider, orbit and force of one run, with errors of their peaks; return the files.
 
     Where the picture format asks for everything, press and energy too. There is no orbit of a scene
     without clearance joints, and no energy where the user's own items leave no balance.
     `directory` must exist.
-
-    Args:
-        result: of the run.
-        directory: of the files.
-        meanwhile: is called while pictures are drawn beside it, or before the first one.
 
     Raises:
         InputError: a file cannot be written.
@@ -50,7 +43,7 @@ def save_pictures(
         draws["press"] = partial(press_figure, result)
         if has_balance(result):
             draws["energy"] = partial(energy_figure, result)
-    return draw_figures(draws, directory, sources_of(run), meanwhile)
+    return draw_figures(draws, directory, sources_of(run))
 
 
 def drawn_pictures(result: Result, directory: Path) -> list[Path]:

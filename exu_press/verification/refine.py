@@ -46,7 +46,6 @@ def refinements(
     unfinished: Path | None = None,
     quiet: bool = True,
     announce: Callable[[str], None] = lambda text: None,
-    meanwhile: Callable[[], None] = lambda: None,
 ) -> Iterator[tuple[Result, str]]:
     """Run a scene, and again at finer tolerances while that helps and the budget lasts.
 
@@ -58,15 +57,12 @@ def refinements(
         unfinished: directory in which the first run is while it goes on, see `simulate`; it stays
             there, while finer ones go to a temporary directory.
         announce: is called before a finer run begins, with why, and how long it may take.
-        meanwhile: is called when the first run is done, while its refinements are under way.
 
     Raises:
         KeyboardInterrupt: of Ctrl-C in a finer run; the results before have been yielded.
     """
     begin = time.perf_counter()
-    result = simulate_with_errors(
-        scene, start=start, unfinished=unfinished, quiet=quiet, meanwhile=meanwhile
-    )
+    result = simulate_with_errors(scene, start=start, unfinished=unfinished, quiet=quiet)
     duration = first_duration = time.perf_counter() - begin
     spent = 0.0
     while result.completed and (names := doubtful(result)):

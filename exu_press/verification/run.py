@@ -80,7 +80,6 @@ def simulate_with_errors(
     quiet: bool = True,
     beside: bool = True,
     interruptible: bool = False,
-    meanwhile: Callable[[], None] = lambda: None,
 ) -> Result:
     """Simulate, with refinement runs.
 
@@ -91,7 +90,6 @@ def simulate_with_errors(
             where all cores have their runs already.
         interruptible: Ctrl-C raises KeyboardInterrupt; else it ends the run early, or leaves it
             without errors.
-        meanwhile: is called when the run is done, while refinements beside it are under way.
 
     Returns:
         The result; `info` and summary have `errors`, quantity by quantity, `horizon` and
@@ -104,7 +102,6 @@ def simulate_with_errors(
         run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet)
         if interruptible and run.info["status"] == SolverStatus.INTERRUPTED.value:
             raise KeyboardInterrupt
-        meanwhile()
         return _with_refinements(run, refinements, interruptible=interruptible)
 
 

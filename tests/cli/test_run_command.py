@@ -3,13 +3,17 @@
 import json
 import re
 import signal
+import sys
 from pathlib import Path
 
 import pytest
 
 from exu_press import Result
 from exu_press.cli import main
+from exu_press.errors import InputError
 from exu_press.files.output_directory import PICTURES
+
+linux = pytest.mark.skipif(sys.platform != "linux", reason="no process is copied there")
 
 QUICK = ["--set", "revolutions=0.02", "--no-pictures", "--no-error"]
 KEYS = {
@@ -102,16 +106,24 @@ def test_directory_that_cannot_be_written(tmp_path, capsys):
     assert (tmp_path / "file").read_text() == "kept"
 
 
-def test_the_figures_are_printed_before_the_pictures_are_drawn(tmp_path, capsys, monkeypatch):
-    def draw(result, directory, meanwhile):
-        meanwhile()
-        assert "peak acceleration" in capsys.readouterr().out
-        return []
+@pytest.mark.parametrize("copied", [pytest.param(True, marks=linux), False])
+def test_the_run_is_stored_and_printed_before_its_pictures_are_there(
+    copied, tmp_path, capsys, monkeypatch
+):
+    def draw(result, directory):
+        if not copied:
+            assert "peak acceleration" in capsys.readouterr().out
+        (directory / ".slider.png.half.part").touch()
+        raise InputError("no picture")
 
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    monkeypatch.setattr("fe_models.processes.may_copy", lambda: copied)
     monkeypatch.setattr("exu_press.plots.save_pictures", draw)
     arguments = ["run", "slider_crank", "--set", "revolutions=0.01", "--no-error"]
-    assert main([*arguments, "--out", str(tmp_path)]) == 0
-    assert capsys.readouterr().out.startswith("written: ")
+    assert main([*arguments, "--out", str(tmp_path)]) == 2
+    captured = capsys.readouterr()
+    assert ("peak acceleration" in captured.out) == copied and "no picture" in captured.err
+    assert {path.name for path in tmp_path.iterdir()} == {"run.nc", "summary.json", ".lock"}
 
 
 def test_ctrl_c_while_a_finished_run_is_stored_loses_nothing(tmp_path, capsys, monkeypatch):

@@ -90,9 +90,7 @@ def test_figures_are_drawn_beside_each_other(tmp_path):
     """Sizes, order and provenance are those of one after the other; an error is the picture's."""
     sources = {"simulated": {"version": "1.0"}}
     draws = {f"width{number}": partial(draw_blank, number) for number in (3, 1, 2)}
-    before = []
-    paths = draw_figures(draws, tmp_path, sources, lambda: before.extend(tmp_path.glob("width3*")))
-    assert before == [], "the first one is drawn here, after what is done meanwhile"
+    paths = draw_figures(draws, tmp_path, sources)
     assert [path.name for path in paths] == ["width3.png", "width1.png", "width2.png"]
     for path, number in zip(paths, (3, 1, 2), strict=True):
         with Image.open(path) as image:
@@ -122,14 +120,3 @@ def test_an_error_leaves_no_half_picture_of_those_drawn_beside(tmp_path, monkeyp
     with pytest.raises(InputError, match="no such figure"):
         draw_figures({"first": fail, "slow": SlowFigure}, tmp_path)
     assert list(tmp_path.iterdir()) == []
-
-
-def test_the_run_is_stored_where_no_picture_can_be_drawn_beside(tmp_path, monkeypatch):
-    def interrupt(_):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("exu_press.plots.file.computed_beside", interrupt)
-    stored = []
-    with pytest.raises(KeyboardInterrupt):
-        draw_figures(dict.fromkeys("ab", Figure), tmp_path, meanwhile=lambda: stored.append(1))
-    assert stored == [1]

@@ -43,6 +43,7 @@ from exu_press.mechanism.mechanism import Mechanism
 from exu_press.mechanism.parts import GROUND, Body, Guide, Joint, Output
 from exu_press.mechanism.springs import GasSpring, LinearSpring
 from exu_press.schema.checks import as_float, nearest, refuse_unknown
+from exu_press.schema.table import plain_value
 from exu_press.schema.toml import read_toml, toml_text
 
 __all__ = [
@@ -311,12 +312,8 @@ def _plain(item: Any, required: tuple[str, ...], optional: tuple[str, ...]) -> d
     implied = {"body": getattr(item, "name", None), "on": GROUND}
     values = {key: getattr(item, key) for key in required + optional}
     return {
-        key: _lists(value)
+        key: plain_value(value)
         for key, value in values.items()
         if key in required
         or (value is not None and value is not False and value != implied.get(key))
     }
-
-
-def _lists(value: Any) -> Any:
-    return [*map(_lists, value)] if isinstance(value, tuple) else value

@@ -44,10 +44,11 @@ def motion_in_guide(
         motions: name of a body -> its motion (x, y, angle).
     """
     position, velocity = _on_base(mechanism, guide, motions)
-    if guide.at is None or guide.centre is None:
+    radius = guide.radius
+    if radius is None:
         return position, velocity
     arm = position[:, :2] - np.array(guide.centre)
-    radius, distance = math.dist(guide.at, guide.centre), np.linalg.norm(arm, axis=1)
+    distance = np.linalg.norm(arm, axis=1)
     drawn = math.atan2(guide.normal[1], guide.normal[0])
     turned = np.unwrap(np.arctan2(arm[:, 1], arm[:, 0])) - drawn
     turned -= 2.0 * np.pi * np.round(turned[:1] / (2.0 * np.pi))
@@ -88,10 +89,9 @@ def guide_direction(
     turned = np.zeros(len(motions[guide.body].position))
     if guide.on != GROUND:
         turned = motions[guide.on].position[:, 2] - mechanism.body(guide.on).angle
-    if guide.at is not None and guide.centre is not None:
+    if guide.radius is not None:
         along = motion_in_guide(mechanism, guide, motions)[0][:, :2] - np.array(guide.at)
-        radius = math.dist(guide.at, guide.centre)
-        turned = turned + along @ np.array(guide.direction) / radius
+        turned = turned + along @ np.array(guide.direction) / guide.radius
     return _turn(np.tile(direction, (len(turned), 1)), turned)
 
 
@@ -108,7 +108,7 @@ def guide_path(mechanism: Mechanism, guide: Guide, angle: Array) -> Array:
     try:
         motions = mechanism.motion(angle, 1.0)
     except InputError:
-        return np.array([guide.at or mechanism.body(guide.body).centre_of_mass])
+        return np.array([mechanism.guided_point(guide)])
     return _on_base(mechanism, guide, motions)[0][:, :2]
 
 

@@ -1,7 +1,5 @@
 """Outlines of slots."""
 
-import math
-
 import numpy as np
 
 from exu_press.mechanism.guide_motion import guide_path
@@ -24,12 +22,11 @@ def slot_outline(mechanism: Mechanism, guide: Guide, angle: Array, half_width: f
         angle: (n,) crank angles over which the pin moves, rad.
         half_width: m.
     """
-    assert guide.at is not None
     centre = np.array(guide.centre or (0.0, 0.0))
     arm = guide_path(mechanism, guide, angle) - centre
     along, across = np.array(guide.direction), np.array(guide.normal)
-    at, radius = np.array(guide.at), math.dist(guide.at, guide.centre or guide.at)
-    if guide.centre is None:
+    at, radius = np.array(guide.at), guide.radius
+    if radius is None:
         places = (arm - at) @ along
     else:
         places = radius * np.unwrap(np.arctan2(arm @ along, arm @ across))
@@ -39,12 +36,9 @@ def slot_outline(mechanism: Mechanism, guide: Guide, angle: Array, half_width: f
     walls = []
     for side in (1.0, -1.0):
         s = np.linspace(low, high, ARC)[:: int(side)]
-        if guide.centre is None:
+        if radius is None:
             walls.append(at + np.outer(s, along) + side * half_width * across)
         else:
-            size = radius + side * half_width
-            turned = s / radius
-            walls.append(
-                centre + size * (np.outer(np.cos(turned), across) + np.outer(np.sin(turned), along))
-            )
+            outwards = np.outer(np.cos(s / radius), across) + np.outer(np.sin(s / radius), along)
+            walls.append(centre + (radius + side * half_width) * outwards)
     return np.vstack(walls)

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,29 +14,18 @@ from exu_press.numerics.arrays import Array
 __all__ = ["SpringMotion", "joint_at", "spring_ends", "spring_motion"]
 
 
-@dataclass(frozen=True)
-class SpringMotion:
-    """Motion of a spring over n instants.
-
-    Attributes:
-        ends: from the first end to the second, (n, 2), m.
-        velocity: its rate, (n, 2), m/s.
-        acceleration: the rate of that, (n, 2), m/s^2.
-    """
-
-    ends: Array
-    velocity: Array
-    acceleration: Array
+class SpringMotion(Motion):
+    """Motion of a spring's second end from its first, over n instants."""
 
     @property
     def length(self) -> Array:
         """Distance of its ends, (n,), m."""
-        return np.asarray(np.hypot(*self.ends.T))
+        return np.asarray(np.hypot(*self.position.T))
 
     @property
     def direction(self) -> Array:
         """Unit vector from the first end to the second, (n, 2)."""
-        return self.ends / self.length[:, None]
+        return self.position / self.length[:, None]
 
     @property
     def rate(self) -> Array:

@@ -44,12 +44,12 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
     """
     motion = mechanism.motion(angle, 1.0)
 
-    def path(joint: Joint) -> Array:
-        (body, point), _ = sorted(mechanism.ends(joint), key=lambda end: end[0] == GROUND)
-        return motion[body].point_motion(point).position[:, :2]
-
-    def pin_path(slot: Guide) -> Array:
-        body, point = mechanism.guided_end(slot)
+    def path(element: Joint | Guide) -> Array:
+        if isinstance(element, Guide):
+            ends = [mechanism.guided_end(element)]
+        else:
+            ends = [end for end in mechanism.ends(element) if end[0] != GROUND]
+        body, point = ends[0]
         return motion[body].point_motion(point).position[:, :2]
 
     transmission: dict[str, Array] = {}
@@ -70,7 +70,7 @@ def transmission_angles(mechanism: Mechanism, angle: Array) -> dict[str, Array]:
             if isinstance(holding, Guide):
                 lines.append(guide_direction(mechanism, holding, holding.normal, motion))
             else:
-                lines.append(pin_path(slot) - path(holding))
+                lines.append(path(slot) - path(holding))
             transmission[slot.name] = _acute_angle(*lines)
             continue
         if len(dyad) != 2 or slots:

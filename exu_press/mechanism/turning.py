@@ -72,8 +72,8 @@ def _impossible_springs(mechanism: Mechanism) -> Iterator[Refusal]:
             angle = float(angles[extreme])
             for _ in range(REFINEMENTS):
                 motion = spring_motion(mechanism, spring, mechanism.motion(np.array([angle]), 1.0))
-                slope = float((motion.ends * motion.velocity).sum())
-                curvature = float((motion.velocity**2 + motion.ends * motion.acceleration).sum())
+                slope = float((motion.position * motion.velocity).sum())
+                curvature = (motion.velocity**2 + motion.position * motion.acceleration).sum()
                 if abs(slope) < np.radians(0.5) * abs(curvature):
                     angle -= slope / curvature
             length = float(motion.length[0])

@@ -31,22 +31,18 @@ __all__ = [
 
 IMPORTLIB = import_module.__code__.co_filename
 
-LAWS = {
-    "contact.damping": "scene.contact:DAMPING",
-    "friction.law": "scene.friction:FRICTION",
-    "guide.friction": "scene.friction:FRICTION",
-    "film.law": "scene.film:FILMS",
+PLACES = {
+    r"joints\.[^.]+(\.kind)?": "scene.joint:JOINT_KINDS",
+    r"load\.[^.]+(\.kind)?": "scene.load:LOAD_KINDS",
+    r"guide(\.[^.]+)?\.friction": "scene.friction:FRICTION",
+    r"(joints\.[^.]+\.)?contact\.damping": "scene.contact:DAMPING",
+    r"(joints\.[^.]+\.)?friction\.law": "scene.friction:FRICTION",
+    r"(joints\.[^.]+\.)?film\.law": "scene.film:FILMS",
 }
-"""Keys that name a law -> where the package's own laws are."""
+"""Dotted names of keys of a scene whose values are kinds -> where the package's own kinds are."""
 
-KINDS = {"joints": "scene.joint:JOINT_KINDS", "load": "scene.load:LOAD_KINDS"}
-"""Tables of tables that have a kind -> where the package's own kinds are."""
-
-PLACES = re.compile(
-    r"(?:.*\.)?(?:(?:joints|load)\.[^.]+(?:\.kind)?|guide\.[^.]+\.friction|"
-    rf"{'|'.join(map(re.escape, LAWS))})"
-)
-"""Dotted names of keys whose values are kinds, also where a study varies them."""
+OF_A_STUDY = re.compile(rf"(.*\.)?({'|'.join(PLACES)})")
+"""The same keys where a study varies them."""
 
 
 class UnresolvedName(str):
@@ -156,49 +152,29 @@ def import_kinds(data: Mapping[str, Any]) -> None:
 
 def with_unresolved(data: Mapping[str, Any]) -> dict[str, Any]:
     """Return a result's tables, with an UnresolvedName for each kind whose code is not loaded."""
-    tables: dict[str, Any] = _with_unresolved(data, data, {}, ())
+    tables: dict[str, Any] = _with_unresolved(data, data, {}, "")
     return tables
 
 
 def _with_unresolved(
-    data: Any, scene: Mapping[str, Any], beside: Mapping[str, Any], path: tuple[str, ...]
+    data: Any, scene: Mapping[str, Any], beside: Mapping[str, Any], path: str
 ) -> Any:
-    """Return tables likewise.
-
-    Args:
-        data: of the scene.
-        scene: whole.
-        beside: table that has the data.
-        path: of the data in the scene.
-    """
+    """Return data of a scene, at a dotted path in a table beside others, likewise."""
     if isinstance(data, Mapping):
         return {
-            name: _with_unresolved(value, scene, data, (*path, str(name)))
+            name: _with_unresolved(value, scene, data, f"{path}.{name}" if path else str(name))
             for name, value in data.items()
         }
-    home = _home_of(path) if isinstance(data, str) else None
-    if home is None or data in load_object(home) or is_loaded(data):
+    home = next((home for place, home in PLACES.items() if re.fullmatch(place, path)), None)
+    if not isinstance(data, str) or home is None or data in load_object(home) or is_loaded(data):
         return data
-    tables: list[Any] = [beside if path[-1] == "kind" else {}]
-    if home in LAWS.values():
-        table = home.partition(":")[0].rpartition(".")[2]
-        joints = scene.get("joints")
-        owners = [scene, *(joints.values() if isinstance(joints, Mapping) else ())]
-        tables = [owner.get(table) for owner in owners if isinstance(owner, Mapping)]
+    law, joints = home.partition(":")[0].rpartition(".")[2], scene.get("joints")
+    owners = [scene, *(joints.values() if isinstance(joints, Mapping) else ())]
+    laws = [owner.get(law) for owner in owners if isinstance(owner, Mapping)]
+    tables = [beside] if path.endswith(".kind") else laws
     unresolved = UnresolvedName(data)
     unresolved.keys = frozenset(key for keys in tables if isinstance(keys, Mapping) for key in keys)
     return unresolved
-
-
-def _home_of(path: tuple[str, ...]) -> str | None:
-    """Return where the kinds are that a key of a scene names, or None."""
-    table, inner = path[0], path[2:]
-    if table in KINDS:
-        if len(path) == 2 or inner == ("kind",):
-            return KINDS[table]
-    elif table == "guide" and inner:
-        return LAWS.get(".".join((table, *inner)))
-    return LAWS.get(".".join(path[-2:]))
 
 
 def custom_modules(data: Mapping[str, Any]) -> tuple[str, ...]:
@@ -267,7 +243,7 @@ def _kinds_in(data: Any, path: str = "") -> Iterator[tuple[str, str]]:
     elif isinstance(data, list | tuple):
         for value in data:
             yield from _kinds_in(value, path)
-    elif isinstance(data, str) and PLACES.fullmatch(path):
+    elif isinstance(data, str) and OF_A_STUDY.fullmatch(path):
         yield path, data
 
 

@@ -2,7 +2,6 @@
 
 import dataclasses
 import functools
-import typing
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any, ClassVar, Self, TypeVar
 
@@ -10,7 +9,7 @@ from exu_press.errors import InputError, MissingKeysError, Need, UnusedKeyError,
 from exu_press.lazy import load_object
 from exu_press.schema.checks import checked_value, demand_known, nearest
 from exu_press.schema.kinds import UnresolvedName
-from exu_press.schema.registry import Alternatives
+from exu_press.schema.registry import Alternatives, Choice
 
 __all__ = [
     "RENAMED",
@@ -147,6 +146,18 @@ def nested_table(home: str) -> Any:
     return dataclasses.field(default=None, metadata={"nested": home})
 
 
+def _is_key(field: Field) -> bool:
+    """Return whether a field is a key of its table, also one that chooses a part of it."""
+    meta = field.metadata
+    return "meaning" in meta or not ("part" in meta or "by_name" in meta)
+
+
+@functools.cache
+def _parts(kind: type["Table"]) -> tuple[tuple[Field, Choice | Alternatives], ...]:
+    """Return the fields of a table that are parts of it, each with what chooses it."""
+    return tuple((f, f.metadata["part"]) for f in _fields(kind) if "part" in f.metadata)
+
+
 def _value_of_key(field: Field, name: str, value: Any) -> Any:
     """Return the value of a key in its declared type; raise InputError for one not allowed."""
     if value is not None and "list_of" in field.metadata:
@@ -220,16 +231,10 @@ def _split_tables_by_name(
 
 def used_names(kind: type[Table], name: str, keys: Mapping[str, Any]) -> set[str]:
     """Return the names of the keys that the table of some keys may have."""
-    names: set[str] = set()
-    for field in _fields(kind):
-        selector = field.metadata.get("part")
-        if "by_name" in field.metadata:
-            continue
-        if selector is None or "meaning" in field.metadata:
-            names.add(field.name)
-        if selector is not None:
-            chosen = _kind_of_part(kind, field, name, keys)
-            names |= set() if chosen is None else used_names(chosen, name, keys)
+    names = {field.name for field in _fields(kind) if _is_key(field)}
+    for field, _ in _parts(kind):
+        chosen = _kind_of_part(kind, field, name, keys)
+        names |= set() if chosen is None else used_names(chosen, name, keys)
     return names
 
 
@@ -266,15 +271,9 @@ def _kind_of_part(
 
 def _keys_beside(table: type[Table], chosen: Field) -> set[str]:
     """Return the keys of a table that are not of one of its parts."""
-    names: set[str] = set()
-    for field in _fields(table):
-        if field is chosen:
-            continue
-        names.add(field.name)
-        if "part" in field.metadata:
-            for _, kind in field.metadata["part"].classes():
-                names |= declared_keys(kind).keys()
-    return names
+    names = {field.name for field in _fields(table)} - {chosen.name}
+    kinds = (selector.classes() for field, selector in _parts(table) if field is not chosen)
+    return names.union(*(declared_keys(kind) for classes in kinds for _, kind in classes))
 
 
 def _as_keys(name: str, data: Any) -> Mapping[str, Any]:
@@ -308,11 +307,10 @@ def refuse_unknown_keys(
 
 def _choosing_keys(kind: type[Table], used: Collection[str]) -> Iterator[str]:
     """Yield the keys that choose parts of a table, and of those of its parts that are used."""
-    for field in _fields(kind):
-        selector = field.metadata.get("part")
+    for _, selector in _parts(kind):
         if isinstance(selector, Alternatives):
             yield from filter(None, selector.homes)
-        for _, inner in selector.classes() if selector is not None else ():
+        for _, inner in selector.classes():
             own = {f.name for f in _fields(inner) if "part" not in f.metadata}
             if own <= {*used}:
                 yield from _choosing_keys(inner, used)
@@ -326,16 +324,13 @@ def unused_reason(table: Table, key: str, place_of: Callable[[str], str]) -> str
         key: that another choice of its parts has.
         place_of: dotted names of keys.
     """
-    for field in _fields(type(table)):
-        selector, value = field.metadata.get("part"), getattr(table, field.name)
-        if selector is None:
-            continue
+    for field, selector in _parts(type(table)):
+        value = getattr(table, field.name)
         if value is not None and (reason := unused_reason(value, key, place_of)) is not None:
             return reason
         holders = [name for name, kind in selector.classes() if key in declared_keys(kind)]
         if holders:
-            reason = selector.reason(field.name, place_of, value, holders)
-            return typing.cast(str, reason)
+            return selector.reason(field.name, place_of, value, holders)
     return None
 
 
@@ -371,12 +366,12 @@ def check_keys(
 def key_values(table: Table) -> Iterator[tuple[str, Any, Field]]:
     """Yield every key that a table uses with its value and declaration; of a part its own, too."""
     for field in _fields(type(table)):
-        value, selector = getattr(table, field.name), field.metadata.get("part")
+        value, is_part = getattr(table, field.name), "part" in field.metadata
         if "by_name" in field.metadata:
             yield from ((name, keys, field) for name, keys in value.items())
-        elif selector is None or "meaning" in field.metadata:
-            yield field.name, value if selector is None else value.kind, field
-        if selector is not None and value is not None:
+        elif _is_key(field):
+            yield field.name, value.kind if is_part else value, field
+        if is_part and value is not None:
             yield from key_values(value)
 
 
@@ -384,14 +379,11 @@ def declared_keys(kind: type[Table]) -> Mapping[str, Field]:
     """Return every key that a table may have, of all kinds of its parts, with its declaration."""
     keys: dict[str, Field] = {}
     for field in _fields(kind):
-        if "by_name" in field.metadata:
-            continue
-        selector = field.metadata.get("part")
-        if selector is None or "meaning" in field.metadata:
+        if _is_key(field):
             keys.setdefault(field.name, field)
-        for _, inner in selector.classes() if selector is not None else ():
-            for name, of_part in declared_keys(inner).items():
-                keys.setdefault(name, of_part)
+        if "part" in field.metadata:
+            for _, inner in field.metadata["part"].classes():
+                keys |= {n: f for n, f in declared_keys(inner).items() if n not in keys}
     return keys
 
 
@@ -434,7 +426,7 @@ def need_text(missing: Mapping[str, Field], law: str, where: str) -> str:
 
 
 def _needed_keys(table: Table) -> set[str]:
-    parts = [getattr(table, f.name) for f in _fields(type(table)) if "part" in f.metadata]
+    parts = [getattr(table, field.name) for field, _ in _parts(type(table))]
     return {*table.needed}.union(*(_needed_keys(inner) for inner in parts if inner is not None))
 
 
@@ -533,9 +525,8 @@ def changed_tables(
 def _replaced_keys(kind: type[Table], names: set[str]) -> set[str]:
     """Return the keys of alternatives of a table that give way to those that some keys choose."""
     replaced: set[str] = set()
-    for field in _fields(kind):
-        selector = field.metadata.get("part")
-        kinds = {} if selector is None else dict(selector.classes())
+    for _, selector in _parts(kind):
+        kinds = dict(selector.classes())
         for inner in kinds.values():
             replaced |= _replaced_keys(inner, names)
         if isinstance(selector, Alternatives):

@@ -76,7 +76,7 @@ def test_lengths_follow_the_bodies():
     differences = np.gradient(motion.length, angles, edge_order=2)
     assert motion.rate == pytest.approx(differences, abs=1e-5)
     assert motion.velocity[1:-1] == pytest.approx(
-        np.gradient(motion.ends, angles, axis=0)[1:-1], abs=1e-5
+        np.gradient(motion.position, angles, axis=0)[1:-1], abs=1e-5
     )
 
 

@@ -79,12 +79,7 @@ class MotionError(InputError):
 
 
 class _ConvergenceError(ArithmeticError):
-    """Newton's method did not converge at one of the angles, or constraints contradict each other.
-
-    Attributes:
-        index: of the angle.
-        residuals: of contradictory constraints, (m,), or None.
-    """
+    """Newton's method failed at the angle of an index; residuals (m,) of contradictions, or None."""
 
     def __init__(self, index: int = 0, residuals: Array | None = None) -> None:
         super().__init__()
@@ -232,13 +227,7 @@ class Kinematics:
         return levels, inverse, free
 
     def _motion_error(self, error: _ConvergenceError, angle: float, last: Array) -> MotionError:
-        """Return the error for a crank angle at which constraints cannot be followed.
-
-        Args:
-            error: its cause.
-            angle: of the crank, rad.
-            last: levels (3, 3 n) of the last position that was reached.
-        """
+        """Return the error for a crank angle, rad, with the last levels (3, 3 n) before it."""
         constraints, jacobian = self._constraints, self._constraints.jacobian(last[0])
         jacobian[:, CRANK] = 0.0
         fast = float(np.abs(last[1]).max()) > FAST

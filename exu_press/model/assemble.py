@@ -143,13 +143,7 @@ def _assemble(
 def _add_bodies(
     system: System, start: Mapping[str, Motion], frames: Mapping[str, "FrameStart"]
 ) -> None:
-    """Add every body, with its weight.
-
-    Args:
-        system: with nothing but the frame in it.
-        start: name -> motion at the start.
-        frames: name -> start of the frame of a flexible body that starts deformed.
-    """
+    """Add every body, with its weight; frames are those of flexible bodies that start deformed."""
     gravity = system.scene.gravity
     for body in system.mechanism.bodies:
         if body.name in system.parts:

@@ -129,13 +129,10 @@ class _Problem:
     """A mechanism's constraints and loads over the angles about its start.
 
     Attributes:
-        system: with nothing but the frame in it.
-        constraints: of all joints and guides, in coordinates relative to the mechanism's size.
         scale: units of all coordinates, m and rad.
-        clearance_joints: joints with clearance.
-        films: (m,), which of these have a film.
+        films: (m,), which of the clearance joints have a film.
         ideal: name -> ideal motion at the angles.
-        ideal_q: its coordinates, (k, n).
+        ideal_q: its coordinates, (k, n), relative to the mechanism's size.
     """
 
     def __init__(self, system: System) -> None:

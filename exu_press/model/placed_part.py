@@ -406,13 +406,8 @@ def _part_from_file(
 ) -> tuple[Part | MatrixPart, dict[str, str]]:
     """Return the part of a STEP file or matrices, and patch -> the interface that carries it.
 
-    Args:
-        table: of the flexible body.
-        axes: name of an interface that a joint holds, without a name in the file -> its axis.
-        names: of the interfaces that joints hold.
-        drive: faces that the drive turns.
-        patches: "guide" or "load NAME" -> faces.
-        normal: of the guide, in the solid's frame.
+    Of the interfaces that joints hold those without a name in the file have their axes; the guide's
+    normal is that in the solid's frame.
     """
     driven = [face.name for face in drive if face.name not in names]
     first: dict[tuple[Face, ...], str] = {}  # loads may share a patch

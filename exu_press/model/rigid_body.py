@@ -22,6 +22,8 @@ from exu_press.numerics.arrays import Array
 
 __all__ = ["PivotedBody", "RigidBody", "SlidingBody"]
 
+COORDINATES = ("x", "y", "angle")
+
 
 class RigidBody:
     """A body with all three coordinates.
@@ -34,7 +36,7 @@ class RigidBody:
         frame_angle: angle of the body's frame in that of Exudyn's object, rad.
     """
 
-    coordinates: tuple[str, ...] = ("x", "y", "angle")
+    coordinates: tuple[str, ...] = COORDINATES
     frame_angle = 0.0
 
     def __init__(
@@ -50,16 +52,15 @@ class RigidBody:
                 relaxed; by default those of the start.
         """
         self.reference: Array = start.position[0] if reference is None else reference
-        self.node = int(mbs.AddNode(self._node(body.name, start)))
-        self.number = int(mbs.AddObject(self._item(body)))
-
-    def _node(self, name: str, start: Motion) -> Any:
-        return NodeRigidBody2D(
-            name=name,
-            referenceCoordinates=self.reference,
-            initialCoordinates=start.position[0] - self.reference,
-            initialVelocities=start.velocity[0],
+        columns = [COORDINATES.index(coordinate) for coordinate in self.coordinates]
+        node = (NodeRigidBody2D if len(columns) == len(COORDINATES) else Node1D)(
+            name=body.name,
+            referenceCoordinates=self.reference[columns].tolist(),
+            initialCoordinates=(start.position[0] - self.reference)[columns].tolist(),
+            initialVelocities=start.velocity[0, columns].tolist(),
         )
+        self.node = int(mbs.AddNode(node))
+        self.number = int(mbs.AddObject(self._item(body)))
 
     def _item(self, body: Body) -> Any:
         return ObjectRigidBody2D(
@@ -85,22 +86,7 @@ class RigidBody:
         return Motion(self.reference + q, q_t, q_tt)
 
 
-class _OneCoordinate(RigidBody):
-    """A body with a single coordinate of x, y and angle, by its column."""
-
-    _column = 2
-
-    def _node(self, name: str, start: Motion) -> Any:
-        reference = self.reference[self._column]
-        return Node1D(
-            name=name,
-            referenceCoordinates=[reference],
-            initialCoordinates=[start.position[0, self._column] - reference],
-            initialVelocities=[start.velocity[0, self._column]],
-        )
-
-
-class SlidingBody(_OneCoordinate):
+class SlidingBody(RigidBody):
     """A body in an ideal guide along x or y: its displacement is the only coordinate."""
 
     def __init__(
@@ -112,8 +98,8 @@ class SlidingBody(_OneCoordinate):
         reference: Array | None = None,
     ) -> None:
         """Add the body; arguments as of `RigidBody`, and the guide's direction, along x or y."""
-        self._column = column = 1 if direction[0] == 0.0 else 0
-        self.coordinates = (("x", "y")[column],)
+        column = 1 if direction[0] == 0.0 else 0
+        self.coordinates = (COORDINATES[column],)
         self._along = np.eye(3)[column]
         super().__init__(mbs, body, start, reference)
         self.frame_angle = float(self.reference[2] - math.atan2(self._along[1], self._along[0]))
@@ -149,7 +135,7 @@ class SlidingBody(_OneCoordinate):
         return Motion(self.reference + shift, *rates)
 
 
-class PivotedBody(_OneCoordinate):
+class PivotedBody(RigidBody):
     """A body on an ideal pivot of the frame: its angle is the only coordinate."""
 
     coordinates: tuple[str, ...] = ("angle",)

@@ -112,8 +112,7 @@ def _changed_joint(
 ) -> dict[str, Any]:
     """Return the keys of a joint with others, also with those of its laws.
 
-    Those that only its former kind has give way to another kind. A list of which one entry changes
-    is that of the scene's law, unless the joint has its own.
+    A list of which one entry changes is that of the scene's law, unless the joint has its own.
     """
     keys = dict(joint or {})
     if (kind := changes.get("kind")) is not None:

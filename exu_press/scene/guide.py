@@ -2,7 +2,7 @@
 
 import dataclasses
 import functools
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -28,25 +28,6 @@ from exu_press.schema.table import (
 )
 
 __all__ = ["ElasticGuide", "ElasticSupport", "GuideOil", "GuidewaySupport"]
-
-
-class GuideFrictionKinds(Registry):
-    """The laws of friction, each with the keys that guides have of their own."""
-
-    def __init__(self) -> None:
-        super().__init__(dict.fromkeys(FRICTION, ""))
-
-    def __getitem__(self, name: Any) -> type[Any]:
-        return _of_guides(FRICTION[name])
-
-    def all_kinds(self) -> Iterator[tuple[Any, type[Any]]]:
-        """Yield name and keys of all laws of friction."""
-        yield from ((name, _of_guides(law)) for name, law in FRICTION.all_kinds())
-
-    def find(self, key: str, name: Any, keys: Collection[str] = ()) -> type[Any] | None:
-        """Return the kind of a name, or None; arguments and errors as those of `Registry`."""
-        law = FRICTION.find(key, name, [key for key in keys if key in OF_GUIDES])
-        return None if law is None else _of_guides(law)
 
 
 @dataclass(frozen=True)
@@ -234,7 +215,9 @@ class ElasticGuide(Table):
         }
     )
     friction: GuideFriction = choice(
-        "none", "law of friction, whose further keys are those of [friction]", GuideFrictionKinds()
+        "none",
+        "law of friction, whose further keys are those of [friction]",
+        Registry(FRICTION.homes, FRICTION.base, _of_guides),
     )
     by_name: Mapping[str, Mapping[str, Any]] = tables_by_name()
 

@@ -151,16 +151,12 @@ class TouchingJoint(Joint):
             with error_prefix("friction."):
                 self.friction.friction()
 
-    @property
-    def film_length(self) -> float | None:
-        """Length of its film, m, or None."""
-        return None if self.film is None else self.film.length
-
     def normal_contact(self, crank_speed: float) -> "NormalContact | None":
         """Return the normal contact at a speed of the crank, rad/s; None without a known one."""
         if self.contact is None or not self.contact.damping.resolved:
             return None
-        elastic = self.contact.elastic_force(self.radius, self.clearance, self.film_length)
+        length = None if self.film is None else self.film.length
+        elastic = self.contact.elastic_force(self.radius, self.clearance, length)
         return self.contact.normal_contact(elastic, self.clearance, crank_speed)
 
 

@@ -226,10 +226,7 @@ class Scene(Table):
         object.__setattr__(self, "guides", guides)
 
     def _settle_joints(self) -> list[Need]:
-        """Complete every joint of the mechanism, and return which keys joints and guides lack.
-
-        A law that no joint has is refused.
-        """
+        """Complete every joint of the mechanism, and return which keys joints and guides lack."""
         mechanism = mechanism_of(self)
         usual = mechanism.defaults
         tables = usual.get("joints", {}) if self.joints is None else self.joints
@@ -301,13 +298,7 @@ class Scene(Table):
             yield "friction", {"law": guide.friction.kind}
 
     def _settle_law(self, law: str, laws: LawKeys, unused: str) -> None:
-        """Complete the keys of a law; those that no joint and no guide uses are refused.
-
-        Args:
-            law: "contact", "friction" or "film".
-            laws: the keys that are given.
-            unused: why no joint has this law, or nothing.
-        """
+        """Complete a law's keys; refuse those unused, with the reason why no joint has the law."""
         of_guides = {}
         if law != "film" and self._guide_tables:
             of_guides = self.law_keys_of_guides(law, laws.keys_of(law))

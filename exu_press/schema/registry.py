@@ -28,34 +28,40 @@ PlaceOf = Callable[[str], str]
 class Registry(Mapping[Any, type[Any]]):
     """Name of a kind -> its dataclass, whose module is imported when a scene names it."""
 
-    def __init__(self, homes: Mapping[Any, str], base: str = "") -> None:
+    def __init__(
+        self,
+        homes: Mapping[Any, str],
+        base: str = "",
+        convert: Callable[[Any], type[Any]] = lambda kind: kind,
+    ) -> None:
         """Take "module:Class" for each name.
 
         Args:
             homes: within this package.
             base: class that kinds of other distributions and of users are derived from, likewise;
                 "" where there are none.
+            convert: class -> the dataclass that stands for it.
         """
-        self._homes, self._base = dict(homes), base
+        self.homes, self.base, self._convert = dict(homes), base, convert
 
     def __getitem__(self, name: Any) -> type[Any]:
-        kind: type[Any] = load_object(self._homes[name])
-        return kind
+        return self._convert(load_object(self.homes[name]))
 
     def __contains__(self, name: object) -> bool:
-        return any(name == known and type(name) is type(known) for known in self._homes)
+        return any(name == known and type(name) is type(known) for known in self.homes)
 
     def __iter__(self) -> Iterator[Any]:
-        return iter(self._homes)
+        return iter(self.homes)
 
     def __len__(self) -> int:
-        return len(self._homes)
+        return len(self.homes)
 
     def all_kinds(self) -> Iterator[tuple[Any, type[Any]]]:
         """Yield name and dataclass of all kinds, also of those from elsewhere that are loaded."""
         yield from self.items()
-        if self._base:
-            yield from ((kind_name(kind), kind) for kind in loaded_kinds(load_object(self._base)))
+        if self.base:
+            kinds = loaded_kinds(load_object(self.base))
+            yield from ((kind_name(kind), self._convert(kind)) for kind in kinds)
 
     def choose(self, key: str, name: Any, keys: Collection[str] = ()) -> type[Any]:
         """Return the kind of a name, as `find` does; raise InputError where there is none."""
@@ -79,21 +85,20 @@ class Registry(Mapping[Any, type[Any]]):
         """
         if name in self:
             return self[name]
-        if isinstance(name, UnresolvedName) and self._base and not is_loaded(name):
-            return _unresolved_kind(
-                load_object(self._base), name, tuple(sorted(name.keys & {*keys}))
-            )
-        return custom_class(key, name, load_object(self._base)) if self._base else None
+        if not self.base:
+            return None
+        base = load_object(self.base)
+        if isinstance(name, UnresolvedName) and not is_loaded(name):
+            return self._convert(_unresolved_kind(base, name, tuple(sorted(name.keys & {*keys}))))
+        kind = custom_class(key, name, base)
+        return None if kind is None else self._convert(kind)
 
 
 @functools.cache
 def _unresolved_kind(base: Any, name: UnresolvedName, keys: tuple[str, ...]) -> type[Any]:
-    """Return what stands in a result for a kind whose code is not loaded: it is shown, not built.
+    """Return what stands for a kind whose code is not loaded, with keys of its table in a result.
 
-    Args:
-        base: of such kinds.
-        name: of the kind.
-        keys: of its table in the result.
+    It is shown, not built.
     """
 
     def refuse(*_: Any, **__: Any) -> Any:

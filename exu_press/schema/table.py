@@ -152,10 +152,9 @@ def _is_key(field: Field) -> bool:
     return "meaning" in meta or not ("part" in meta or "by_name" in meta)
 
 
-@functools.cache
-def _parts(kind: type["Table"]) -> tuple[tuple[Field, Choice | Alternatives], ...]:
+def _parts(kind: type["Table"]) -> list[tuple[Field, Choice | Alternatives]]:
     """Return the fields of a table that are parts of it, each with what chooses it."""
-    return tuple((f, f.metadata["part"]) for f in _fields(kind) if "part" in f.metadata)
+    return [(f, f.metadata["part"]) for f in _fields(kind) if "part" in f.metadata]
 
 
 def _value_of_key(field: Field, name: str, value: Any) -> Any:

@@ -79,7 +79,7 @@ class MotionError(InputError):
 
 
 class _ConvergenceError(ArithmeticError):
-    """Newton's method failed at the angle of an index; residuals (m,) of contradictions, or None."""
+    """Newton's method failed at the angle of an index, or with contradictory residuals (m,)."""
 
     def __init__(self, index: int = 0, residuals: Array | None = None) -> None:
         super().__init__()

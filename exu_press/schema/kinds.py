@@ -165,7 +165,7 @@ def _with_unresolved(
             name: _with_unresolved(value, scene, data, f"{path}.{name}" if path else str(name))
             for name, value in data.items()
         }
-    home = next((home for place, home in PLACES.items() if re.fullmatch(place, path)), None)
+    home = next((home for key, home in PLACES.items() if re.fullmatch(key, path)), None)
     if not isinstance(data, str) or home is None or data in load_object(home) or is_loaded(data):
         return data
     law, joints = home.partition(":")[0].rpartition(".")[2], scene.get("joints")

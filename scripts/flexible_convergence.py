@@ -16,7 +16,8 @@ from matplotlib.figure import Figure
 from exu_press import Scene, simulate
 from exu_press.model.placed_part import IN_THE_PLANE, placed_parts
 from exu_press.plots.file import save_figure
-from exu_press.plots.style import COLOURS, look
+from exu_press.plots.palette import COLOURS
+from exu_press.plots.style import look
 from exu_press.scene import flexible_press
 from exu_press.terminal.columns import columns
 

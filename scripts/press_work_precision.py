@@ -17,7 +17,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from exu_press import Result, Scene, simulate
-from exu_press.plots.style import COLOURS, DPI, with_style
+from exu_press.plots.palette import COLOURS
+from exu_press.plots.style import DPI, with_style
 from exu_press.result.windows import revolutions_of
 from exu_press.terminal.columns import columns
 

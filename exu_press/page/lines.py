@@ -12,7 +12,7 @@ from exu_press.page.document import (
     scripts,
     styles,
 )
-from exu_press.plots.style import colour_of
+from exu_press.plots.palette import colour_of
 from exu_press.studies.base.report import Panel
 
 __all__ = ["lines_viewer"]

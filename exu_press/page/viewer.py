@@ -14,7 +14,7 @@ from exu_press.page.scenery import scenery
 from exu_press.page.surfaces import surfaces
 from exu_press.page.thinning import Thinning, thinning
 from exu_press.plots.busiest import busiest
-from exu_press.plots.style import colour_of
+from exu_press.plots.palette import colour_of
 from exu_press.plots.typesetting import typeset
 from exu_press.result import Result
 from exu_press.result.channel import Channel

@@ -1,26 +1,14 @@
-"""Many joints in one picture: of two like sides one, the busiest few, the rest in a table."""
+"""Many joints in one picture: of two like sides one, and the busiest few."""
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable
 
 import numpy as np
-from matplotlib.axes import Axes
 
-from exu_press.plots.peaks import with_error
 from exu_press.plots.typesetting import shorten
 from exu_press.plots.words import joint_in_words
-from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE
-from exu_press.quantities.reading import Reading
-from exu_press.quantities.value import value_of
 from exu_press.result import Result
-from exu_press.terminal.columns import columns
 
-__all__ = ["busiest", "draw_rest", "joint_titles", "mirror", "rest_lines", "sides_alike"]
-
-LETTER = 0.61
-"""Width of a monospaced letter over its size."""
-
-SMALLEST = 6.0
-"""Points; a longer table goes beyond its panel."""
+__all__ = ["busiest", "joint_titles", "mirror", "sides_alike"]
 
 TITLE = 30
 """Letters of a joint's title that fit beside the legend or the note of its panel."""
@@ -48,48 +36,6 @@ def busiest(
         {name: title for name, title in titles.items() if name in drawn},
         {name: title for name, title in titles.items() if name not in drawn},
     )
-
-
-def rest_lines(result: Result, rest: Mapping[str, str]) -> list[str]:
-    """Return a table of joints, a line each: clearance, eccentricity ratio and force."""
-    cells, run = [("also", "c, µm", "e/c, max", "F, max, kN")], Reading(result)
-    for name, title in rest.items():
-        ratio, force = (
-            value_of(result, quantity.full_name(name), run)
-            for quantity in (ECCENTRICITY_RATIO, JOINT_FORCE)
-        )
-        clearance = result.joints[name].clearance * 1e6
-        cells.append(
-            (title, f"{clearance:.4g}", with_error(ratio, 1.0, 3), with_error(force, 1e-3))
-        )
-    return columns(cells)
-
-
-def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float) -> None:
-    """Write the table of the joints that are not drawn into a panel of its own.
-
-    Args:
-        axes: the panel.
-        result: of the run.
-        rest: the joints, each with its title.
-        size: of the letters, points; smaller where the panel is too narrow for them.
-    """
-    axes.set_axis_off()
-    lines = rest_lines(result, rest)
-    figure = axes.get_figure(root=True)
-    assert figure is not None
-    room = 72.0 * axes.get_position().width * figure.get_figwidth()
-    size = min(size, max(SMALLEST, room / (LETTER * max(map(len, lines)))))
-    text = axes.text(
-        0.0,
-        1.0,
-        "\n".join(lines),
-        transform=axes.transAxes,
-        va="top",
-        fontsize=size,
-        family="monospace",
-    )
-    text.set_in_layout(False)  # its length is no reason to move the panels above it
 
 
 def _peak(result: Result, name: str) -> float:

@@ -14,8 +14,9 @@ from matplotlib.ticker import MaxNLocator
 from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import crank_degrees
 from exu_press.plots.decimate import visible_segments
+from exu_press.plots.palette import COLOURS, GREY, RUN, SHADE
 from exu_press.plots.panels import legend_above
-from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, SHADE, points
+from exu_press.plots.style import PATH_COLOURS, points
 from exu_press.result import JointRecord, Result
 
 __all__ = ["TOUCH_COLOUR", "Path", "draw_path"]

@@ -18,9 +18,10 @@ from exu_press.mechanism.stroke import units_of_output
 from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.numerics.arrays import Array
 from exu_press.plots.format import picture_format
+from exu_press.plots.palette import GREY, RUN, colour_of
 from exu_press.plots.panels import figure_with_panels
 from exu_press.plots.scales import spread
-from exu_press.plots.style import GREY, RUN, colour_of, points, with_style
+from exu_press.plots.style import points, with_style
 from exu_press.plots.typesetting import plain, shorten, wrap_name, wrap_text
 
 __all__ = ["drawing_figure"]

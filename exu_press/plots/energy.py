@@ -9,9 +9,10 @@ from matplotlib.figure import Figure
 
 from exu_press.plots.busiest import joint_titles
 from exu_press.plots.canvas import angle_axis, curve, run_figure
+from exu_press.plots.palette import COLOURS, GREY, colour_of
 from exu_press.plots.panels import legend_above
 from exu_press.plots.scales import note
-from exu_press.plots.style import COLOURS, GREY, colour_of, with_style
+from exu_press.plots.style import with_style
 from exu_press.plots.typesetting import shorten
 from exu_press.quantities.energy import energy_residual
 from exu_press.result import Result

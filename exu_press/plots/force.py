@@ -14,10 +14,11 @@ from exu_press.plots.canvas import (
     curve,
     run_figure,
 )
+from exu_press.plots.palette import line_of
 from exu_press.plots.panels import grid_rows
 from exu_press.plots.peaks import mark_peak
 from exu_press.plots.scales import contain_bars, impact_scale, note
-from exu_press.plots.style import line_of, with_style
+from exu_press.plots.style import with_style
 from exu_press.plots.typesetting import plain, shorten
 from exu_press.quantities.catalogue import GUIDE_FORCE, JOINT_FORCE, PEAK_TORQUE
 from exu_press.result import Result

@@ -1,4 +1,4 @@
-"""Peaks with their errors."""
+"""Peaks with their errors: at curves, and in a table of joints that are not drawn."""
 
 from collections.abc import Mapping
 
@@ -7,15 +7,24 @@ from matplotlib.axes import Axes
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import crank_degrees
+from exu_press.plots.palette import colour_of
 from exu_press.plots.scales import draw_bar
-from exu_press.plots.style import colour_of
+from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE
+from exu_press.quantities.reading import Reading
 from exu_press.quantities.uncertain import uncertain
-from exu_press.quantities.value import Value
+from exu_press.quantities.value import Value, value_of
 from exu_press.result import Result
 from exu_press.result.info import Error
 from exu_press.result.windows import settled_part
+from exu_press.terminal.columns import columns
 
-__all__ = ["error_of", "mark_peak", "mark_peaks", "with_error"]
+__all__ = ["draw_rest", "error_of", "mark_peak", "mark_peaks", "rest_lines", "with_error"]
+
+LETTER = 0.61
+"""Width of a monospaced letter over its size."""
+
+SMALLEST = 6.0
+"""Points; a longer table goes beyond its panel."""
 
 
 def error_of(result: Result, name: str) -> Error | None:
@@ -76,3 +85,45 @@ def mark_peaks(axes: Axes, curves: Mapping[str, tuple[Result, Array]], name: str
         for index, (result, values) in enumerate(curves.values())
     ]
     return texts[0] if len(texts) == 1 else ""
+
+
+def rest_lines(result: Result, rest: Mapping[str, str]) -> list[str]:
+    """Return a table of joints, a line each: clearance, eccentricity ratio and force."""
+    cells, run = [("also", "c, µm", "e/c, max", "F, max, kN")], Reading(result)
+    for name, title in rest.items():
+        ratio, force = (
+            value_of(result, quantity.full_name(name), run)
+            for quantity in (ECCENTRICITY_RATIO, JOINT_FORCE)
+        )
+        clearance = result.joints[name].clearance * 1e6
+        cells.append(
+            (title, f"{clearance:.4g}", with_error(ratio, 1.0, 3), with_error(force, 1e-3))
+        )
+    return columns(cells)
+
+
+def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float) -> None:
+    """Write the table of the joints that are not drawn into a panel of its own.
+
+    Args:
+        axes: the panel.
+        result: of the run.
+        rest: the joints, each with its title.
+        size: of the letters, points; smaller where the panel is too narrow for them.
+    """
+    axes.set_axis_off()
+    lines = rest_lines(result, rest)
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    room = 72.0 * axes.get_position().width * figure.get_figwidth()
+    size = min(size, max(SMALLEST, room / (LETTER * max(map(len, lines)))))
+    text = axes.text(
+        0.0,
+        1.0,
+        "\n".join(lines),
+        transform=axes.transAxes,
+        va="top",
+        fontsize=size,
+        family="monospace",
+    )
+    text.set_in_layout(False)  # its length is no reason to move the panels above it

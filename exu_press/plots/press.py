@@ -19,11 +19,12 @@ from exu_press.plots.canvas import (
     run_figure,
 )
 from exu_press.plots.format import picture_format
+from exu_press.plots.palette import GREY, IDEAL, colour_of
 from exu_press.plots.panels import grid_rows, legend_above
 from exu_press.plots.peaks import mark_peak, with_error
 from exu_press.plots.scales import contain_bars, note, widen
 from exu_press.plots.slider import sliding_mean
-from exu_press.plots.style import GREY, IDEAL, colour_of, with_style
+from exu_press.plots.style import with_style
 from exu_press.plots.words import joint_in_words
 from exu_press.quantities import DeadCentre, bottom_dead_centres, ideal_angles
 from exu_press.quantities.catalogue import (

@@ -10,7 +10,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.decimate import distance_travelled
-from exu_press.plots.style import GREY, SHADE, points
+from exu_press.plots.palette import GREY, SHADE
+from exu_press.plots.style import points
 
 __all__ = [
     "BAR",

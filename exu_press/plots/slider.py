@@ -19,10 +19,11 @@ from exu_press.plots.canvas import (
     run_figure,
 )
 from exu_press.plots.decimate import decimate
+from exu_press.plots.palette import IDEAL, line_of
 from exu_press.plots.panels import grid_rows
 from exu_press.plots.peaks import mark_peaks
 from exu_press.plots.scales import contain_bars, impact_scale, note, widen
-from exu_press.plots.style import IDEAL, line_of, points, with_style
+from exu_press.plots.style import points, with_style
 from exu_press.plots.typesetting import plain
 from exu_press.quantities.catalogue import MEAN_ACCELERATION, PEAK_ACCELERATION
 from exu_press.quantities.slider import of_output

@@ -19,22 +19,7 @@ from exu_press.files.digests import note_content
 from exu_press.plots.format import picture_format
 from exu_press.plots.headings import separate_headings, wrap_labels
 
-__all__ = [
-    "COLOURS",
-    "DPI",
-    "GREY",
-    "IDEAL",
-    "PATH_COLOURS",
-    "RUN",
-    "SHADE",
-    "check_drawable",
-    "colour_of",
-    "line_of",
-    "look",
-    "points",
-    "read_style",
-    "with_style",
-]
+__all__ = ["DPI", "PATH_COLOURS", "check_drawable", "look", "points", "read_style", "with_style"]
 
 Parameters = ParamSpec("Parameters")
 
@@ -45,25 +30,6 @@ PRINTED_DPI = 600
 
 SCREEN_SIZE, PRINTED_SIZE = 9.5, 7.0
 """Letters, points."""
-
-COLOURS = {
-    "blue": "#005A9E",
-    "green": "#2BA84A",
-    "orange": "#F9C74F",
-    "vermilion": "#C84E00",
-    "sky blue": "#6FB7EE",
-    "purple": "#430B55",
-}
-"""Hues of Okabe and Ito's colour-blind-safe palette, less black (the ideal's) and yellow (too
-pale), with lightnesses apart from each other, for grey prints: most for the first ones."""
-
-DASHES = ("-", "-", "-", (0, (5, 1.5)), (0, (4, 1.2, 1, 1.2)), (0, (1, 0.8)))
-"""Line styles of runs over each other: as in grey, those after the third are near earlier ones."""
-
-RUN = COLOURS["blue"]
-IDEAL = "#000000"
-GREY = "#767676"
-SHADE = "#F1F4F7"
 
 LARGEST_FONT = 1000
 """Points; of larger letters not every version of matplotlib says that it cannot draw them."""
@@ -206,13 +172,3 @@ def with_style(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figur
             return figure
 
     return inner
-
-
-def colour_of(index: int) -> str:
-    """Return the colour of the n-th run in a picture; after the palette's end it starts again."""
-    return tuple(COLOURS.values())[index % len(COLOURS)]
-
-
-def line_of(index: int) -> dict[str, Any]:
-    """Return colour and style of the line of the n-th run in a picture of several."""
-    return {"color": colour_of(index), "linestyle": DASHES[index % len(DASHES)]}

@@ -5,7 +5,6 @@ from pathlib import Path
 
 from exu_press.errors import InputError
 from exu_press.report.page_file import ALL, Span
-from exu_press.result import Result
 from exu_press.result.checkpoint import checkpoint_directory
 from exu_press.studies.base.report import REPORT_FILE
 
@@ -75,11 +74,9 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
         InputError: the file is of another kind than its name, or the span is not in it.
     """
     if kind is Kind.RUN:
-        from exu_press.report.run import run_report
+        from exu_press.report.run import file_report
 
-        return run_report(
-            Result.load(file), f"{file.resolve().parent.name}/{file.name}", span, file.parent
-        )
+        return file_report(file, span)
     if kind is Kind.COMPARISON:
         from exu_press.report.comparison import comparison_report
 

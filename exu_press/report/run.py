@@ -1,17 +1,14 @@
 """The report of one run."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from exu_press.page import Live
 from exu_press.page.viewer import viewer
-from exu_press.plots import save_pictures
-from exu_press.plots.save import drawn_pictures
 from exu_press.plots.words import ONE_LINE, describe, joint_in_words
 from exu_press.quantities import Quantity, value_of
 from exu_press.quantities.catalogue import CATALOGUE
@@ -28,20 +25,18 @@ from exu_press.quantities.table import (
     with_headings,
 )
 from exu_press.quantities.value import values_of
-from exu_press.report.html import details, page, paragraph, picture, stills, table, warnings
+from exu_press.report.html import details, page, paragraph, stills, table, warnings
 from exu_press.report.page_file import ALL, Span
 from exu_press.result import Result
+from exu_press.result.windows import interval
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import engineering_values, keys_of, used_assumptions
 from exu_press.scene.provenance import Provenance, rows_of
-from exu_press.view import Animation, moment, save_picture
-from exu_press.view.animation import SIZE
-from exu_press.view.instants import interval
 from fe_models.processes import computed_beside
-from fe_models.temporary import TemporaryFolder
 
 __all__ = [
     "changed_keys",
+    "file_report",
     "joint_table",
     "live_part",
     "provenance_section",
@@ -79,38 +74,48 @@ def joint_table(result: Result) -> str:
     )
 
 
-CAPTIONS = {
-    "slider": "Slider motion against the ideal mechanism: position, velocity, acceleration.",
-    "orbit": "Journal and ball centres in their clearance circles.",
-    "force": "Joint forces and drive torque.",
-    "press": "Forces of the press on its frame, and loads of its drive.",
-    "energy": "Energy balance since the start; the residual is the error of the integration.",
-}
-"""By the picture's file name; pictures that are not listed are shown under their names."""
-
 HEAD = ("key", "value", "unit", "meaning")
 
 MOST_NUMBERS = 4
 """Numbers of a list that are shown one by one."""
 
 
-def run_report(result: Result, source: str, span: Span = ALL, directory: Path | None = None) -> str:
-    """Return the page of a run.
+def run_report(result: Result, source: str) -> str:
+    """Return the page of a run; `source` is shown, as the name of its file."""
+    with computed_beside(partial(_pictures, result)) as pictures:
+        return _page(result, source, ALL, pictures)
+
+
+def file_report(file: Path, span: Span = ALL) -> str:
+    """Return the page of a stored run, with the pictures beside it if these are the run's.
+
+    What draws pictures is loaded, and draws, beside the rest. It reads the run once more: kinds of
+    the user's own cannot be passed between two processes.
 
     Args:
-        source: name of its file, to be shown.
         span: begin and end of its curves, s; None: those of the record.
-        directory: in which its pictures may be already.
     """
-    with TemporaryFolder() as folder, computed_beside(partial(_still, result, folder)) as still:
-        summary = result.summary()
-        numbers = with_headings(quantity_cells({"": result}))
-        results = table(("quantity", "value"), numbers) + joint_table(result)
-        window = f"Read from revolutions {span_text(Reading(result))}."
-        texts = [window, *remarks({"": result})]
-        live = live_part({"": result}, span)
-        drawn = _pictures(result, directory, folder)
-        pictures = "\n".join([still(), *drawn])
+    with computed_beside(partial(_pictures, file)) as pictures:
+        name = f"{file.resolve().parent.name}/{file.name}"
+        return _page(Result.load(file), name, span, pictures)
+
+
+def _pictures(run: Result | Path) -> str:
+    from exu_press.report.pictures import run_pictures  # loads matplotlib
+
+    if isinstance(run, Result):
+        return run_pictures(run)
+    return run_pictures(Result.load(run), run.parent)
+
+
+def _page(result: Result, source: str, span: Span, pictures: Callable[[], str]) -> str:
+    """Return the page of a run; its pictures are asked for when all else is there."""
+    summary = result.summary()
+    numbers = with_headings(quantity_cells({"": result}))
+    results = table(("quantity", "value"), numbers) + joint_table(result)
+    window = f"Read from revolutions {span_text(Reading(result))}."
+    texts = [window, *remarks({"": result})]
+    live = live_part({"": result}, span)
     return page(
         describe([result.scene], ONE_LINE),
         f"{source}: {summary['status']} at t = {summary['end_time']:.6g} s, "
@@ -119,7 +124,7 @@ def run_report(result: Result, source: str, span: Span = ALL, directory: Path | 
             ("In motion", live),
             ("Warnings", warnings(warnings_of(summary))),
             ("Results", "".join(map(paragraph, texts)) + results),
-            ("Pictures", stills(pictures, live)),
+            ("Pictures", stills(pictures(), live)),
             ("Energy and solver", _energy_and_solver(result)),
             ("Provenance", provenance_section({"": result.info.get("provenance")})),
             *scene_parts(result.scene),
@@ -173,26 +178,6 @@ def warnings_of(summary: Mapping[str, Any]) -> list[str]:
     """Return how a run ended, unless it completed, and its warnings."""
     ended = [f"{summary['status']}: {summary['reason']}"] if summary["reason"] else []
     return [*ended, *summary["warnings"]]
-
-
-def _still(result: Result, folder: Path) -> str:
-    """Return the mechanism at the slider's largest acceleration, drawn in a folder."""
-    peak = float(result.time[int(np.argmax(np.abs(result["slider_acceleration"])))])
-    animation = Animation(result, moment(result, peak), Figure(figsize=SIZE))
-    still = save_picture(animation, 1, folder / "mechanism.png")
-    caption = f"The press at the slider's largest acceleration, t = {peak * 1e3:.2f} ms."
-    if result.scene.press is None:
-        caption = caption.replace("press", "mechanism", 1)
-    return picture(still, caption)
-
-
-def _pictures(result: Result, directory: Path | None, folder: Path) -> list[str]:
-    """Return the pictures that the run has drawn, if its provenance is in them; else draw them."""
-    drawn = [] if directory is None else drawn_pictures(result, directory)
-    return [
-        picture(path, CAPTIONS.get(path.stem, path.stem))
-        for path in drawn or save_pictures(result, folder)
-    ]
 
 
 def provenance_section(provenances: Mapping[str, Provenance | None]) -> str | None:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import evaluate, spline
 from exu_press.result.result import Result
@@ -9,6 +10,7 @@ from exu_press.result.result import Result
 __all__ = [
     "at_instant",
     "interpolated_window",
+    "interval",
     "revolutions_of",
     "settled_part",
     "up_to",
@@ -21,6 +23,22 @@ def window(run: Result, begin: float, end: float) -> Result:
     first = int(np.searchsorted(run.time, begin * (1.0 - 1e-12)))
     last = int(np.searchsorted(run.time, end * (1.0 + 1e-12), side="right"))
     return run.map_values(lambda _, values: values[first:last])
+
+
+def interval(result: Result, start: float | None, stop: float | None) -> tuple[float, float]:
+    """Return begin and end of the shown part, s; those of the record where none are given.
+
+    Raises:
+        InputError: they lie outside the record, or in another order.
+    """
+    first, last = float(result.time[0]), float(result.time[-1])
+    for option, value in (("--from", start), ("--to", stop)):
+        if value is not None and not first <= value <= last:
+            raise InputError(f"{option} {value:g}: the record goes from {first:g} to {last:g} s")
+    begin, end = first if start is None else start, last if stop is None else stop
+    if not begin < end and first < last:
+        raise InputError(f"--from {begin:g} --to {end:g}: allowed is --from before --to")
+    return begin, end
 
 
 def settled_part(run: Result) -> Result:

@@ -9,9 +9,10 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from exu_press.plots.file import save_figures
+from exu_press.plots.palette import COLOURS, GREY
 from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.save import sources_of
-from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, with_style
+from exu_press.plots.style import PATH_COLOURS, with_style
 from exu_press.plots.typesetting import plain, typeset
 from exu_press.plots.words import describe
 from exu_press.result import Result

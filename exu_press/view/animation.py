@@ -14,10 +14,12 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 from PIL import Image, ImageDraw, ImageFont
 
-from exu_press.plots.busiest import busiest, draw_rest
+from exu_press.plots.busiest import busiest
 from exu_press.plots.canvas import angle_words, dead_centres
+from exu_press.plots.palette import GREY
+from exu_press.plots.peaks import draw_rest
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
-from exu_press.plots.style import GREY, look
+from exu_press.plots.style import look
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe, early_stops
 from exu_press.result import Result

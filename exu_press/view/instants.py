@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.result import Result
+from exu_press.result.windows import interval
 
-__all__ = ["SECONDS_PER_REVOLUTION", "Instants", "instants", "interval", "moment"]
+__all__ = ["SECONDS_PER_REVOLUTION", "Instants", "instants", "moment"]
 
 SECONDS_PER_REVOLUTION = 5.0
 """Length of the animation, unless told otherwise, s."""
@@ -102,22 +103,6 @@ def moment(
         raise InputError(f"--at {now:g}: allowed is {begin:g} to {end:g} s")
     times = np.array([begin, now, end])
     return Instants(times, _steps(result.time, times), 1.0, 1.0, still=True)
-
-
-def interval(result: Result, start: float | None, stop: float | None) -> tuple[float, float]:
-    """Return begin and end of the shown part, s; those of the record where none are given.
-
-    Raises:
-        InputError: they lie outside the record, or in another order.
-    """
-    first, last = float(result.time[0]), float(result.time[-1])
-    for option, value in (("--from", start), ("--to", stop)):
-        if value is not None and not first <= value <= last:
-            raise InputError(f"{option} {value:g}: the record goes from {first:g} to {last:g} s")
-    begin, end = first if start is None else start, last if stop is None else stop
-    if not begin < end and first < last:
-        raise InputError(f"--from {begin:g} --to {end:g}: allowed is --from before --to")
-    return begin, end
 
 
 def _steps(time: Array, times: Array) -> NDArray[np.intp]:

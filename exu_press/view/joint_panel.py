@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch
 
 from exu_press.numerics.arrays import Array, lengths
-from exu_press.plots.style import COLOURS, GREY, RUN
+from exu_press.plots.palette import COLOURS, GREY, RUN
 from exu_press.plots.typesetting import shorten
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result

@@ -14,8 +14,8 @@ from exu_press.mechanism.pitch_circles import pitch_circles
 from exu_press.mechanism.shapes import FrontView, Mark, transform_points
 from exu_press.mechanism.spring_motion import spring_ends
 from exu_press.numerics.arrays import Array
+from exu_press.plots.palette import COLOURS, GREY
 from exu_press.plots.scales import spread
-from exu_press.plots.style import COLOURS, GREY
 from exu_press.plots.typesetting import shorten
 from exu_press.plots.words import joint_in_words
 from exu_press.result import Result

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.decimate import decimate
-from exu_press.plots.style import RUN
+from exu_press.plots.palette import RUN
 from exu_press.result import Result
 from exu_press.view.instants import Instants
 

@@ -19,8 +19,8 @@ from exu_press.errors import DiskFullError, InputError
 from exu_press.files.output_directory import check_writable, replacing
 from exu_press.mechanism.shapes import COLOURS as BODIES
 from exu_press.plots.file import png_texts, write_png
+from exu_press.plots.palette import COLOURS
 from exu_press.plots.save import sources_of
-from exu_press.plots.style import COLOURS
 from exu_press.view.animation import Animation, Painter
 from exu_press.view.flexible_panel import COLOURS as SURFACES
 
@@ -65,7 +65,7 @@ def save_picture(animation: Animation, frame: int, path: Path) -> Path:
     check_target(path)
     image = Painter(animation, DPI[".png"]).paint(frame)
     with replacing(path) as partial:
-        write_png(partial, np.asarray(image), DPI[".png"], _texts(animation))
+        write_png(partial, image, DPI[".png"], _texts(animation))
     return path
 
 
@@ -111,7 +111,7 @@ def save_animation(
 def _write_png(path: Path, number: int, image: Image.Image, texts: PngInfo) -> Path:
     numbered = path.with_name(NUMBER.sub(lambda match: match[0] % number, path.name))
     with replacing(numbered) as partial:
-        write_png(partial, np.asarray(image), DPI[".png"], texts)
+        write_png(partial, image, DPI[".png"], texts)
     return numbered
 
 

@@ -12,7 +12,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from exu_press.plots import orbit_figure, slider_figure
 from exu_press.plots.file import save_figures
-from exu_press.plots.style import COLOURS, RUN, with_style
+from exu_press.plots.palette import COLOURS, RUN
+from exu_press.plots.style import with_style
 from exu_press.result import Result
 from exu_press.scene import Scene
 from paper.choice import cost, radii

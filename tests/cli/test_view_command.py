@@ -45,7 +45,7 @@ def test_wrong_options_are_status_2_in_one_line(
 def test_without_save_the_page_opens_in_the_browser(run, monkeypatch, capsys):
     opened = []
     monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) or True)
-    monkeypatch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
+    monkeypatch.setattr("exu_press.report.pictures.save_pictures", lambda *_: [])
     assert main(["view", str(run)]) == 0
     page = run.parent / "report.html"
     assert opened == [page.resolve().as_uri()]

@@ -30,5 +30,5 @@ def page_of(result, folder):
 @pytest.fixture(scope="session")
 def report(press, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:  # tests/report looks at pictures
-        patch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
+        patch.setattr("exu_press.report.pictures.save_pictures", lambda *_: [])
         return page_of(press, tmp_path_factory.mktemp("press"))

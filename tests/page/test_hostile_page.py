@@ -23,7 +23,7 @@ def result():
 
 @pytest.fixture(autouse=True)
 def no_pictures(monkeypatch):
-    monkeypatch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
+    monkeypatch.setattr("exu_press.report.pictures.save_pictures", lambda *_: [])
 
 
 def test_hostile_texts_of_a_run_run_nothing(result, tmp_path, browser):

@@ -4,10 +4,11 @@ import pytest
 from matplotlib.figure import Figure
 
 from exu_press import Scene, simulate
-from exu_press.plots.busiest import busiest, rest_lines
+from exu_press.plots.busiest import busiest
 from exu_press.plots.energy import energy_figure
 from exu_press.plots.force import force_figure
 from exu_press.plots.orbit import orbit_figure
+from exu_press.plots.peaks import rest_lines
 from exu_press.view import Animation, moment
 from exu_press.view.animation import SIZE
 

@@ -12,8 +12,9 @@ from exu_press.cli import main
 from exu_press.plots import force_figure, orbit_figure, slider_figure
 from exu_press.plots.file import save_figure
 from exu_press.plots.format import PictureFormat, drawn_as
+from exu_press.plots.palette import COLOURS, line_of
 from exu_press.plots.panels import figure_with_panels
-from exu_press.plots.style import COLOURS, line_of, with_style
+from exu_press.plots.style import with_style
 
 COLOUR_BLIND = {
     "protanopia": ((0.152, 1.053, -0.205), (0.115, 0.786, 0.099), (-0.004, -0.048, 1.052)),

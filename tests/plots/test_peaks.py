@@ -6,7 +6,7 @@ import pytest
 
 from exu_press import Scene, simulate
 from exu_press.plots import force_figure, slider_figure
-from exu_press.plots.busiest import rest_lines
+from exu_press.plots.peaks import rest_lines
 from exu_press.plots.press import press_figure
 from exu_press.plots.scales import BAR
 from exu_press.quantities.uncertain import significant

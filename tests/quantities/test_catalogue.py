@@ -105,7 +105,7 @@ def test_a_quantity_of_ones_own_is_everywhere(mine, tmp_path, monkeypatch):
     assert told.value == result["slider_velocity"].min() and told.error is not None
     assert result.summary()["quantities"]["lowest_velocity"] == told.to_dict()
     assert any(line.startswith("  lowest velocity, m/s") for line in run_lines(result))
-    monkeypatch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
+    monkeypatch.setattr("exu_press.report.pictures.save_pictures", lambda *_: [])
     assert "lowest velocity" in run_report(result, "run.nc")
     assert unit_of("lowest_velocity") == "m/s" and meaning_of("lowest_velocity")
 

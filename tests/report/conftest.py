@@ -51,10 +51,10 @@ def pages(outputs) -> dict[str, Path]:
     """Reports of them, written by the command; their pictures are blank."""
     for name, directory in outputs.items():
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr("exu_press.report.run.save_pictures", blank("run"))
+            patch.setattr("exu_press.report.pictures.save_pictures", blank("run"))
             patch.setattr("exu_press.report.comparison.save_comparison", blank("compare"))
             if name == "stopped":  # pictures and curves of a run are in the page of "run"
-                patch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
+                patch.setattr("exu_press.report.pictures.save_pictures", lambda *_: [])
                 patch.setattr("exu_press.page.document.find_spec", lambda _: None)
             assert main(["report", str(directory), "--quiet"]) == 0
     return {name: directory / "report.html" for name, directory in outputs.items()}

@@ -41,7 +41,7 @@ def test_a_comparison_shows_what_differs(result):
 
 
 def test_the_page_in_a_cell_is_a_frame_of_its_own(result, tmp_path, monkeypatch):
-    monkeypatch.setattr("exu_press.report.run.save_pictures", lambda *_: [])  # as in any page
+    monkeypatch.setattr("exu_press.report.pictures.save_pictures", lambda *_: [])  # as in any page
     page = result.view()
     cell = page._repr_html_()
     assert cell.startswith("<iframe") and "allow-same-origin" not in cell

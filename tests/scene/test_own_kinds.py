@@ -109,7 +109,7 @@ def test_with_permission_they_run_are_stored_and_shown_without_being_imported(
     Scene(mechanism="eccentric_press", revolutions=0.02, joints={}).save("plain.toml")
     assert main(["compare", "run.nc", "plain.toml", *more]) == 0
     assert own("bushing") in capsys.readouterr().out
-    monkeypatch.setattr("exu_press.report.run.save_pictures", lambda *_: [])
+    monkeypatch.setattr("exu_press.report.pictures.save_pictures", lambda *_: [])
     assert main(["report", "run.nc"]) == 0
     page = Path("report.html").read_text()
     assert own("bushing") in page and own("cushion") in page

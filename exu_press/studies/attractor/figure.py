@@ -6,8 +6,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from exu_press.numerics.arrays import Array
+from exu_press.plots.palette import COLOURS, GREY, RUN
 from exu_press.plots.panels import figure_with_panels, grid_rows
-from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, RUN, with_style
+from exu_press.plots.style import PATH_COLOURS, with_style
 from exu_press.plots.sweep_words import words as in_words
 from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe

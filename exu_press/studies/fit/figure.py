@@ -5,9 +5,10 @@ from matplotlib.figure import Figure
 from scipy.stats import chi2
 
 from exu_press.plots.format import picture_format
+from exu_press.plots.palette import COLOURS, GREY, SHADE
 from exu_press.plots.panels import figure_with_panels, grid_rows, name_rows
 from exu_press.plots.scales import log_axis
-from exu_press.plots.style import COLOURS, GREY, SHADE, with_style
+from exu_press.plots.style import with_style
 from exu_press.plots.sweep_words import in_unit, words
 from exu_press.plots.typesetting import plain, wrap_text
 from exu_press.plots.words import describe

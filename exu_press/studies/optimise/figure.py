@@ -8,9 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
+from exu_press.plots.palette import COLOURS, GREY
 from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.scales import log_axis
-from exu_press.plots.style import COLOURS, GREY, with_style
+from exu_press.plots.style import with_style
 from exu_press.plots.sweep_words import axis_label, in_unit, label_with_unit
 from exu_press.plots.typesetting import wrap_text
 from exu_press.plots.words import describe

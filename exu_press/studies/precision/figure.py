@@ -10,8 +10,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from exu_press.plots.palette import COLOURS, GREY, SHADE, colour_of
 from exu_press.plots.panels import figure_with_panels, grid_rows
-from exu_press.plots.style import COLOURS, GREY, SHADE, colour_of, points, with_style
+from exu_press.plots.style import points, with_style
 from exu_press.studies.precision.report import PrecisionReport
 from exu_press.studies.precision.rows import Row, series_of
 from exu_press.studies.precision.stated import StatedErrors

@@ -7,8 +7,9 @@ from matplotlib.patches import Patch
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.format import picture_format
+from exu_press.plots.palette import COLOURS, GREY
 from exu_press.plots.panels import figure_with_panels, grid_rows
-from exu_press.plots.style import COLOURS, GREY, with_style
+from exu_press.plots.style import with_style
 from exu_press.plots.sweep_words import axis_label, words
 from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe

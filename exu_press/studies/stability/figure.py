@@ -12,8 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from exu_press.plots.format import picture_format
+from exu_press.plots.palette import COLOURS, GREY
 from exu_press.plots.panels import figure_with_panels, grid_rows
-from exu_press.plots.style import COLOURS, GREY, PATH_COLOURS, points, with_style
+from exu_press.plots.style import PATH_COLOURS, points, with_style
 from exu_press.studies.stability.cases import PAIRS
 from exu_press.studies.stability.checks import RESIDUAL_LIMIT
 from exu_press.studies.stability.report import Row, StabilityReport

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
+from exu_press.plots.palette import GREY, colour_of
 from exu_press.plots.panels import figure_with_panels, grid_rows
-from exu_press.plots.style import GREY, PATH_COLOURS, colour_of, points, with_style
+from exu_press.plots.style import PATH_COLOURS, points, with_style
 from exu_press.plots.sweep_words import in_unit, label_with_unit, setting, words
 from exu_press.plots.typesetting import plain, wrap_text
 from exu_press.plots.words import describe

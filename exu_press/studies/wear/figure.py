@@ -4,8 +4,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from exu_press.plots.palette import colour_of
 from exu_press.plots.panels import figure_with_panels, grid_rows
-from exu_press.plots.style import colour_of, with_style
+from exu_press.plots.style import with_style
 from exu_press.plots.sweep_words import axis_label
 from exu_press.plots.typesetting import typeset, wrap_text
 from exu_press.plots.words import describe

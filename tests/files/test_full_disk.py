@@ -7,18 +7,13 @@ scripts/full_disks.py makes small ones, where the rights allow it.
 import errno
 import json
 import os
-import pickle
 import subprocess
 import sys
-
-import pytest
 
 from exu_press import simulate
 from exu_press.cli import main
 from exu_press.errors import DiskFullError
-from exu_press.files.output_directory import replacing
 from exu_press.verification import run as with_errors
-from fe_models.errors import disk_full
 
 LIMITED = """
 import resource, sys
@@ -36,15 +31,6 @@ def limited(size, *arguments, **options):
     """Return a command that has ended, whose files may have so many bytes."""
     command = [sys.executable, "-c", LIMITED, str(size), *arguments]
     return subprocess.run(command, capture_output=True, text=True, timeout=100, **options)
-
-
-@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT])
-def test_it_is_an_error_of_its_own(tmp_path, number):
-    with pytest.raises(DiskFullError, match=r"new: cannot be written"), replacing(tmp_path / "new"):
-        raise OSError(number, os.strerror(number))
-    assert not [*tmp_path.iterdir()]
-    error = disk_full(OSError(number, "full", "there"))
-    assert str(pickle.loads(pickle.dumps(error))) == "there: cannot be written (full)"
 
 
 def test_a_result_that_does_not_fit(tmp_path):

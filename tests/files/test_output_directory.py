@@ -38,33 +38,33 @@ def out(tmp_path):
     return tmp_path / "out"
 
 
-def test_a_file_has_the_usual_rights(tmp_path):
-    with replacing(tmp_path / "new") as partial:
-        partial.write_text("new")
-    (tmp_path / "usual").touch()
-    assert (tmp_path / "new").stat().st_mode == (tmp_path / "usual").stat().st_mode
-
-
-def test_a_temporary_name_is_not_known_beforehand(tmp_path):
+def test_a_temporary_name_is_not_known_beforehand_and_no_link_there_followed(
+    victim, out, monkeypatch
+):
     names = set()
     for _ in range(3):
-        with replacing(tmp_path / ("n" * 250)) as partial:
+        with replacing(out / ("n" * 250)) as partial:
+            partial.write_text("new")
             names.add(partial.name)
     assert len(names) == 3
-
-
-def test_a_link_that_lies_at_the_temporary_name_is_not_followed(victim, out, monkeypatch):
+    (out / "usual").touch()
+    assert (out / ("n" * 250)).stat().st_mode == (out / "usual").stat().st_mode
     monkeypatch.setattr("secrets.token_hex", lambda count: "0" * count)
     (out / ".run.nc.00000000.part").symlink_to(victim)
     with pytest.raises(InputError, match="cannot be written"), replacing(out / "run.nc"):
         pass
 
 
-@pytest.mark.parametrize("name", ["run.nc", "summary.json"])
-def test_a_link_in_the_place_of_a_result_is_replaced(victim, out, name):
-    (out / name).symlink_to(victim)
-    assert main([*RUN, "--out", str(out)]) == 0
-    assert not (out / name).is_symlink()
+def test_a_link_in_the_place_of_a_result_is_replaced(victim, out, tmp_path):
+    """The output directory itself may be a link."""
+    for name in ("run.nc", "summary.json"):
+        (out / name).symlink_to(victim)
+    (tmp_path / "link").symlink_to(out)
+    assert main([*RUN, "--out", str(tmp_path / "link")]) == 0
+    assert (out / "run.nc").is_file()
+    assert not any((out / name).is_symlink() for name in ("run.nc", "summary.json"))
+    with pytest.raises(InputError, match="is a link"):
+        subdirectory(tmp_path, "link")
 
 
 @pytest.mark.parametrize("name", ["runs.jsonl", ".lock", "runs"])
@@ -80,27 +80,18 @@ def test_a_study_writes_through_no_link(victim, out, tmp_path, name, target, cap
     assert not [*(tmp_path / "directory").iterdir()]
 
 
-def test_rows_go_into_no_file_that_has_another_name(victim, out, tmp_path, capsys):
+@pytest.mark.parametrize("kind", ["hard link", "pipe"])
+def test_rows_go_into_no_file_that_has_another_name_and_wait_for_no_pipe(
+    victim, out, tmp_path, capsys, kind
+):
     """A hard link cannot be told from the file itself: both are one file of two names."""
-    os.link(victim, out / "runs.jsonl")
+    if kind == "pipe":
+        os.mkfifo(out / "runs.jsonl")
+    else:
+        os.link(victim, out / "runs.jsonl")
     (tmp_path / "study.toml").write_text(STUDY)
     assert main(["sweep", str(tmp_path / "study.toml"), "--quiet", "--out", str(out)]) == 2
     assert "no file of its own" in capsys.readouterr().err
-
-
-def test_rows_wait_for_no_pipe(out, tmp_path, capsys):
-    os.mkfifo(out / "runs.jsonl")
-    (tmp_path / "study.toml").write_text(STUDY)
-    assert main(["sweep", str(tmp_path / "study.toml"), "--quiet", "--out", str(out)]) == 2
-    assert "no file of its own" in capsys.readouterr().err
-
-
-def test_the_output_directory_itself_may_be_a_link(out, tmp_path):
-    (tmp_path / "link").symlink_to(out)
-    assert main([*RUN, "--out", str(tmp_path / "link")]) == 0
-    assert (out / "run.nc").is_file()
-    with pytest.raises(InputError, match="is a link"):
-        subdirectory(tmp_path, "link")
 
 
 def test_a_directory_is_known_by_any_of_its_names(out, monkeypatch):

@@ -10,7 +10,6 @@ from exu_press import InputError
 from exu_press.mechanism import (
     SHIPPED,
     Press,
-    load_mechanism,
     mechanism_from_dict,
     mechanism_lines,
     press,
@@ -63,17 +62,10 @@ def changed(*changes):
 
 def test_a_file_is_read_as_drawn():
     mechanism = mechanism_from_dict(tomllib.loads(TEXT))
-    assert [body.name for body in mechanism.bodies] == ["crank", "rod", "slider"]
+    assert mechanism.body("rod").inertia == pytest.approx(3.0 * (0.3**2 + 0.3**2) / 12)
     assert [joint.spherical for joint in mechanism.joints] == [False, False, True]
     assert mechanism.output.direction == pytest.approx((0.6, 0.8))
     assert mechanism.guides[0].direction == (0.0, 1.0)
-    assert mechanism.groups == {"pins": ("crank_pin", "wrist_pin")}
-    assert mechanism.counterweight == ()
-
-
-def test_a_body_without_inertia_is_a_rod_between_its_two_joints():
-    rod = mechanism_from_dict(tomllib.loads(TEXT)).body("rod")
-    assert rod.inertia == pytest.approx(3.0 * (0.3**2 + 0.3**2) / 12)
 
 
 @pytest.mark.parametrize("drawn", [*map(shipped_mechanism, SHIPPED), press(Press())])
@@ -151,13 +143,6 @@ def test_a_body_on_nothing():
         refused(mechanism_from_dict, tomllib.loads(changed(("[groups]", more))))
         == "bodies.idle: no joint and no guide holds it"
     )
-
-
-def test_a_refusal_names_the_file(tmp_path):
-    path = tmp_path / "press.toml"
-    path.write_text(changed(("mass = 3.0", "")))
-    with pytest.raises(InputError, match=r"press\.toml: bodies\.rod\.mass: missing"):
-        load_mechanism(path)
 
 
 def test_a_scene_is_no_mechanism():

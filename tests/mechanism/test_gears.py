@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from exu_press import InputError
-from exu_press.mechanism import mechanism_from_dict, mechanism_to_dict, shipped_mechanism
+from exu_press.mechanism import shipped_mechanism
 from exu_press.mechanism.examine import mobility_of
 from exu_press.mechanism.gears import Gear
-from exu_press.mechanism.independent_constraints import independent_constraints
 from exu_press.mechanism.turning import require_turning
 
 TURN = np.linspace(0.0, 4.0 * np.pi, 333)
@@ -24,16 +23,6 @@ def geared(name, **changes):
     mechanism = shipped_mechanism(name)
     (gear,) = mechanism.gears
     return replace(mechanism, gears=(replace(gear, **changes),))
-
-
-@pytest.mark.parametrize("ratio", [-3, -1, 2])
-def test_angles_keep_their_ratio(ratio):
-    """Of the planet, over two revolutions, with velocities and accelerations."""
-    motion = geared("cycloidal_press", ratio=ratio).motion(TURN, 7.0)
-    for level in ("position", "velocity", "acceleration"):
-        crank, planet = (getattr(motion[body], level)[:, 2] for body in ("crank", "planet"))
-        scale = max(1.0, np.abs(planet).max())
-        assert planet == pytest.approx(ratio * crank, abs=1e-12 * scale)
 
 
 @CLOSED_FORM
@@ -55,12 +44,6 @@ def test_a_planet_describes_a_hypocycloid(compare):
         compare(name, theirs, ours, error=None, abs=1e-12, unit="m")
 
 
-def test_the_cycloidal_press_rests_in_its_bottom_dead_centre():
-    position = shipped_mechanism("cycloidal_press").ideal_slider(np.radians([170, 180, 190]), 1.0)
-    assert np.ptp(position[0]) < 5e-6, "within 10 deg, of a stroke of 160 mm"
-    assert abs(position[2][1]) < 1e-4
-
-
 @CLOSED_FORM
 def test_two_points_descend_alike(compare):
     mechanism = shipped_mechanism("two_point_press")
@@ -71,26 +54,6 @@ def test_two_points_descend_alike(compare):
     assert np.abs(slide[:, [0, 2]]).max() < 1e-12
     mobility = mobility_of(mechanism)
     assert (mobility.degrees_of_freedom, mobility.redundant) == (1, 1)
-
-
-def test_forces_are_undetermined_where_gear_and_guide_hold_the_slide():
-    mechanism = shipped_mechanism("two_point_press")
-    names = frozenset(joint.name for joint in mechanism.joints)
-    ideal = independent_constraints(mechanism, names)
-    assert {"gears.pair", "guides.slide", "joints.wrist_pin_left"} <= ideal.undetermined
-    loose = independent_constraints(mechanism, names - {"wrist_pin_left"})
-    assert loose.undetermined == frozenset() == frozenset(loose.redundant)
-    alone = shipped_mechanism("cycloidal_press")
-    names = frozenset(joint.name for joint in alone.joints)
-    assert independent_constraints(alone, names).undetermined == frozenset()
-
-
-def test_a_file_has_its_gears():
-    mechanism = geared("cycloidal_press", to="rod")
-    assert mechanism_from_dict(mechanism_to_dict(mechanism)) == mechanism
-    data = mechanism_to_dict(mechanism)
-    del data["gears"]["planet"]["to"]
-    assert mechanism_from_dict(data).gears == (Gear("planet", "planet", -2, "crank"),)
 
 
 @pytest.mark.parametrize(

@@ -11,42 +11,16 @@ from exu_press.scene import mechanism_of
 
 IDEAL = Scene.from_dict({"mechanism": "press", "joints": {}})
 PRESS = mechanism_of(IDEAL)
-DEGREES = np.arange(0.0, 360.0, 0.1)
-BOTTOM = 1800
 
 
-def motion(speed_rpm=240.0, degrees=DEGREES):
-    return PRESS.motion(np.radians(degrees), speed_rpm * math.pi / 30)
-
-
-def slider(speed_rpm=240.0):
-    return PRESS.ideal_slider(np.radians(DEGREES), speed_rpm * math.pi / 30)
-
-
-@pytest.mark.parametrize(
-    ("speed_rpm", "peak", "digit"), [(240.0, 0.441, 5e-4), (200.0, 0.37, 5e-3), (500.0, 0.92, 5e-3)]
-)
-def test_peak_velocity(speed_rpm, peak, digit):
-    _, velocity, _ = slider(speed_rpm)
-    assert np.abs(velocity).max() == pytest.approx(peak, abs=digit)
-
-
-def test_bottom_dead_centre_is_the_lowest_point_and_lies_at_470_mm():
-    position, velocity, _ = slider()
-    assert position.argmin() == BOTTOM
-    assert position[BOTTOM] == pytest.approx(0.47, abs=1e-12)
-    assert velocity[BOTTOM] == pytest.approx(0.0, abs=1e-9)
-
-
-@pytest.mark.parametrize("side", ["left", "right"])
-def test_knuckle_is_straight_at_bottom_dead_centre(side):
-    """Links 6 and 7 hang in one vertical line: pivot, knuckle, plunger."""
-    at = motion(degrees=np.array([180.0]))
-    x = {"left": -0.1655, "right": 0.1655}[side]
-    for link in ("link_6", "link_7"):
-        body = at[f"{link}_{side}"]
-        assert body.position[0, 0] == pytest.approx(x, abs=1e-12)
-        assert body.position[0, 2] == pytest.approx(-math.pi / 2, abs=1e-9)
+def test_peak_velocities_and_bottom_dead_centre_are_the_papers():
+    """0.441, 0.37 and 0.92 m/s at 240, 200 and 500 rpm; 470 mm at 180 deg, the lowest point."""
+    angle = np.radians(np.arange(0.0, 360.0, 0.5))
+    for speed_rpm, peak, digit in ((240.0, 0.441, 5e-4), (200.0, 0.37, 5e-3), (500.0, 0.92, 5e-3)):
+        position, velocity, _ = PRESS.ideal_slider(angle, speed_rpm * math.pi / 30)
+        assert np.abs(velocity).max() == pytest.approx(peak, abs=digit)
+    assert position.argmin() == 360
+    assert position.min() == pytest.approx(0.47, abs=1e-12)
 
 
 def test_link_lengths_of_table_2():
@@ -60,21 +34,6 @@ def test_link_lengths_of_table_2():
         assert ends[:, 1] == pytest.approx(0.0, abs=1e-15)
         assert np.abs(ends[:, 0]) == pytest.approx(length / 2, abs=1e-15)
         assert np.ptp(ends[:, 0]) == pytest.approx(length, abs=1e-15)
-
-
-def test_the_two_sides_are_mirror_images():
-    at = motion()
-    for part in ("link_5", "link_6", "link_7", "plunger"):
-        left, right = at[f"{part}_left"], at[f"{part}_right"]
-        assert_allclose(left.position[:, 0], -right.position[:, 0], atol=1e-14)
-        assert_allclose(left.position[:, 1], right.position[:, 1], atol=1e-14)
-
-
-def test_counterweight_moves_against_the_slide_above_the_shaft():
-    at = motion()
-    weight, slide = at["counterweight"].position[:, 1], at["slide"].position[:, 1]
-    assert weight.min() > 0.0
-    assert np.corrcoef(weight, slide)[0, 1] < -0.99
 
 
 def test_masses_of_table_2():

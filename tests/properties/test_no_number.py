@@ -86,7 +86,7 @@ def test_a_contact_that_is_open_tells_a_rate_that_is_none():
         assert math.isnan(law.dissipated_power(-1e-6, math.nan, 0.2))
 
 
-ANYTHING = [0.0, 5e-324, 1e-20, 0.9, 1.0, 20.0, 1e20, 1e60, 1e154, 1e308, math.inf]
+ANYTHING = [0.0, 5e-324, 0.9, 1.0, 20.0, 1e60, 1e154, 1e308, math.inf]
 ANYTHING = [*ANYTHING, *(-value for value in ANYTHING), math.nan]
 
 

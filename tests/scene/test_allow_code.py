@@ -44,7 +44,6 @@ def hostile(mark):
         ["attractor", "scene.toml"],
         ["precision", "scene.toml"],
         ["stability", "scene.toml"],
-        ["run", "slider_crank", "--set", "joints.crank_pin=own_kinds:Bushing"],
         *([name, "study.toml"] for name in ("sweep", "bifurcation", "sensitivity", "optimise")),
     ],
     ids=" ".join,
@@ -58,10 +57,10 @@ def test_no_command_imports_what_a_file_names(command, hostile, capsys):
         assert "--allow-code" in said and said.count("\n") == 1
 
 
-@pytest.mark.parametrize("more", [[], ["--allow-code"]])
-def test_drawing_imports_nothing_and_needs_no_permission(more, hostile):
-    assert main(["draw", "scene.toml", *more]) == 0
-    assert not hostile.exists()
+def test_drawing_imports_nothing_and_needs_no_permission(hostile):
+    for more in ([], ["--allow-code"]):
+        assert main(["draw", "scene.toml", *more]) == 0
+        assert not hostile.exists()
 
 
 @pytest.mark.parametrize("command", ["run", "sweep"])
@@ -130,9 +129,8 @@ def test_no_module_of_pythons_or_of_a_program_is_ever_imported(kind, tmp_path, c
     assert kind.partition(":")[0] in before or kind.partition(":")[0] not in sys.modules
 
 
-@pytest.mark.parametrize("text", ["raise SystemExit(0)", "import sys; sys.exit('bye')"])
-def test_an_import_that_would_end_the_program_is_an_error(text, mark, tmp_path, capsys):
-    (tmp_path / "quits.py").write_text(text)
+def test_an_import_that_would_end_the_program_is_an_error(mark, tmp_path, capsys):
+    (tmp_path / "quits.py").write_text("import sys; sys.exit('bye')")
     Path("scene.toml").write_text(SCENE.format(kind="quits:Spring"))
     assert main(["run", "scene.toml", "--allow-code"]) == 2
     assert "quits.py, line 1: SystemExit" in capsys.readouterr().err

@@ -1,13 +1,9 @@
 """Keys of a scene's drawing as keys of the scene: masses, places, and what is refused."""
 
-import math
-
 import pytest
 from refused import refused
 
 from exu_press import Scene
-from exu_press.mechanism import mechanism_from_dict, mechanism_lines, shipped_mechanism
-from exu_press.quantities.units import with_unit
 from exu_press.scene.scene import mechanism_of
 
 LINK = {
@@ -45,24 +41,6 @@ def test_a_uniform_rod_stays_one():
     assert (found["slide"].mass, found["slide"].inertia) == (5.0, 0.1)
 
 
-def test_an_inertia_left_out_is_that_of_a_rod():
-    inertia = bodies({"bodies.link.inertia": None}, "drag_link")["link"].inertia
-    crank_pin, link_pin = (
-        next(joint.at for joint in shipped_mechanism("drag_link").joints if joint.name == name)
-        for name in ("crank_pin", "link_pin")
-    )
-    length = math.dist(crank_pin, link_pin)
-    assert inertia == pytest.approx(14.0 * length**2 / 12, rel=1e-12)
-
-
-def test_a_file_and_its_keys_change_at_once(tmp_path):
-    file = tmp_path / "link.toml"
-    file.write_text("\n".join(mechanism_lines(mechanism_from_dict(LINK))), encoding="utf-8")
-    changes = {"mechanism": str(file), "mechanism.bodies.slide.mass": 7.0}
-    changed = Scene(mechanism="slider_crank", joints={}).replace(changes)
-    assert mechanism_of(changed).body("slide").mass == 7.0
-
-
 @pytest.mark.parametrize(
     ("mechanism", "key", "told"),
     [
@@ -77,8 +55,3 @@ def test_a_file_and_its_keys_change_at_once(tmp_path):
 def test_other_keys_are_refused(mechanism, key, told):
     message = refused(Scene(mechanism=mechanism).replace, {f"mechanism.{key}": 3.0})
     assert message.startswith(f"mechanism.{key}") and told in message
-
-
-def test_units_of_their_columns():
-    assert with_unit("mechanism.bodies.rod.inertia") == "mechanism.bodies.rod.inertia, kg m^2"
-    assert with_unit("mechanism.joints.crank_pin.at.x") == "mechanism.joints.crank_pin.at.x, m"

@@ -19,14 +19,6 @@ def scene(grooves, **keys):
     return Scene(mechanism="slider_crank", joints={"crank_pin": crank_pin}, film=film, **keys)
 
 
-def test_a_file_has_them_again(tmp_path):
-    given = scene(AXIAL)
-    given.save(tmp_path / "scene.toml", comments=True)
-    assert Scene.load(tmp_path / "scene.toml") == given
-    assert Scene.from_dict(given.to_dict()) == given
-    assert given.to_dict()["film"]["grooves"] == AXIAL
-
-
 def inclined(**keys):
     film = {"law": "grooved", "length": 0.05, "viscosity": 0.5, "tilt": 1e-3, **keys}
     crank_pin = {"kind": "lubricated", "clearance": 1e-4, "radius": 0.05}
@@ -88,24 +80,6 @@ def test_a_pressure_far_above_that_of_the_rotation_has_a_warning():
     assert scene_warnings(scene([{**RING[0], "pressure": 1e6}])) == []
     pocket = {**AXIAL[0], "length": 0.04, "pressure": 1e6}
     assert scene_warnings(scene([pocket], **slow)) == []
-
-
-def test_pressures_in_one_ratio_have_one_table():
-    """The table is that of the shape, and of the ratios; without a pressure it is the ambient."""
-    low, high, swapped = (
-        scene([{**AXIAL[0], "length": 0.04, "pressure": first}, {**AXIAL[1], **second}])
-        .joints["crank_pin"]
-        .film_law()
-        .bearing
-        for first, second in (
-            (1e5, {"length": 0.04, "pressure": 2e5}),
-            (3e5, {"length": 0.04, "pressure": 6e5}),
-            (2e5, {"length": 0.04, "pressure": 1e5}),
-        )
-    )
-    assert low == high != swapped
-    assert [groove.pressure for groove in low.grooves] == [0.5, 1.0]
-    assert not scene(AXIAL).joints["crank_pin"].film_law().bearing.is_pressurized
 
 
 @pytest.mark.long

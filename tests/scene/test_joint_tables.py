@@ -5,56 +5,23 @@ from dataclasses import replace
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.scene import DryJoint, IdealJoint, LubricatedJoint, mechanism_of
-from exu_press.scene.film import JournalFilm
-from exu_press.schema.table import plain, table_from
+from exu_press.scene import mechanism_of
+from exu_press.schema.table import plain
 
 
 def press(**joints):
     return Scene(joints=joints)
 
 
-def test_a_joint_that_is_not_named_is_ideal():
-    scene = press(pivot_left="dry")
-    names = [joint.name for joint in mechanism_of(scene).joints]
-    assert list(scene.joints) == names, "every joint of the mechanism, in its order"
-    dry = scene.joints["pivot_left"]
-    assert (dry.kind, dry.clearance, dry.radius) == ("dry", 1e-4, 0.07)
-    assert (plain(dry.contact), plain(dry.friction)) == (scene.contact, scene.friction)
-    others = {joint for name, joint in scene.joints.items() if name != "pivot_left"}
-    assert others == {IdealJoint()}
-
-
-def test_without_any_the_shipped_mechanisms_have_their_own():
-    assert Scene() == press(crank_pin="lubricated", balls="dry")
-    slider_crank = Scene(mechanism="slider_crank")
-    assert set(slider_crank.joints.with_clearance) == {"crank_pin"}
-    assert press() == Scene(joints={}) != Scene()
-
-
 def test_a_group_stands_for_its_joints():
+    balls = {"balls": {"kind": "dry", "clearance": 5e-5}, "ball_left": {"clearance": 2e-4}}
+    assert press(**balls).joints["ball_left"].clearance == 2e-4, "its own go before"
+    assert press(**balls).joints["ball_right"].clearance == 5e-5
     scene = press(knuckles={"kind": "dry", "clearance": 5e-5})
     loose = scene.joints.with_clearance
     assert len(loose) == 4
     assert all(name.startswith("knuckle_") and j.clearance == 5e-5 for name, j in loose.items())
     assert list(scene.joints.by_group) == ["knuckles"]
-
-
-def test_a_joints_own_keys_go_before_its_groups():
-    scene = press(balls={"kind": "dry", "clearance": 5e-5}, ball_left={"clearance": 2e-4})
-    assert scene.joints["ball_left"].clearance == 2e-4
-    assert scene.joints["ball_right"].clearance == 5e-5
-    assert set(scene.joints.by_group) == {"ball_left", "ball_right"}
-
-
-def test_a_kind_a_table_and_a_dataclass_are_the_same():
-    assert press(crank_pin="lubricated") == press(crank_pin={"kind": "lubricated"})
-    assert press(crank_pin={"kind": "dry", "radius": 0.05}) == press(
-        crank_pin=DryJoint(radius=0.05)
-    )
-    film = table_from(JournalFilm, "film", {"law": "finite", "viscosity": 0.1})
-    given = press(crank_pin=LubricatedJoint(film=film)).joints["crank_pin"].film
-    assert plain(given).items() >= {"law": "finite", "viscosity": 0.1, "length": 0.1}.items()
 
 
 def test_own_laws_differ_from_the_scenes():

@@ -27,17 +27,14 @@ def test_any_number_of_loads_by_name():
     assert not Scene().load
 
 
-def test_by_default_it_acts_on_the_output_in_its_direction():
-    applied = Scene(mechanism="six_bar", load={"a": PULSE}).applied_loads["a"]
-    assert (applied.body, applied.point, applied.direction) == ("ram", (0.0, 0.0), (0.0, 1.0))
-
-
 def test_an_offset_is_as_drawn():
     """The linkage is drawn hanging, its x axis downwards: 0.1 m to its right is its +y."""
     load = {"a": {**PULSE, "body": "linkage", "offset": [0.1, 0.0], "direction": [0.0, -2.0]}}
     applied = Scene(load=load).applied_loads["a"]
     assert applied.point == pytest.approx((0.0, 0.1))
     assert applied.direction == (0.0, -1.0)
+    applied = Scene(mechanism="six_bar", load={"a": PULSE}).applied_loads["a"]
+    assert (applied.body, applied.point, applied.direction) == ("ram", (0.0, 0.0), (0.0, 1.0))
 
 
 def test_keys_on_the_command_line_and_in_sweeps():
@@ -49,13 +46,6 @@ def test_keys_on_the_command_line_and_in_sweeps():
     assert table.load["a"] == TableLoad(time=(0.0, 1.0), force=(0.0, 1.0), offset=(0.1, 0.0))
     assert not table.replace({"load": {}}).load
     assert changed.replace({"mechanism": "slider_crank"}).load == changed.load
-
-
-def test_a_csv_file_lies_beside_the_scene(tmp_path):
-    (tmp_path / "force.csv").write_text("# drawing\n\ncrank_angle_deg, force\n90,0\n180, 2e5\n")
-    (tmp_path / "scene.toml").write_text('[load.a]\nkind = "table"\nfile = "force.csv"\n')
-    load = Scene.load(tmp_path / "scene.toml").load["a"]
-    assert load == TableLoad(crank_angle_deg=(90.0, 180.0), force=(0.0, 2e5))
 
 
 @pytest.mark.parametrize(

@@ -126,30 +126,14 @@ def test_with_permission_they_run_are_stored_and_shown_without_being_imported(
 @pytest.mark.parametrize(
     ("guide", "modules"),
     [
-        ({"friction": own("graded")}, {"own_kinds"}),
         ({"slider": {"friction": own("graded")}}, {"own_kinds"}),
         ({"clearance": 1e-4}, set()),
-        ({"friction": "coulomb"}, set()),
     ],
 )
 def test_the_law_of_a_guide_is_among_the_code_that_a_result_comes_from(guide, modules, mark):
     scene = {"mechanism": "slider_crank", "joints": {}, "guide": guide}
     import_kinds(scene)
     assert provenance_of(Scene.from_dict(scene))["code"].keys() == modules
-
-
-def test_their_keys_are_checked_and_explained(mark):
-    saved(own)
-    scene = Scene.load("scene.toml", allow_code=True)
-    for change, message in (
-        ({"contact.constant": -1.0}, r"contact\.constant = -1\.0: allowed is a number >= 0"),
-        ({"contact.constnt": 1.0}, r"contact\.constnt = 1\.0: .*mean 'constant'"),
-        ({"contact.restitution": 0.5}, r"restitution = 0\.5: not used .*belongs to 'hunt_cross"),
-        ({"contact.damping": own("graded")}, r"contact\.damping = 'own_kinds:Graded': allowed is"),
-    ):
-        with pytest.raises(InputError, match=message):
-            scene.replace(change)
-    assert scene.replace({"contact.damping": "flores"}).contact.keys() >= {"restitution"}
 
 
 @pytest.mark.parametrize("name", ["Restitution", "ContactDamping", "PointContact", "HuGuo"])
@@ -171,15 +155,6 @@ def test_a_distribution_registers_them(install, mark, tmp_path):
     forget()
     mark.unlink()
     assert Result.load("run.nc").scene.has_unresolved_kinds and not mark.exists()
-
-
-def test_a_registered_law_of_a_guide_has_its_name_where_another_kind_was_first(install, tmp_path):
-    install(tmp_path / "site-packages" / "mine")
-    pin = {"kind": "bushing", "clearance": 1e-4, "stiffness": 2e8}
-    for friction in ("coulomb", "graded"):
-        data = {"mechanism": "slider_crank", "joints": {"crank_pin": pin}}
-        scene = Scene.from_dict({**data, "guide": {"friction": friction}})
-        assert scene.to_dict()["guide"]["friction"] == friction
 
 
 @pytest.mark.parametrize(
@@ -247,19 +222,6 @@ def test_what_is_no_such_kind_is_refused(scene_of, keys, changes, told, mark):
     keys = {key: value for key, value in {**keys, **changes}.items() if value is not None}
     with pytest.raises(InputError, match=told):
         scene_of(keys)
-
-
-def test_a_joint_balances_energy_and_comes_near_the_ideal_one_as_it_gets_stiff(mark):
-    ideal = simulate(Scene(mechanism="slider_crank", joints={}))
-    force = "joints.crank_pin.peak_force"
-    peaks = []
-    for stiffness in (2e8, 2e9):
-        result = simulate(crank({**BUSHING, "stiffness": stiffness}))
-        assert result.completed
-        assert abs(result.quantity("energy.residual").value) < 1e-4
-        peaks.append(result.quantity(force).value / ideal.quantity(force).value - 1.0)
-    assert abs(peaks[1]) < 1e-3
-    assert abs(peaks[1]) < abs(peaks[0])
 
 
 def test_a_load_gives_back_what_it_takes(mark):

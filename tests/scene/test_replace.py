@@ -34,28 +34,9 @@ def test_made_dry_it_loses_its_film_and_made_ideal_everything():
     ideal = dry.replace({"joints.crank_pin": "ideal", "joints.balls": "ideal"})
     assert not ideal.joints.with_clearance
     assert ideal.contact is ideal.friction is None
-
-
-def test_made_ideal_in_one_joint_it_loses_that_clearance_alone():
-    scene = PRESS.replace({"joints.balls.clearance": 2e-4}).replace({"joints.crank_pin": "ideal"})
-    assert {name: j.clearance for name, j in scene.joints.with_clearance.items()} == {
-        "ball_left": 2e-4,
-        "ball_right": 2e-4,
-    }
-
-
-def test_one_joint_of_a_group():
-    scene = PRESS.replace({"joints.balls.clearance": 2e-4})
-    scene = scene.replace({"joints.ball_left.clearance": 5e-5, "joints.ball_right": "ideal"})
-    assert scene.joints["ball_left"].clearance == 5e-5
-    assert scene.joints["ball_right"].kind == "ideal"
-
-
-def test_made_lubricated_it_gets_a_film():
-    dry = PRESS.replace({"joints.crank_pin": "dry"})
     assert dry.replace({"joints.crank_pin": "lubricated"}) == PRESS
-    changed = dry.replace({"joints.crank_pin": "lubricated", "film.viscosity": 0.1})
-    assert changed.film["viscosity"] == 0.1
+    other = PRESS.replace({"mechanism": "slider_crank"})
+    assert other.press is None and other.replace({"mechanism": "press"}) == PRESS
 
 
 def test_a_joints_own_law_follows_the_scenes_where_it_says_nothing():
@@ -65,23 +46,6 @@ def test_a_joints_own_law_follows_the_scenes_where_it_says_nothing():
     stopped = own.replace({"film.at_contact": "mixed", "joints.crank_pin.friction.law": "none"})
     assert stopped.joints["crank_pin"].friction.law.kind == "none"
     assert stopped.replace({"film.at_contact": "stop"}).joints["crank_pin"].friction is None
-
-
-def test_all_joints_at_once():
-    """What a change gives for joints is everything: what it does not name is ideal."""
-    assert set(PRESS.replace({"joints": {"pivot_left": "dry"}}).joints.with_clearance) == {
-        "pivot_left"
-    }
-
-
-def test_another_mechanism():
-    other = PRESS.replace({"mechanism": "slider_crank"})
-    assert other.press is None
-    assert set(other.joints) == {"shaft", "crank_pin", "wrist_pin"}
-    assert other.slider_crank is not None
-    assert other.replace({"mechanism": "press"}) == PRESS
-    ideal = PRESS.replace({"joints.crank_pin": "ideal"}).replace({"mechanism": "slider_crank"})
-    assert ideal.joints["crank_pin"].kind == "ideal"
 
 
 @pytest.mark.parametrize(

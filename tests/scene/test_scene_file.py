@@ -22,25 +22,6 @@ def write(directory, text):
 refusal = partial(refused, Scene.load)
 
 
-def test_file_with_tables(tmp_path):
-    path = write(
-        tmp_path,
-        'mechanism = "slider_crank"\nspeed_rpm = 300\n[film]\nviscosity = 0.1\n'
-        "[joints.crank_pin]\nkind = 'lubricated'\nclearance = 5e-5\n",
-    )
-    scene = Scene.load(path)
-    assert scene == Scene.from_dict(
-        {
-            "mechanism": "slider_crank",
-            "speed_rpm": 300,
-            "film": {"viscosity": 0.1},
-            "joints": {"crank_pin": {"kind": "lubricated", "clearance": 5e-5}},
-        }
-    )
-    assert Scene.load(str(path)) == scene
-    assert Scene.load(write(tmp_path, "")) == Scene()
-
-
 @pytest.mark.parametrize(
     ("content", "shown"),
     [
@@ -68,11 +49,6 @@ def test_assignments_change_the_file(tmp_path):
     path = write(tmp_path, "speed_rpm = 300\n[film]\nviscosity = 0.1")
     scene = Scene.load(path, ["speed_rpm=200", "film.viscosity = 0.2", "film.law=pi_film"])
     assert (scene.speed_rpm, scene.film["viscosity"], scene.film["law"]) == (200.0, 0.2, "pi_film")
-
-
-def test_assignment_drops_what_is_no_longer_used(tmp_path):
-    path = write(tmp_path, "[film]\nviscosity = 0.1")
-    assert Scene.load(path, ["joints.crank_pin=dry"]).film is None
 
 
 def test_a_wrong_assignment_is_not_the_files(tmp_path):

@@ -4,20 +4,12 @@ import pytest
 from schedules import SCHEDULE, scheduled
 
 from exu_press import InputError, Scene
-from exu_press.scene.warnings import scene_warnings
 
 DRIVE = {**SCHEDULE, "brake_off": [0.0, 0.03], "start_time": [0.05], "stop_time": [0.6]}
 
 
 def scene(**changes):
     return scheduled(2.0, **{**DRIVE, **changes})
-
-
-def test_a_press_that_stands_has_no_speed_and_does_not_settle():
-    given = scene()
-    assert given.settle_revolutions == 0.0 and given.start_speed == 0.0
-    without = given.replace({"drive.clutch_torque": None, "drive.begins": "turning"})
-    assert without.drive.clutch is None
 
 
 @pytest.mark.parametrize(
@@ -69,9 +61,3 @@ def test_what_a_scene_refuses_beside_a_schedule():
             start_angle_deg=100.0,
             drive={**{k: v for k, v in DRIVE.items() if k != "stop_time"}, "stop_angle_deg": 90.0},
         )
-
-
-def test_a_brake_that_weights_turn_is_told():
-    assert not any("brake_torque" in one for one in scene_warnings(scene()))
-    (said,) = [one for one in scene_warnings(scene(brake_torque=20.0)) if "brake_torque" in one]
-    assert "does not hold the press at every angle: weights and springs turn it with" in said

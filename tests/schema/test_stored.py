@@ -13,24 +13,6 @@ class Wheel(TypedDict):
 
 
 @pytest.mark.parametrize(
-    ("kind", "text", "value"),
-    [
-        (float, "2", 2.0),
-        (float | None, "null", None),
-        (tuple[str, ...], '["a", "b"]', ("a", "b")),
-        (tuple[float, float | None], "[1, null]", (1.0, None)),
-        (dict[str, float], '{"a": 1}', {"a": 1.0}),
-        (Wheel, '{"name": "w", "teeth": 3, "mass": 2}', {"name": "w", "teeth": 3, "mass": 2.0}),
-        (Any, '{"a": [1, null, true]}', {"a": [1, None, True]}),
-    ],
-)
-def test_what_is_of_its_kind_comes_back(kind, text, value):
-    found = from_json(kind, text, "it")
-    assert found == value
-    assert type(found) is type(value)
-
-
-@pytest.mark.parametrize(
     ("kind", "text", "message"),
     [
         (str, "5", "it = 5: allowed is a text"),

@@ -66,7 +66,7 @@ def test_the_drift_of_the_last_revolution_is_part_of_every_error(warm):
 def test_what_heat_asks_for_is_part_of_the_temperatures_error(warm):
     state = warm.info["state"]
     films = {"crank_pin": (warm["crank_pin_temperature"][-1] + 3.0, 1e6)}
-    asked = ending_with(warm, {**state, "films": films})
+    asked = replace(warm, info={**warm.info, "state": {**state, "films": films}})
     found = with_next_temperatures(asked)
     changed = found["crank_pin_temperature"] - warm["crank_pin_temperature"]
     assert changed == pytest.approx(3.0)
@@ -74,14 +74,3 @@ def test_what_heat_asks_for_is_part_of_the_temperatures_error(warm):
     assert found["crank_pin_viscosity"][-1] == pytest.approx(
         oil.viscosity(films["crank_pin"][0], 1e6)
     )
-
-
-def ending_with(run, state):
-    """The run with another state at its end."""
-    return replace(run, info={**run.info, "state": state})
-
-
-def test_runs_without_warm_oil_have_no_such_part():
-    run = simulate(Scene(mechanism="slider_crank", revolutions=0.1))
-    assert read_a_revolution_earlier(run) is run
-    assert with_next_temperatures(run) is run

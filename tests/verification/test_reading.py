@@ -26,13 +26,6 @@ def with_force(result, values):
     return result.with_values({"shaft_force": values})
 
 
-def test_what_alternates_is_taken_away(run):
-    signs = np.where(np.arange(len(run.time)) % 2, 1.0, -1.0)[:, None]
-    alternating = with_force(run, np.full((len(run.time), 2), 500.0) + 40.0 * signs)
-    found = average_neighbours(alternating)["shaft_force"]
-    assert found[1:] == pytest.approx(500.0)
-
-
 def test_a_force_that_turns_round_within_a_step_may_act_across_it(run):
     """A film behind a load that goes away: 7 kN to one side, 5 kN to the other one step later."""
     force = np.tile([200.0, 7000.0], (len(run.time), 1))
@@ -94,13 +87,6 @@ def test_what_the_balance_misses_is_stated():
     balance = run.quantity("energy.dissipated").value + run.quantity("energy.stored").value
     off = abs(run.quantity("drive.mean_power").value - balance)
     assert told["error"] >= 0.99 * off > 0.01 * balance
-
-
-def test_positions_are_left_alone(run):
-    """They are read as cubics between steps."""
-    found = average_neighbours(run)
-    for name in ("slider_position", "crank_pin_eccentricity", "energy_input"):
-        assert found[name] is run[name]
 
 
 def test_a_peak_velocity_between_steps_is_stated(run):

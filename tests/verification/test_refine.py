@@ -44,6 +44,9 @@ def test_doubtful_is_what_is_off_by_more_than_a_twentieth_or_not_determined(bare
     open_ = stated(bare, 0.0)
     open_.info["errors"]["stroke"]["determined"] = False
     assert refine.doubtful(open_) == ["stroke"]
+    name = "peak_acceleration.differentiated_1khz"  # a reading that nobody asked for
+    unknown = {**open_.info["errors"]["stroke"], "error": 1e3}
+    assert refine.doubtful(replace(bare, info={**bare.info, "errors": {name: unknown}})) == []
 
 
 def test_it_goes_on_until_it_is_known(bare, monkeypatch):
@@ -61,19 +64,6 @@ def test_it_ends_when_the_time_is_spent_and_says_what_is_left(bare, monkeypatch)
     assert 2 <= len(asked) <= 4
     assert "--set solver.tolerance=" in remark and " s," in remark
     assert re.search(r"stroke: not known within 5%; goes on .* may take 0\.\d+ s; Ctrl-C", said[0])
-
-
-def test_a_run_that_is_known_is_run_once(bare, monkeypatch):
-    asked = fake(monkeypatch, bare, lambda tolerance: 0.0)
-    ((_, remark),) = refine.refinements(SCENE, announce=pytest.fail)
-    assert (len(asked), remark) == (1, "")
-
-
-def test_a_reading_that_nobody_asked_for_makes_no_run(bare):
-    name = "peak_acceleration.differentiated_1khz"
-    value = bare.quantity(name).value
-    error = {"error": 0.5 * value, "determined": True, "low": 0.0, "high": 2.0 * value}
-    assert refine.doubtful(replace(bare, info={**bare.info, "errors": {name: error}})) == []
 
 
 def test_a_finer_run_that_stops_does_not_replace_the_finished_one(bare, monkeypatch):

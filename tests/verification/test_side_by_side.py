@@ -3,7 +3,6 @@
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.verification import side_by_side
 from exu_press.verification.run import simulate_with_errors
 from exu_press.verification.side_by_side import simulate_side_by_side
 
@@ -23,21 +22,7 @@ def test_results_are_those_of_one_run_after_the_other():
         assert (results[label]["slider_velocity"] == alone["slider_velocity"]).all()
 
 
-def test_without_errors_a_scene_is_run_once():
-    (result,) = dict(simulate_side_by_side({"a": SCENES["dry"]}, errors=False)).values()
-    assert result.completed and "errors" not in result.info
-
-
 def test_a_scene_that_cannot_be_run_is_refused():
     off = SCENES["dry"].replace({"output.channels": ["no_such_channel"]})
     with pytest.raises(InputError, match="no_such_channel"):
         dict(simulate_side_by_side({"a": off}, errors=False))
-
-
-def test_progress_says_what_runs(monkeypatch, capsys):
-    monkeypatch.setattr(side_by_side, "SECONDS_BETWEEN_UPDATES", 1e-3)
-    monkeypatch.setattr("exu_press.terminal.progress.SECONDS_BETWEEN_LINES", 0.0)
-    longer = SCENES["dry"].replace({"revolutions": 0.1})
-    dict(simulate_side_by_side({"a dry one": longer}, errors=False, quiet=False))
-    lines = capsys.readouterr().err.splitlines()
-    assert lines[0].startswith("a dry one: ") and lines[-1].startswith("a dry one: 100 %")

@@ -39,22 +39,13 @@ def longer(run, part):
 @pytest.mark.parametrize("part", [0.01, -0.01])
 def test_a_stated_error_covers_what_is_within_it(run, part):
     reference = longer(run, part)
-    assert of_stroke(run, reference, 0.011).is_covered
+    stated = of_stroke(run, reference, 0.011)
+    assert stated.is_covered
+    assert stated.true_error == pytest.approx(0.01 * stated.value)
+    assert stated.ratio == pytest.approx(1.1)
     assert not of_stroke(run, reference, 0.009).is_covered
-
-
-def test_the_true_error_and_its_ratio(run):
-    found = of_stroke(run, longer(run, 0.01), 0.05)
-    assert found.true_error == pytest.approx(0.01 * found.value)
-    assert found.ratio == pytest.approx(5.0)
-
-
-def test_errors_next_to_nothing_are_no_matter(run):
-    """They are covered whatever is stated, and have no ratio."""
-    found = of_stroke(run, longer(run, 0.5 * NOTHING), 0.0)
-    assert found.is_covered
-    assert found.ratio is None
-    assert not of_stroke(run, longer(run, 2.0 * NOTHING), 0.0).is_covered
+    nothing = of_stroke(run, longer(run, 0.5 * NOTHING), 0.0)
+    assert nothing.is_covered and nothing.ratio is None
 
 
 def test_what_alternates_in_the_reference_is_open(run):

@@ -11,13 +11,6 @@ def rows(scenes):
     return {line[0]: line[1:] for line in lines}
 
 
-def test_variants_differ_in_their_joints_alone():
-    found = rows(dict([*variants(Scene())[0].items()][:3]))
-    assert found["joints.crank_pin.kind"] == ["ideal", "dry", "lubricated"]
-    assert found["joints.ball_left.kind"] == ["ideal", "dry", "dry"]
-    assert all(name.endswith(".kind") for name in found)
-
-
 def test_a_changed_number_and_a_table_that_one_scene_has():
     base = Scene()
     other = base.replace(

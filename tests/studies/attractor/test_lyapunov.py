@@ -11,10 +11,8 @@ from exu_press import Scene
 from exu_press.cli import main
 from exu_press.quantities import quantities_of
 from exu_press.studies.attractor import attractor, period_of
-from exu_press.studies.attractor.lyapunov import combine_exponents, exponent_of
+from exu_press.studies.attractor.lyapunov import combine_exponents
 from exu_press.studies.attractor.orbit import NoMotion, Orbit
-from exu_press.verification.distribution import discretization_error
-from exu_press.verification.estimate import ORDERS
 
 FILM = Scene(
     mechanism="slider_crank",
@@ -76,40 +74,6 @@ def test_an_interval_that_has_not_aligned_holds_the_exponent_that_it_tends_to():
     ]
     found = combine_exponents(growths, (1e-2, 1e-3), 1e-9, (0.0, 0.0))
     assert found.low < -0.3 and found.high > -0.245
-
-
-def contraction_exponent(random, error, distance=1e-2):
-    """Return the exponent of a contraction by exp(-1.2) whose steps err, half of it alike."""
-    growths, differences = [], []
-    alike, separation = random.normal(0.0, error, 2), np.array([distance, 0.0])
-    for _ in range(20):
-        ends = [
-            separation * [math.exp(-1.2), 0.1] + size * (alike + random.normal(0.0, error, 2))
-            for size in (1.0, 0.1 ** ORDERS["tolerance"])
-        ]
-        coarse, fine = (math.log(np.linalg.norm(end) / distance) for end in ends)
-        growths.append(coarse)
-        differences.append(coarse - fine)
-        separation = ends[0] * math.exp(-coarse)
-    growth_error = discretization_error(differences[::4])
-    return combine_exponents([np.array(growths)], (distance,), error, (growth_error,))
-
-
-def test_what_finer_steps_change_of_a_growth_belongs_to_its_interval():
-    random, error = np.random.default_rng(1), 3e-4
-    exponents = [contraction_exponent(random, error) for _ in range(200)]
-    assert sum(exponent.low < -1.2 < exponent.high for exponent in exponents) > 190
-    assert np.median([exponent.high - exponent.low for exponent in exponents]) < 1.0
-
-
-def test_the_interval_holds_the_mean_in_most_of_many_series():
-    random = np.random.default_rng(1)
-    inside = 0
-    for _ in range(200):
-        noise = random.standard_normal(205)
-        _, low, high = exponent_of(0.3 + noise[5:] + 0.5 * noise[4:-1])
-        inside += low < 0.3 < high
-    assert inside > 180
 
 
 @pytest.fixture(scope="module")

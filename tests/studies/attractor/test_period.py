@@ -61,15 +61,6 @@ def test_what_diverges_has_no_period_within_a_large_error():
     assert "neighbours part" in str(told) and told.finer < 1.0
 
 
-def test_an_error_as_large_as_the_clearance_tells_no_period():
-    """Points all over the clearance lie within three times such an error, too."""
-    points = np.random.default_rng(1).uniform(-0.5, 0.5, size=(40, 2))
-    told = period_of(points, error=2.0, most=4)
-    assert not told.is_decided and told.revolutions is None
-    assert told.finer == pytest.approx(0.05, rel=0.01)
-    assert "clearances apart, with an error of 2" in str(told)
-
-
 @pytest.mark.parametrize(("scatter", "error"), [(0.03, 0.04), (0.003, 0.04), (0.03, 0.009)])
 def test_points_that_scatter_within_a_large_error_are_not_the_same(scatter, error):
     """A dry press with 20 um scatters by a tenth of that: "1 revolution" for an error of 4 %."""

@@ -114,13 +114,6 @@ PRESSED = Scene(
 )
 
 
-def test_it_goes_on_bit_for_bit_from_what_is_recorded():
-    coarse = PRESSED.replace({"solver.tolerance": 5e-2})
-    assert np.array_equal(
-        section_points(coarse, 2, recorded=True), section_points(coarse, 2, recorded=False)
-    )
-
-
 @pytest.mark.long
 def test_a_contact_that_lasts_does_not_creep():
     """By a ten-thousandth of the clearance a revolution, where what steps miss is kept for good."""

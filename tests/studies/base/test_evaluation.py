@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene
-from exu_press.studies.base import Normal, Range, Study, Values
-from exu_press.studies.base.evaluation import Evaluation, error_in, require_key_kinds
+from exu_press.studies.base import Study
+from exu_press.studies.base.evaluation import Evaluation, error_in
 
 SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.01, settle=0.0)
 ROD, SPEED = "slider_crank.rod_length", "speed_rpm"
@@ -54,14 +54,6 @@ def test_failed_runs_are_counted_and_give_no_number():
 def test_a_quantity_that_the_scene_has_not():
     with pytest.raises(InputError, match="did you mean 'stroke'"):
         Evaluation(STUDY, ["strok"], Runs())
-
-
-def test_kinds_of_keys_that_a_study_takes():
-    assert require_key_kinds(STUDY, "x", (Range, Values)) == (ROD, SPEED)
-    with pytest.raises(InputError, match=r"in a file for exu-press fit is \{low = a"):
-        require_key_kinds(STUDY, "fit")
-    normal = Study(scene=SCENE, keys={ROD: {"mean": 0.4, "deviation": 0.01}})
-    assert require_key_kinds(normal, "sensitivity", (Range, Normal)) == (ROD,)
 
 
 def test_the_error_of_what_is_not_determined_is_half_its_bounds():

@@ -76,8 +76,3 @@ def test_the_content_of_a_step_file_tells_runs_apart(scene, tmp_path):
     (tmp_path / "rod.step").unlink()
     with pytest.raises(InputError, match=r"rod\.step: is no file that can be read"):
         scene_from(first)
-
-
-def test_scenes_without_files_have_their_keys_alone():
-    scene = Scene(mechanism="slider_crank", revolutions=0.01)
-    assert arguments_of(scene) == {"scene": scene.to_dict()}

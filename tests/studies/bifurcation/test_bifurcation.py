@@ -12,7 +12,7 @@ from exu_press.model.state import State
 from exu_press.studies.attractor.orbit import Orbit
 from exu_press.studies.bifurcation import Bifurcation, bifurcation
 from exu_press.studies.bifurcation.figure import bifurcation_figure
-from exu_press.studies.bifurcation.run import rescale_state, run_point
+from exu_press.studies.bifurcation.run import rescale_state
 
 SHORT = {"skip": 1, "revolutions": 20, "longest": 2}
 SPEEDS = {"speed_rpm": [230.0, 240.0]}
@@ -74,24 +74,6 @@ def test_a_state_fits_another_speed():
     assert np.ptp(result["crank_speed"]) < 1e-6 * FILM.angular_speed
     turned = result["crank_angle"] / (2.0 * np.pi)
     assert turned[-1] == pytest.approx(2.0, abs=1e-6)
-
-
-@pytest.mark.long
-def test_whole_numbers_stay_whole():
-    study = Bifurcation(scene=FILM, keys={"solver.max_steps": [1000, 2000]}, bifurcation=SHORT)
-    assert [type(value) for value in study.values] == [int, int]
-
-
-@pytest.mark.long
-def test_a_run_from_the_start_is_the_attractor(monkeypatch):
-    """A fifth of the revolutions that an exponent needs."""
-    for module in ("motion", "lyapunov"):
-        monkeypatch.setattr(f"exu_press.studies.attractor.{module}.BATCHES", 2)
-    scene = FILM.replace({"solver.tolerance": 1e-3})
-    asked = {"skip": 1, "revolutions": 4, "longest": 1}
-    row = run_point({"scene": scene.to_dict(), "start": None, **asked})
-    assert len(row["points"]) == 4
-    assert row["period"] == 1
 
 
 @pytest.mark.long

@@ -1,7 +1,6 @@
 """Errors of trajectories whose errors are known; their rows, floors and orders."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,10 +9,9 @@ from exu_press.studies.precision.errors import (
     Errors,
     Trajectory,
     errors_of,
-    instants_until,
     peaks_error,
 )
-from exu_press.studies.precision.rows import order_of, orders_of, row_of
+from exu_press.studies.precision.rows import order_of, row_of
 from exu_press.studies.precision.timing import Attempt, TimedRun, time_runs
 
 TIME = np.linspace(0.0, 0.1, 401)
@@ -32,21 +30,11 @@ def test_a_larger_amplitude_is_seen_in_all_three():
     assert errors.peak_acceleration == pytest.approx(0.01, rel=1e-6)
 
 
-def test_interpolation_does_not_count_as_an_error():
-    coarse = wave(np.linspace(0.0, 0.1, 201))
-    assert errors_of(coarse, wave(), 0.1).position < 2e-8
-
-
 def test_what_lies_behind_the_horizon_does_not_count():
     position = wave().position + np.where(TIME > 0.05, 1.0, 0.0)
     run = Trajectory(TIME, position, wave().velocity, wave().acceleration)
     assert errors_of(run, wave(), 0.049).position == 0.0
     assert errors_of(run, wave(), 0.1).position == pytest.approx(1.0)
-
-
-@pytest.mark.parametrize("horizon", [0.05, 0.225, 0.25])
-def test_instants_end_at_the_horizon(horizon):
-    assert instants_until(horizon)[-1] == pytest.approx(horizon, abs=1e-12)
 
 
 def test_peaks_of_a_whole_run_are_a_distribution_over_its_starts():
@@ -55,11 +43,6 @@ def test_peaks_of_a_whole_run_are_a_distribution_over_its_starts():
     assert peaks_error(large, truth) == pytest.approx(0.1)
     assert peaks_error(large, truth, [small]) == pytest.approx(0.0, abs=1e-12)
     assert peaks_error(large, truth, [], [large]) == pytest.approx(0.1 / 2.1)
-
-
-def test_a_run_shorter_than_a_span_has_one_peak():
-    time = np.linspace(0.0, 0.003, 50)
-    assert peaks_error(wave(time, 1.2), wave(time)) == pytest.approx(0.2)
 
 
 NO_FLOOR = Errors(0.0, 0.0, 0.0)
@@ -80,23 +63,11 @@ def test_errors_below_the_floor_are_raised_to_it_and_marked():
     )
 
 
-def test_order_of_a_second_order_method():
-    assert order_of([row(h, 3.0 * h**2) for h in (1e-2, 1e-3, 1e-4)]) == pytest.approx(2.0)
-
-
 def test_order_leaves_out_what_cannot_be_told():
     floor = Errors(1e-7, 0.0, 0.0)
     series = [row(h, 3.0 * h**2, floor=floor) for h in (1e-1, 1e-2, 1e-3, 1e-4)]
     assert order_of(series) == pytest.approx(2.0)
     assert order_of(series[-1:]) is None
-
-
-def test_numbers_of_modes_have_no_order():
-    steps = [row(h, 3.0 * h**2) for h in (1e-2, 1e-3)]
-    modes = [replace(row(float(n), 1.0 / (1 + n), solver="modes"), setting="modes") for n in (0, 4)]
-    (found,) = orders_of(steps + modes)
-    assert found["solver"] == "fixed step"
-    assert found["error_position"] == pytest.approx(2.0)
 
 
 def test_long_runs_and_failed_ones_are_not_repeated():

@@ -1,7 +1,6 @@
 """A scene pushed to its extremes, the verdicts, the report and the map."""
 
 import dataclasses
-import json
 from dataclasses import replace
 
 import numpy as np
@@ -29,15 +28,6 @@ DRY = {"joints.crank_pin": "dry", "contact": PAPER_LAWS["contact"]}
 def judged(**changes):
     scene = Scene.from_dict(SHORT).replace(changes)
     return judge({"name": "a case", "scene": scene.to_dict()})
-
-
-def test_a_harmless_case_is_right_with_figures():
-    row = judged(**DRY)
-    assert row["verdict"] == "right", row["reason"]
-    assert len(row["checks"]) == 5
-    assert all(check["passed"] and check["value"] <= check["limit"] for check in row["checks"])
-    assert 0.0 < row["residual"] < 1e-3
-    json.dumps(row, allow_nan=False)
 
 
 def test_a_run_that_says_it_was_not_resolved_has_stopped():
@@ -72,6 +62,12 @@ def run():
     return simulate(Scene.from_dict(SHORT).replace(DRY))
 
 
+@pytest.fixture(scope="module")
+def told(run):
+    """The run with its errors."""
+    return with_errors(run, beside=False)
+
+
 def changed(result, **values):
     return result.with_values(values)
 
@@ -101,14 +97,6 @@ def test_each_check_can_fail(run):
     assert failed(changed(run, crank_pin_eccentricity=deep)) == ["contact energy out of nothing"]
 
 
-def test_what_a_loaded_start_holds_is_not_out_of_nothing():
-    """At 1 rpm nearly all energy is that of the pin that the weights press."""
-    slow = Scene.from_dict(SHORT).replace(
-        {**DRY, "start": "loaded", "speed_rpm": 1.0, "revolutions": 4e-4}
-    )
-    assert failed(simulate(slow)) == []
-
-
 @pytest.mark.parametrize(
     ("channel", "factor", "named"),
     [
@@ -118,17 +106,15 @@ def test_what_a_loaded_start_holds_is_not_out_of_nothing():
         ("energy_dissipated", 1.2, "energy.dissipated"),
     ],
 )
-def test_agreement_sees_a_difference_that_is_not_stated(run, channel, factor, named):
-    told = with_errors(run, beside=False)
+def test_agreement_sees_a_difference_that_is_not_stated(run, told, channel, factor, named):
     assert agreement(told, run).value == 0.0
     check = agreement(changed(told, **{channel: factor * run[channel]}), run)
     assert not check.is_within_limit
     assert check.note.startswith(named)
 
 
-def test_a_difference_that_is_stated_is_right(run):
+def test_a_difference_that_is_stated_is_right(run, told):
     """Bounds of a figure that is not determined hold 19 in 20 runs: 1.5 times as far is allowed."""
-    told = with_errors(run, beside=False)
     value = told.quantity("stroke").value
     off = changed(run, slider_position=1.1 * run["slider_position"])
     for half, determined, right in (
@@ -146,14 +132,6 @@ def test_a_difference_that_is_stated_is_right(run):
     assert agreement(said, finer).value == pytest.approx(0.1 / (1.5 * 0.03 + 0.03), rel=1e-2)
 
 
-def test_a_joint_that_never_touches_agrees():
-    """Its force and penetration are zero, without an error and with nothing allowed."""
-    loose = {"kind": "dry", "clearance": 3e-3, "radius": 0.02, "contact": {"length": 0.02}}
-    scene = Scene(mechanism="four_bar", joints={"knuckle": loose}, revolutions=0.002)
-    row = judge({"name": "loose", "scene": scene.to_dict()})
-    assert row["verdict"] == judging.RIGHT, row["reason"]
-
-
 def test_every_number_that_a_scene_uses_is_pushed_both_ways():
     scene = Scene.from_dict({**SHORT, "film": {"law": "pinkus", "viscosity": 0.3}})
     table = extremes(scene, "mine")
@@ -162,15 +140,11 @@ def test_every_number_that_a_scene_uses_is_pushed_both_ways():
     reached = [case.scene.film["viscosity"] for case in table if case.axis == "film.viscosity"]
     assert min(reached) == pytest.approx(3e-4) and max(reached) == pytest.approx(300.0)
     assert all(case.scene.to_dict() != table[0].scene.to_dict() for case in table[1:])
+    tolerances = [case.scene.solver.tolerance for case in table if case.axis == "solver.tolerance"]
+    assert max(tolerances) <= 0.1, "more is refused"
     keys = {case.axis for case in table}
     assert {"speed_rpm", "film.length", "joints.crank_pin.clearance", "solver.tolerance"} <= keys
     assert not any(key.startswith(("slider_crank.", "gravity", "revolutions")) for key in keys)
-
-
-def test_what_a_scene_refuses_is_left_out():
-    table = extremes(Scene.from_dict(SHORT), "mine")
-    tolerances = [case.scene.solver.tolerance for case in table if case.axis == "solver.tolerance"]
-    assert max(tolerances) <= 0.1
 
 
 def test_rows_are_kept_and_not_run_again(tmp_path):

@@ -7,7 +7,7 @@ import pytest
 
 from exu_press import InputError, Scene
 from exu_press.studies.sweep import Sweep
-from exu_press.studies.sweep.figure import axes_of, sweep_figure, sweep_picture
+from exu_press.studies.sweep.figure import axes_of, sweep_figure
 from exu_press.studies.sweep.report import report_of
 
 SPEEDS = [200.0, 300.0, 400.0]
@@ -100,8 +100,3 @@ def test_what_is_drawn_over_what():
         axes_of(some, ["mechanism"])
     with pytest.raises(InputError, match="allowed are one or two keys"):
         axes_of(some, ["speed_rpm"] * 3)
-
-
-def test_nothing_to_draw_is_no_picture(tmp_path):
-    assert sweep_picture(table(keys={"mechanism": ["press"]})) is None
-    assert sweep_picture(table(missing=[0, 1, 2], keys={"speed_rpm": SPEEDS})) is None

@@ -31,7 +31,7 @@ def without_times(table):
     return {name: values for name, values in table.columns.items() if name not in RUN_TIMES}
 
 
-def test_the_table_holds_the_summaries(tmp_path, processes):
+def test_the_table_holds_the_summaries(tmp_path):
     study = Sweep(scene=IDEAL, save_runs=True, keys={"speed_rpm": [200.0, 300.0]})
     table = sweep(study, tmp_path, workers=1)
     assert table["file"] == ("runs/1.nc", "runs/2.nc")
@@ -62,19 +62,6 @@ def test_a_file_that_is_gone_or_torn_is_made_again(tmp_path):
     assert without_times(first) == without_times(second)
     assert [Result.load(path).scene for path in (gone, torn, left)] == list(study.scenes)
     assert left.stat().st_mtime_ns == made
-
-
-def test_runs_that_stop_early_or_fail_are_rows(tmp_path):
-    scene = {
-        "mechanism": "slider_crank",
-        "joints": {"crank_pin": "lubricated"},
-        "solver": {"step": 1e-4},
-    }
-    thin = {"film.viscosity": [0.4, 1e-7], "revolutions": [0.01, 1.0]}
-    table = sweep(Sweep(scene=Scene.from_dict(scene), keys=thin, sweep=LIST), tmp_path, workers=2)
-    assert table["status"] == ("completed", "film broke down")
-    assert table["reason"][1].startswith("film broke down at t = ")
-    assert table["bottom_dead_centre"][1] is not None
 
 
 @pytest.mark.parametrize(
@@ -139,15 +126,6 @@ def test_a_lost_study_json_is_written_again_and_its_runs_are_kept(done, tmp_path
     for name in ("study.json", "table.csv", "table.nc"):
         (tmp_path / name).unlink()
     assert sweep(ONE, tmp_path, workers=1).columns == before.columns  # the times too
-
-
-def test_tables_may_vary(tmp_path):
-    """It used to compute everything and to fail while it wrote table.nc."""
-    laws = [{"law": "finite"}, {"law": "short"}]
-    study = Sweep(scene=LUBRICATED, keys={"film": laws})
-    table = sweep(study, tmp_path, workers=1)
-    assert table["film"] == ('{law = "finite"}', '{law = "short"}')
-    assert (tmp_path / "table.nc").exists()
 
 
 @pytest.mark.long

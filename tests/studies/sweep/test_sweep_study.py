@@ -7,7 +7,6 @@ from exu_press import InputError, Scene
 from exu_press.studies.base import load_study
 from exu_press.studies.base.keys import keys_from
 from exu_press.studies.sweep import Sweep
-from exu_press.studies.sweep.report import flat
 from exu_press.studies.sweep.study import SweepTable, points_of
 
 SCENE = '[scene]\njoints.crank_pin = "lubricated"\n'
@@ -48,19 +47,6 @@ def test_a_scene_beside_the_study(tmp_path, monkeypatch):
     )
     assert study.scene == Scene(joints={"crank_pin": "lubricated", "balls": "ideal"})
     assert [scene.film["viscosity"] for scene in study.scenes] == [0.1, 0.2]
-
-
-def test_a_latin_hypercube(tmp_path):
-    study = load(tmp_path, SCENE + SAMPLE + "[keys]\nspeed_rpm = {low = 200, high = 500}\n")
-    assert len(study.scenes) == 5
-    assert all(200.0 < scene.speed_rpm < 500.0 for scene in study.scenes)
-
-
-def test_a_time_limit_does_not_make_another_study():
-    some = [Sweep(scene=Scene(), time_limit=t, keys={"speed_rpm": [1.0]}) for t in (1.0, None)]
-    assert some[0].to_dict() == some[1].to_dict()
-    other = Sweep(scene=Scene(), keys={"speed_rpm": [2.0]})
-    assert other.to_dict() != some[0].to_dict()
 
 
 @pytest.mark.parametrize(
@@ -120,12 +106,6 @@ def test_a_latin_hypercube_has_one_point_in_every_slice():
         [p["a"] for p in points],
         [p["a"] for p in points_of(keys, SweepTable(way="sample", n=20, seed=4))],
     )
-
-
-def test_nested_tables_are_names_with_dots():
-    assert flat({"a": {"b": 1, "c": {"d": 2}}, "a.e": 3}) == {"a.b": 1, "a.c.d": 2, "a.e": 3}
-    with pytest.raises(InputError, match=r"a\.b: given twice"):
-        flat({"a": {"b": 1}, "a.b": 2})
 
 
 def test_too_many_runs_are_refused():

@@ -56,18 +56,6 @@ def test_what_is_worn_off_is_archards_volume(coarse):
     assert shape.bearing.mean() * area == pytest.approx(by_hand, rel=0.02)  # smooth, none lost
 
 
-def test_the_pin_sinks_into_its_bearing_as_it_bores_it(coarse):
-    """The clearance grows below alone, the slower the wider the pin lies, and dead centre sinks."""
-    report, _ = coarse
-    deepest = np.degrees(ANGLES[report.course[-1].depths["shaft"].bearing.argmax()])
-    assert deepest == pytest.approx(270.0, abs=8.0)
-    strokes = np.array([point.strokes for point in report.course])
-    grown = np.array(report.clearances("shaft"))
-    speed = np.diff(grown) / np.diff(strokes)
-    assert grown[0] == 5e-5
-    assert (speed > 0.0).all() and speed[-1] < speed[0]
-
-
 def test_the_dent_is_as_wide_and_deep_as_the_pin_that_bores_it(coarse):
     """w = e cos - c in the dent of a pin that presses nowhere else, with Archard's volume."""
     report, _ = coarse

@@ -76,12 +76,6 @@ def test_keys_that_change_no_drawing_are_told(name, change, parts, capsys):
         assert part in err
 
 
-def test_a_mechanism_without_a_crank_is_no_scene(drawn, capsys):
-    drawn.write_text(drawn.read_text().replace('crank = "crank"\n', ""))
-    assert main(["draw", str(drawn)]) == 2
-    assert capsys.readouterr().err == f"exu-press: {drawn}: crank: missing\n"
-
-
 def test_a_drawing_that_is_refused_is_drawn_and_told(drawn, capsys):
     text = drawn.read_text().replace("[guides.slider]\ndirection = [0.0, 1.0]\n", "")
     drawn.write_text(text)

@@ -90,16 +90,6 @@ main()
     assert (done.stderr, done.returncode) == ("", -signal.SIGINT)
 
 
-def test_ctrl_c_in_a_command(monkeypatch, capsys):
-    def interrupted(options):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("exu_press.cli.doctor.execute", interrupted)
-    assert main(["doctor"]) == 130
-    assert capsys.readouterr().err == "exu-press: interrupted\n"
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
-
-
 LONG = "x" * 5000
 
 

@@ -12,8 +12,6 @@ import pytest
 from exu_press import Scene
 from exu_press.cli import main
 from exu_press.parallel import cluster
-from exu_press.studies.stability import Row, StabilityReport
-from exu_press.studies.stability.run import StabilityCommand
 
 CRANK = """
 [scene]
@@ -253,14 +251,6 @@ def test_too_many_failed_runs(given, capsys, processes):
     shown = capsys.readouterr().err
     assert "gave numbers, " in shown
     assert "too few for 8 samples" in shown
-
-
-def test_a_wrong_case_makes_the_command_fail(given, monkeypatch, capsys):
-    row = Row("b", "a", "c", {}, "wrong", "completed", reason="d")
-    report = StabilityReport(Scene(), True, (row,))
-    monkeypatch.setattr(StabilityCommand, "run", lambda *_, **__: report)
-    assert main(given("stability", None, "--no-pictures")) == 1
-    assert "wrong: b" in capsys.readouterr().out
 
 
 @pytest.mark.long

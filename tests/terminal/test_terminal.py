@@ -14,40 +14,23 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_a_bar_shows_what_is_done_and_starts_no_thread():
-    """A process with threads cannot be copied for refinement runs."""
-    stream, before = Terminal(), threading.active_count()
-    with Progress("run", 2.0, stream=stream) as progress:
-        progress.update(1.0)
-        assert threading.active_count() == before
-        progress.update(2.0)
-    assert "100 %" in stream.getvalue().rpartition("\r")[2]
-
-
-def test_nothing_is_shown_when_quiet():
-    stream = Terminal()
-    with Progress("run", 2.0, quiet=True, stream=stream) as progress:
-        progress.update(2.0)
-    assert stream.getvalue() == ""
-
-
 def test_a_part_goes_on_from_where_the_whole_is():
-    """A run of many blocks shows one bar, and says how long all of them take."""
-    stream = Terminal()
+    """A run of many blocks shows one bar, and says how long all of them take.
+
+    It starts no thread: a process with threads cannot be copied for refinement runs.
+    """
+    stream, before = Terminal(), threading.active_count()
     with Progress("run", 4.0, whole=True, stream=stream) as whole:
         whole.update(1.0)
         with Progress("run", 2.0, stream=stream) as part:
             part.update(1.0)
             assert part.time_left(1.0) == pytest.approx(whole.time_left(2.0), rel=0.5)
             part.update(2.0)
+        assert threading.active_count() == before
     assert " 75 %" in stream.getvalue().rpartition("\r")[2]
     with Progress("run", 1.0, stream=stream) as other:
         other.update(1.0)
     assert "100 %" in stream.getvalue().rpartition("\r")[2]
-
-
-def test_columns_are_as_wide_as_their_longest_cell():
-    assert columns([("a", "bcd", "e"), ("fgh", "i", "")]) == ["a    bcd  e", "fgh  i"]
 
 
 def test_columns_of_numbers_end_under_each_other():

@@ -41,9 +41,3 @@ def test_a_damaged_file_is_made_again(cache):
     file.write_bytes(content[:200] + b"?" + content[201:])
     assert cached_figures("points_and_lines")["names"] == panels["names"]
     assert len(file.read_bytes()) == len(content)
-
-
-def test_a_cache_that_cannot_be_written_is_none(cache, monkeypatch):
-    (cache / "file").touch()
-    monkeypatch.setenv("EXU_PRESS_CACHE", str(cache / "file"))
-    assert cached_figures("points_and_lines")["names"] == ["points", "parallel"]

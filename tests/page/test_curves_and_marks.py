@@ -1,40 +1,13 @@
 """Curves, marks and blocks against the run and its quantities."""
 
-import base64
-import gzip
-import re
-
 import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.page.blocks import Blocks
 from exu_press.page.curves import PEAKS, curves_of
 from exu_press.page.marks import impacts, peaks, values_on
 from exu_press.page.thinning import Thinning
 from exu_press.quantities.catalogue import find_quantity
-
-
-def test_every_channel_is_in_a_curve(press):
-    curves = curves_of(press)
-    assert {curve.channel for curve in curves} == set(press) - {"time", "crank_angle"}
-    assert len({curve.name for curve in curves}) == len(curves)
-    assert {curve.group for curve in curves} >= {
-        "Mechanism", "Joint crank pin", "Guide of slide", "Body slider",
-    }  # fmt: skip
-
-
-def test_curves_are_what_they_are_called(press):
-    by_name = {curve.name: curve for curve in curves_of(press)}
-    ball = press.joints["ball_left"]
-    for name, expected in (
-        ("ball_left_force", np.linalg.norm(ball.force, axis=1)),
-        ("ball_left_force:y", ball.force[:, 1]),
-        ("ball_left:ratio", ball.distance / ball.clearance),
-        ("ball_left:gap", ball.gap),
-        ("slider:y", press["body_position"][:, press.bodies.index("slider"), 1]),
-    ):
-        assert values_on(press, by_name[name]) == pytest.approx(expected, rel=1e-12, abs=1e-15)
 
 
 def test_peaks_are_on_their_curves(press):
@@ -42,8 +15,9 @@ def test_peaks_are_on_their_curves(press):
 
     Curves are of the steps' samples, peaks without what alternates from step to step.
     """
-    assert all(find_quantity(each.full_name("crank_pin")) is not None for each in PEAKS.values())
     curves = {curve.name: curve for curve in curves_of(press)}
+    assert {each.channel for each in curves.values()} == set(press) - {"time", "crank_angle"}
+    assert all(find_quantity(each.full_name("crank_pin")) is not None for each in PEAKS.values())
     found = peaks(press, curves.values())
     assert {"slider_acceleration", "crank_pin_force", "crank_pin:gap", "drive_torque"} <= set(found)
     for name, peak in found.items():
@@ -62,16 +36,6 @@ def test_impacts_are_those_that_are_counted(press):
         largest = max(one["force"] for one in mine)
         assert largest == pytest.approx(press.quantity(f"joints.{name}.peak_force").value)
     assert all(one["from"] <= one["peak"] <= one["to"] for one in found)
-
-
-def test_a_block_is_unpacked_as_the_script_does():
-    values = np.random.default_rng(1).normal(size=(1000, 3))
-    blocks = Blocks()
-    told = blocks.add(values, "f8")
-    packed = re.search(r">([^<]*)<", blocks.html())[1]
-    ordered = np.frombuffer(gzip.decompress(base64.b64decode(packed)), np.uint8)
-    back = np.ascontiguousarray(ordered.reshape(8, -1).T).view("<f8").reshape(told["columns"], -1)
-    assert (values == back.T).all()
 
 
 def test_peaks_are_marked_in_the_part_that_is_read():

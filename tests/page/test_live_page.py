@@ -148,25 +148,6 @@ def test_it_plays(page):
     assert page.evaluate(time) == stopped
 
 
-def test_paper_has_pictures(page):
-    assert not page.is_visible(".stills img")
-    page.emulate_media(media="print")
-    assert page.locator(".stills img").first.is_visible()
-    assert not page.is_visible("#viewer")
-    page.emulate_media(media="screen")
-
-
-def test_nothing_scrolls_sideways(page):
-    for width, height in ((1920, 1080), (390, 844), (1366, 768)):
-        page.set_viewport_size({"width": width, "height": height})
-        page.wait_for_timeout(150)
-        scroll, client = page.evaluate(
-            "() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
-        )
-        assert scroll <= client == width
-        assert page.is_visible("#play") and page.is_visible("#figure-0")
-
-
 def test_crank_angle_and_logarithm(page, press):
     """The last one, as axis and curves stay as it leaves them."""
     page.select_option("#axis", "angle")

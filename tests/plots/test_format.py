@@ -13,8 +13,6 @@ from exu_press.plots import force_figure, orbit_figure, slider_figure
 from exu_press.plots.file import save_figure
 from exu_press.plots.format import PictureFormat, drawn_as
 from exu_press.plots.palette import COLOURS, line_of
-from exu_press.plots.panels import figure_with_panels
-from exu_press.plots.style import with_style
 
 COLOUR_BLIND = {
     "protanopia": ((0.152, 1.053, -0.205), (0.115, 0.786, 0.099), (-0.004, -0.048, 1.052)),
@@ -38,21 +36,17 @@ def lab(rgb):
 
 
 def test_colours_stay_apart_in_grey_and_for_colour_blind_readers():
+    """Five runs by lightness alone where their lines have one style."""
+    for first, second in itertools.combinations(map(line_of, range(5)), 2):
+        lightness = [lab(linear(line["color"]))[0] for line in (first, second)]
+        if first["linestyle"] == second["linestyle"]:
+            assert abs(lightness[0] - lightness[1]) > 15.0, (first, second)
     for first, second in itertools.combinations(COLOURS.values(), 2):
         lightness = abs(lab(linear(first))[0] - lab(linear(second))[0])
         assert lightness > 10.0, (first, second)
         for matrix in COLOUR_BLIND.values():
             seen = [lab(np.array(matrix) @ linear(colour)) for colour in (first, second)]
             assert np.linalg.norm(seen[0] - seen[1]) > 16.0, (first, second)
-
-
-def test_five_runs_stand_apart_in_grey():
-    """By lightness alone where their lines have one style."""
-    lines = [line_of(number) for number in range(5)]
-    for first, second in itertools.combinations(lines, 2):
-        lightness = [lab(linear(line["color"]))[0] for line in (first, second)]
-        if first["linestyle"] == second["linestyle"]:
-            assert abs(lightness[0] - lightness[1]) > 15.0, (first, second)
 
 
 @pytest.mark.parametrize("width", [pytest.param("84mm", marks=pytest.mark.long), "17.4cm"])
@@ -126,25 +120,3 @@ def test_what_is_no_format_is_refused_before_anything_runs(
     (tmp_path / "huge.mplstyle").write_text("font.size: 1e9\n")
     assert main(["run", "press", *words, "--out", "o"]) == 2
     assert said in capsys.readouterr().err and not (tmp_path / "o").exists()
-
-
-def test_long_names_of_axes_are_broken_on_paper_and_stay_on_a_screen():
-    @with_style
-    def draw():
-        figure, (axes,) = figure_with_panels("", "", [[0]], 6.5, 1.5)
-        axes.set(xlabel=" ".join(["share"] * 30), ylabel="force")
-        return figure
-
-    with drawn_as(PictureFormat(width=3.3)):
-        (axes,) = draw().axes
-    assert axes.get_ylabel() == "force"
-    assert axes.get_xlabel().count("\n") > 0
-    assert axes.xaxis.label.get_window_extent().width <= 1.1 * axes.bbox.width
-    assert "\n" not in draw().axes[0].get_xlabel()
-
-
-def test_the_lowest_panels_have_the_numbers_of_their_axes():
-    """Also those above a wider one, whose numbers lie elsewhere."""
-    _, panels = figure_with_panels("", "", [[0, 1], [2, 3], [4, 4]], 3.0, 1.0, sharex=True)
-    below = [axes.xaxis.get_tick_params()["labelbottom"] for axes in panels]
-    assert below == [False, False, True, True, True]

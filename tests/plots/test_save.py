@@ -18,7 +18,6 @@ from exu_press.studies.curve_comparison import MEASURED_PICTURE
 linux = pytest.mark.skipif(sys.platform != "linux", reason="no process is copied there")
 
 EVERY = [f"{name}.png" for name in PICTURES["run"]]
-DEFAULT = ["slider.png", "orbit.png", "force.png"]
 
 
 def assert_pictures(paths):
@@ -43,12 +42,6 @@ def test_pictures_of_a_run(results, tmp_path, monkeypatch):
     assert path.name == "force.png"
     assert list(tmp_path.iterdir()) == [path]
     assert_pictures([path])
-
-
-def test_ideal_joints_have_no_orbits(results, tmp_path, monkeypatch):
-    monkeypatch.setattr("exu_press.plots.save.draw_figures", lambda draws, *_: list(draws))
-    wanted = [name.removesuffix(".png") for name in DEFAULT if name != "orbit.png"]
-    assert save_pictures(results["ideal"], tmp_path) == wanted
 
 
 @pytest.mark.long

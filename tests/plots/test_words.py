@@ -18,14 +18,10 @@ from exu_press.plots.words import describe
 
 def test_scenes_share_what_they_have_in_common():
     words = describe(
-        [
-            Scene(joints={"crank_pin": "ideal", "balls": "ideal"}),
-            Scene(joints={"crank_pin": "dry", "balls": "dry"}),
-        ]
+        [Scene(joints={"crank_pin": kind, "balls": kind}) for kind in ("ideal", "dry")]
     )
     assert "crank pin radial clearance 0.1 mm" in words
-    assert "dry" not in words
-    assert "ideal" not in words
+    assert "dry" not in words and "ideal" not in words
     assert "rpm" not in describe([Scene(), Scene(speed_rpm=300)])
     elastic = {"guide": {"lateral_stiffness": 1e9}}
     assert "guides elastic" in describe([Scene().replace(elastic)] * 2)
@@ -49,14 +45,9 @@ def test_no_text_is_a_formula(text):
     ("ascii_text", "printed"),
     [
         ("m/s^2", "m/s²"),
-        ("kg m^2", "kg m²"),
         ("N/m^1.5", "N/m^1.5"),
-        ("m^3", "m³"),
-        ("um", "µm"),
         ("film 93.7 um, tilt 0.2 urad.", "film 93.7 µm, tilt 0.2 µrad."),
-        ("a gap of 3 um.", "a gap of 3 µm."),
         ("12.3 +- 0.4", "12.3 ± 0.4"),
-        ("joints.um.radius", "joints.um.radius"),
         ("um.toml and out/um/run.nc", "um.toml and out/um/run.nc"),
         ("aluminium, museum, maximum", "aluminium, museum, maximum"),
     ],
@@ -71,11 +62,8 @@ def test_no_global_state_changes(results):
     force_figure({"run": results["dry"]})
     assert dict(matplotlib.rcParams) == before
     matplotlib.rcdefaults()
-
-
-def test_the_users_settings_do_not_reach_our_pictures():
     with matplotlib.rc_context({"lines.marker": "o"}), look():
-        assert matplotlib.rcParams["lines.marker"] == "None"
+        assert matplotlib.rcParams["lines.marker"] == "None", "the user's does not reach ours"
 
 
 def test_pictures_never_import_pyplot():

@@ -10,11 +10,9 @@ from PIL import Image
 
 from exu_press.cli import main
 from exu_press.errors import InputError
-from exu_press.plots.words import joint_in_words
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.summary import run_warnings
 from exu_press.report import Kind, find_output
-from exu_press.report.run import joint_table
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.verification.simulate import simulate
@@ -197,20 +195,6 @@ def test_a_number_that_is_none_is_refused_by_its_name(outputs, tmp_path, capsys,
     assert main(["report", str(tmp_path)]) == 2
     error = capsys.readouterr().err
     assert "scene.revolutions = " in error and error.count("\n") == 1 and len(error) < 600
-
-
-def test_many_joints_have_a_table_of_all():
-    assert joint_table(simulate(Scene(revolutions=0.005))) == ""
-    many = simulate(
-        Scene(joints={"balls": "dry", "knuckles": "dry", "shaft": "lubricated"}, revolutions=0.005)
-    )
-    shown, forces = joint_table(many), {}
-    for name in many.joints:
-        forces[name] = many.quantity(f"joints.{name}.peak_force").value
-    assert shown.count("<tr>") == 1 + len(forces)
-    busiest = max(forces, key=forces.get)
-    assert shown.index(joint_in_words(busiest)) < shown.index("Knuckle 7, left")
-    assert f"{forces[busiest] * 1e-3:.4g}" in shown
 
 
 def test_without_the_library_the_page_has_pictures(outputs, tmp_path, monkeypatch, capsys):

@@ -59,21 +59,6 @@ def page_of(report, folder):
     return folder / "report.html"
 
 
-def test_a_row_opens_its_point(tmp_path, browser):
-    pytest.importorskip("bokeh")
-    with opened(browser, page_of(Trials(), tmp_path)) as page:
-        data = page.evaluate(
-            """() => { const d = Bokeh.documents[0].get_model_by_name('points-runs').data;
-            return [[...d.x], [...d.y]]; }"""
-        )
-        assert data == [[100.0, 150.0, 200.0], [5.0, 9.0, 7.0]]
-        page.click("#runs tbody tr:nth-child(3) button")
-        assert "run 2" in page.inner_text("#chosen")
-        page.click("#runs tbody tr:nth-child(4) button")
-        assert "others beat" in page.inner_text("#chosen")
-        assert HOSTILE in page.inner_text("body")
-
-
 def test_curves_lie_over_each_other(tmp_path, browser):
     pytest.importorskip("bokeh")
     report = page_of(Trials(as_points=False), tmp_path)

@@ -32,13 +32,8 @@ def test_every_damage_is_one():
     assert all(attack_files.damage(draw, content) != content for draw in seeds)
 
 
-MORE = {"results": 1, "step": 4}
-
-
-@pytest.mark.parametrize(
-    ("kind", "count"),
-    [("scenes", 2), *(pytest.param(k, n, marks=pytest.mark.long) for k, n in MORE.items())],
-)
+@pytest.mark.long
+@pytest.mark.parametrize(("kind", "count"), [("scenes", 2), ("results", 1), ("step", 4)])
 def test_a_few_inputs_end_without_a_fault(kind, count, capsys):
     counts = {"scenes": 0, "results": 0, "step": 0, kind: count}
     assert attack_scenes.main([*options(counts), "--seed", "7000"]) == 0

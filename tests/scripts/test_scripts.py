@@ -9,8 +9,6 @@ import sys
 import pytest
 from running import SCRIPTS, assert_refused, run
 
-from validation import merged, page_lines
-
 FOUR_BAR = 87.8798
 """Largest pivot force of the four-bar against 5e4 fixed steps of Exudyn's own, N."""
 
@@ -35,7 +33,6 @@ def test_help_is_all_that_help_does(script, tmp_path, monkeypatch, capsys):
             "stability", ["--axis", "nothing"], "--axis nothing", marks=pytest.mark.long
         ),
         ("stability", ["--workers", "0"], "workers = 0"),
-        ("paper", ["--workers", "0"], "workers = 0"),
         ("paper", ["--out", "/dev/null/paper"], "/dev/null/paper"),
     ],
 )
@@ -149,38 +146,9 @@ def test_press_work_precision(tmp_path):
         assert (float(off) > 5.0) is (solver == "step")
 
 
-ROW = {
-    "kind": "table",
-    "subject": "bearing",
-    "source": "its author",
-    "licence": "printed numbers",
-    "remark": "",
-    "quantity": "load",
-    "unit": "N",
-    "theirs": 100.0,
-    "ours": 101.0,
-    "error": 0.5,
-    "deviation": 0.01,
-    "allowed": 0.02,
-    "is_relative": True,
-    "count": 3,
-    "test": "tests/test_a.py::test_a",
-}
-
-
 @pytest.mark.long
 def test_a_test_hands_its_numbers_to_the_page(tmp_path):
     printed = run("validation.py", tmp_path, "tests/laws/test_contact_stiffness.py", quick=False)
     (row,) = [line for line in printed.splitlines() if line.startswith("| stiffness of a pin")]
     assert "stiffness, kN/um (3 values)" in row and "exact" in row
     assert "`tests/laws/test_contact_stiffness.py::test_cylindrical_slope" in printed
-
-
-def test_a_quantity_of_several_tests_is_one_row_with_the_worst_of_them():
-    worse = {**ROW, "ours": 98.0, "deviation": -0.02, "count": 2, "test": "tests/test_b.py::test_b"}
-    (row,) = merged([ROW, worse])
-    assert (row["ours"], row["count"]) == (98.0, 5)
-    lines = page_lines([ROW, worse])
-    cells = [cell.strip() for cell in lines[4].strip("|").split("|")]
-    assert cells == ["bearing [1]", "load, N (5 values)", "100", "98.00 +- 0.50", "-2 %", "2 %"]
-    assert lines[-1].endswith(": `tests/test_a.py::test_a`, `tests/test_b.py::test_b`.")

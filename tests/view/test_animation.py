@@ -55,13 +55,3 @@ def test_an_animation_says_how_slow_it_is_and_a_picture_does_not(runs, animation
     assert "1.25 times faster than the machine at 25 frames a second" in words(runs["press"], shown)
     still = words(runs["press"], moment(runs["press"], 0.02))
     assert "slower" not in still and "faster" not in still
-
-
-def test_a_run_that_stopped_early_says_so(runs, animation):
-    cut = runs["press"].with_values({name: runs["press"][name][:40] for name in runs["press"]})
-    info = {**cut.info, "status": "interrupted", "reason": "interrupted at t = 1 ms"}
-    stopped = dataclasses.replace(cut, info=info)
-    texts = [
-        text.get_text() for text in visible_texts(animation(stopped, instants(stopped)).figure)
-    ]
-    assert any("stopped early" in text for text in texts)

@@ -1,6 +1,5 @@
 import shutil
 import subprocess
-from pathlib import Path
 
 import pytest
 from matplotlib.colors import to_rgb
@@ -69,12 +68,3 @@ def test_a_failing_ffmpeg_is_told_and_an_old_file_is_kept(tmp_path, monkeypatch,
         save_animation(animation(runs["ideal"], instants(runs["ideal"], frames=2)), target)
     assert target.read_text() == "old"
     assert {path.name for path in tmp_path.iterdir()} == {"ffmpeg", "a.mp4"}
-
-
-@pytest.mark.parametrize(
-    ("name", "message"),
-    [("a.avi", r"allowed is a name ending in \.mp4"), ("no/a.gif", "there is no directory")],
-)
-def test_names_that_cannot_be_written(tmp_path, runs, animation, name, message):
-    with pytest.raises(InputError, match=message):
-        save_animation(animation(runs["ideal"], instants(runs["ideal"])), Path(tmp_path) / name)

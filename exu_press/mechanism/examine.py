@@ -59,11 +59,6 @@ class Mobility:
         """Number of redundant constraints."""
         return self.degrees_of_freedom - self.gruebler_count
 
-    @property
-    def is_driven(self) -> bool:
-        """Whether the crank turns and all other bodies follow it."""
-        return self.crank_turns and not self.loose_bodies
-
 
 @dataclass(frozen=True)
 class Examination:

@@ -344,12 +344,7 @@ def planar_constraints(
     )
 
 
-def null_space(rows: Array, least: float = INDEPENDENT) -> Array:
-    """Return orthonormal motions (k, n) that constraints allow.
-
-    Args:
-        rows: of their Jacobian, (m, n).
-        least: singular value, over the largest one, from which a constraint counts.
-    """
+def null_space(rows: Array) -> Array:
+    """Return orthonormal motions (k, n) that constraints with a Jacobian (m, n) allow."""
     _, sizes, directions = np.linalg.svd(rows)
-    return np.asarray(directions[int((sizes > least * sizes[0]).sum()) :])
+    return np.asarray(directions[int((sizes > INDEPENDENT * sizes[0]).sum()) :])

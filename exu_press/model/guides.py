@@ -205,5 +205,6 @@ def _guide_friction(system: System, guide: Guide) -> "GuideFriction":
         side = HeldSide(mbs, system.forces[guide.key, "force"])
     else:
         side = SpringSide(guide.lateral.stiffness, guide.lateral.damping, line)
-    law = system.scene.guides[guide.name].friction_table(system.scene.friction or {}).friction()
-    return GuideFriction(mbs, nodes, line, side, law)
+    rubbing = system.scene.guides[guide.name].rubbing
+    assert rubbing is not None
+    return GuideFriction(mbs, nodes, line, side, rubbing.friction())

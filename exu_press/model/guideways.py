@@ -11,6 +11,7 @@ from exu_press.joints.add import (
 )
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.laws.contact import hertz
+from exu_press.laws.friction import no_friction
 from exu_press.mechanism import Body, Guide, Guideway
 from exu_press.model.system import System
 
@@ -21,9 +22,8 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
     """Add the contacts of both ends of a body with its guideways, and the film if there is one."""
     scene = system.scene
     table = scene.guides[guide.name]
-    contact, oil = table.contact(scene.contact or {}), table.oil
+    contact, oil = table.contact, table.oil
     assert contact is not None
-    friction = table.friction_table(scene.friction or {})
     body = system.mechanism.body(guide.body)
     along = np.array(guide.direction)
     middle = np.array(system.mechanism.guided_point(guide))
@@ -34,7 +34,7 @@ def add_guideways(system: System, guide: Guide, guideway: Guideway) -> tuple[Cle
     elastic = hertz(guideway.stiffness, 1.0)
     laws: dict[str, Any] = {
         "contact": contact.normal_contact(elastic, guideway.clearance, scene.angular_speed),
-        "friction": friction.friction(),
+        "friction": no_friction() if table.rubbing is None else table.rubbing.friction(),
         "clearance": guideway.clearance - onset,
         "half_width": guideway.half_width,
     }

@@ -196,7 +196,7 @@ def _slowest_impacts(scene: Scene) -> list[Key]:
         if joint.contact is not None
     ]
     touching += [
-        (guide.contact(scene.contact or {}), guide.clearance)
+        (guide.contact, guide.clearance)
         for guide in scene.guides.values()
         if guide.clearance is not None
     ]
@@ -220,7 +220,7 @@ def _is_used_by_some(scene: Scene, key: Key) -> bool:
     law, _, name = key.name.partition(".")
     if law not in LAWS:
         return True
-    if law != "film" and name in scene.law_keys_of_guides(law, scene.laws[law] or {}):
+    if law != "film" and name in scene.law_keys_of_guides(law):
         return True
     asked = dict.fromkeys(scene.asked)
     for joint_name, joint in scene.joints.with_clearance.items():
@@ -302,7 +302,7 @@ def _scene_entries(scene: Scene) -> Iterator[Entry]:
 def _law_entries(scene: Scene, law: str) -> Iterator[Entry]:
     """Yield the keys of [contact], [friction] or [film]."""
     keys = scene.laws[law] or {}
-    fields = {**scene.joints.law_keys(law), **scene.law_keys_of_guides(law, keys)}
+    fields = {**scene.joints.law_keys(law), **scene.law_keys_of_guides(law)}
     for name, value in keys.items():
         if isinstance(value, Table):
             yield from _entries(f"{law}.{name}", value)

@@ -205,9 +205,13 @@ class ElasticGuide(Table):
 
     Attributes:
         by_name: guide -> the keys of its own table, [guide.NAME], see `scene.guides`.
+        contact: with the guideways, from [contact], or None.
+        rubbing: law of friction; keys that [guide] lacks are those of [friction]; or None.
     """
 
     table: ClassVar[str] = "guide"
+    contact: ClassVar[GuideContact | None] = None
+    rubbing: ClassVar[Friction | None] = None
     support: ElasticSupport | GuidewaySupport | None = alternatives(
         {
             "clearance": "scene.guide:GuidewaySupport",
@@ -253,48 +257,34 @@ class ElasticGuide(Table):
         """Oil in the clearance, or None."""
         return None if self.guideways is None else self.guideways.oil
 
-    def contact(self, keys: Mapping[str, Any]) -> GuideContact | None:
-        """Return the contact with the guideways, from the keys of [contact], or None."""
-        return None if self.guideways is None else resolve(GuideContact, "contact", keys)
+    def take_laws(self, keys_of: Callable[[str], Mapping[str, Any]]) -> None:
+        """Make contact and friction from the scene's keys of "contact" and "friction"."""
+        if self.guideways is not None:
+            contact = resolve(GuideContact, "contact", keys_of("contact"))
+            object.__setattr__(self, "contact", contact)
+        if self.rubs:
+            shared, names = keys_of("friction"), self.friction.law_keys
+            if not self.friction.resolved:
+                names = tuple(name for name in shared if name != "law")
+            own = {"law": self.friction.kind, **plain(self.friction)}
+            keys = {name: shared[name] for name in names if name in shared} | own
+            object.__setattr__(self, "rubbing", resolve(Friction, "friction", keys))
 
-    def check_laws(self, contact: Mapping[str, Any], friction: Mapping[str, Any]) -> None:
-        """Make every law once, so that values outside its range are refused before a run.
-
-        Args:
-            contact, friction: keys of these tables.
-        """
-        guideways, table = self.guideways, self.contact(contact)
-        if guideways is not None and table is not None and table.damping.resolved:
+    def check_laws(self) -> None:
+        """Make every law once, so that values outside its range are refused before a run."""
+        ways, contact = self.guideways, self.contact
+        if ways is not None and contact is not None and contact.damping.resolved:
             from exu_press.laws.contact import hertz
 
             with error_prefix("contact."):
-                elastic = hertz(guideways.lateral_stiffness, 1.0)
-                table.normal_contact(elastic, guideways.clearance, 1.0)
-        if self.rubs and self.friction.resolved:
+                contact.normal_contact(hertz(ways.lateral_stiffness, 1.0), ways.clearance, 1.0)
+        if self.rubbing is not None and self.friction.resolved:
             with error_prefix("friction."):
-                self.friction_table(friction).friction()
+                self.rubbing.friction()
 
-    def friction_table(self, keys: Mapping[str, Any]) -> Friction:
-        """Return the law of friction; keys that [guide] lacks are those of [friction]."""
-        resolved = self.friction.resolved
-        names = self.friction.law_keys if resolved else [name for name in keys if name != "law"]
-        shared = {name: keys[name] for name in names if name in keys}
-        own = {"law": self.friction.kind, **plain(self.friction)}
-        return resolve(Friction, "friction", {**shared, **own})
-
-    def law_keys(self, law: str, keys: Mapping[str, Any]) -> dict[str, dataclasses.Field[Any]]:
-        """Return the keys of [contact] or [friction] that the guides use, with declarations.
-
-        Args:
-            law: "contact" or "friction".
-            keys: of this table.
-        """
-        table: Table | None = None
-        if law == "contact" and self.guideways is not None:
-            table = self.contact(keys)
-        elif law == "friction" and self.rubs:
-            table = self.friction_table(keys)
-        used = {} if table is None else {name: field for name, _, field in key_values(table)}
-        if law == "friction":
-            used = {name: f for name, f in used.items() if name not in ("law", *OF_GUIDES)}
-        return used
+    def law_keys(self, law: str) -> dict[str, dataclasses.Field[Any]]:
+        """Return the keys of [contact] or [friction] that the guides use, with declarations."""
+        table = self.contact if law == "contact" else self.rubbing
+        own = ("law", *OF_GUIDES) if law == "friction" else ()
+        keys = () if table is None else key_values(table)
+        return {name: field for name, _, field in keys if name not in own}

@@ -164,7 +164,7 @@ class Scene(Table):
             table = getattr(self, name)
             if name in LAWS:  # their defaults are the mechanism's
                 continue
-            self._refuse(unused, name, table)
+            self._refuse(name, table, unused.get(name, ""))
             if table is None and (name in unused or name in ONLY_WHERE_GIVEN):
                 continue
             try:
@@ -240,31 +240,31 @@ class Scene(Table):
         joints, needs = joints_of(tables, mechanism, laws)
         object.__setattr__(self, "joints", joints)
         unused = joints.unused_laws()
-        self._refuse(unused, "start", self.start)
+        self._refuse("start", self.start, unused.get("start", ""))
         if self.start is None and "start" not in unused:
             object.__setattr__(self, "start", usual.get("start", STARTS[0]))
+        for guide in self._guide_tables:
+            guide.take_laws(laws.keys_of)
         for law in LAWS:
             self._settle_law(law, laws, unused.get(law, ""))
         for name, guide in self.guides.items():
             self._check_guide(mechanism.guide(name), guide)
-            missing = self._missing_keys_of_guide(name, guide, laws.keys_of("contact"))
+            missing = self._missing_keys_of_guide(name, guide)
             needs += missing
             if not missing:
-                guide.check_laws(*(laws.keys_of(law) for law in ("contact", "friction")))
+                guide.check_laws()
         return needs
 
-    def _missing_keys_of_guide(
-        self, name: str, guide: "ElasticGuide", contact_keys: Mapping[str, Any]
-    ) -> list[Need]:
+    def _missing_keys_of_guide(self, name: str, guide: "ElasticGuide") -> list[Need]:
         """Return which keys of its oil and of [contact] a guide needs."""
         needs: list[Need] = []
         if guide.oil is not None:
             path = self.guide_key(name, "viscosity")
             table = path.rpartition(".")[0]
             needs += missing_keys(path, guide.oil, (), table, f"[{table}]")
-        if (contact := guide.contact(contact_keys)) is not None:
+        if guide.contact is not None:
             path = self.guide_key(name, "clearance")
-            needs += missing_keys(path, contact, (), "contact", "[contact]")
+            needs += missing_keys(path, guide.contact, (), "contact", "[contact]")
         return needs
 
     def guide_key(self, guide: str, key: str) -> str:
@@ -301,10 +301,10 @@ class Scene(Table):
         """Complete a law's keys; refuse those unused, with the reason why no joint has the law."""
         of_guides = {}
         if law != "film" and self._guide_tables:
-            of_guides = self.law_keys_of_guides(law, laws.keys_of(law))
+            of_guides = self.law_keys_of_guides(law)
         used = {**self.joints.law_keys(law), **of_guides}
         if not of_guides:
-            self._refuse({law: unused} if unused else {}, law, laws.scene_keys[law])
+            self._refuse(law, laws.scene_keys[law], unused)
         for name, value in (laws.scene_keys[law] or {}).items():
             if name not in used and value is not None:
                 reason = f"{unused}, and guides do not use it" if unused else ""
@@ -317,11 +317,11 @@ class Scene(Table):
         keys = {name: value for name, value in keys.items() if value is not None}
         object.__setattr__(self, law, keys if used else None)
 
-    def law_keys_of_guides(self, law: str, keys: Mapping[str, Any]) -> dict[str, Any]:
+    def law_keys_of_guides(self, law: str) -> dict[str, Any]:
         """Return the keys of [contact] or [friction] that guides use, with declarations."""
         used: dict[str, Any] = {}
         for guide in self._guide_tables:
-            used |= guide.law_keys(law, keys)
+            used |= guide.law_keys(law)
         return used
 
     @property
@@ -349,7 +349,7 @@ class Scene(Table):
                 "no revolute joint is dry or has a mixed film, and no guide has clearance, nor a "
                 "slot clearance and its pin's diameter, guide.width"
             )
-            self._refuse({"wear": why}, "wear", self.wear)
+            self._refuse("wear", self.wear, why)
         wear, wearing = self.wear.check_places(joints, guides, mechanism.groups)
         object.__setattr__(self, "wear", wear)
         object.__setattr__(self, "wearing", wearing)
@@ -565,8 +565,8 @@ class Scene(Table):
         yield from ((f"load.{name}.kind", load) for name, load in self.load.items())
         for name, guide in self.guides.items():
             yield self.guide_key(name, "friction"), guide.friction
-            if (contact := guide.contact(self.contact or {})) is not None:
-                yield "contact.damping", contact.damping
+            if guide.contact is not None:
+                yield "contact.damping", guide.contact.damping
 
     @property
     def applied_loads(self) -> "dict[str, AppliedLoad]":
@@ -634,11 +634,10 @@ class Scene(Table):
         return math.radians(self.start_angle_deg)
 
     @staticmethod
-    def _refuse(unused: Mapping[str, str], name: str, value: Any, table: str = "") -> None:
-        if value is not None and name in unused:
-            dotted = f"{table}.{name}" if table else name
-            value_text = f"[{name}]" if dotted in TABLES else f"{dotted} = {value!r}"
-            raise UnusedKeyError(dotted, value_text, unused[name])
+    def _refuse(name: str, value: Any, reason: str) -> None:
+        if value is not None and reason:
+            text = f"[{name}]" if name in TABLES else f"{name} = {value!r}"
+            raise UnusedKeyError(name, text, reason)
 
 
 def _load(path: str | Path, assignments: Iterable[str] = (), *, allow_code: bool = False) -> Scene:

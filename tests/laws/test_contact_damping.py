@@ -45,18 +45,6 @@ def test_derivatives_against_finite_differences(name: str, tension: bool) -> Non
 
 
 @pytest.mark.parametrize("name", [*DELIVERED, "step"])
-@pytest.mark.parametrize("tension", [False, True])
-def test_force_is_continuous_at_touch_and_zero_apart(name: str, tension: bool) -> None:
-    contact = contacts(tension)[name]
-    for rate in (-1.0, 0.0, 1.0):
-        for penetration in (0.0, -1e-12, -1e-3):
-            assert contact.force(penetration, rate, 0.5) == (0.0, 0.0, 0.0)
-            assert contact.elastic_energy(penetration) == 0.0
-            assert contact.dissipated_power(penetration, rate, 0.5) == 0.0
-        assert abs(contact.force(1e-12, rate, 0.5)[0]) < 1e-8
-
-
-@pytest.mark.parametrize("name", [*DELIVERED, "step"])
 def test_dissipative_and_never_pulling_without_tension(name: str) -> None:
     pulling, divergence = contacts(tension=True)[name], contacts()[name]
     pulled = 0

@@ -4,14 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from contacts import CASES, STIFFNESSES
+from contacts import CASES
 from scipy.integrate import solve_ivp
 
 from exu_press.laws.contact import (
     DAMPING_LAWS,
     delivered_restitution,
     hertz,
-    hu_guo,
     restitution_of,
     step_damping,
 )
@@ -28,13 +27,6 @@ def test_restitution_table_by_a_bounce(law, wanted, delivered, compare) -> None:
     contact = DAMPING_LAWS[law](hertz(1e8), wanted)
     bounce = delivered_restitution(contact, mass=2.0, speed=0.3)
     compare("restitution of a bounce", delivered, bounce, error=None, abs=6e-5)
-
-
-@pytest.mark.parametrize("stiffness", STIFFNESSES.values(), ids=STIFFNESSES)
-def test_delivered_restitution_depends_on_chi_alone(stiffness) -> None:
-    for mass, speed in ((0.1, 0.01), (1347.0, 1.0)):
-        bounce = delivered_restitution(hu_guo(stiffness, 0.3), mass, speed)
-        assert bounce == pytest.approx(restitution_of(3.5), abs=1e-6)
 
 
 def test_restitution_of_meets_its_equation_and_its_limits() -> None:

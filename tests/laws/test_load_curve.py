@@ -11,16 +11,12 @@ RAMP = LoadCurve([1.0, 2.0, 4.0], [0.0, 10.0, -10.0])
 TURN = LoadCurve([1.0, 2.0, 4.0], [0.0, 10.0, -10.0], period=6.0)
 
 
-def test_between_and_beyond_its_points():
-    places = np.linspace(-1.0, 6.0, 141)
-    expected = np.interp(places, RAMP.places, RAMP.forces)
-    assert [RAMP(place) for place in places] == pytest.approx(expected, abs=1e-12)
-
-
-def test_a_period_joins_the_last_point_to_the_first():
+@pytest.mark.parametrize(("curve", "period"), [(RAMP, None), (TURN, 6.0)])
+def test_between_and_beyond_its_points(curve, period):
+    """A period joins the last point to the first."""
     places = np.linspace(-14.0, 20.0, 341)
-    expected = np.interp(places, TURN.places, TURN.forces, period=6.0)
-    assert [TURN(place) for place in places] == pytest.approx(expected, abs=1e-12)
+    expected = np.interp(places, curve.places, curve.forces, period=period)
+    assert [curve(place) for place in places] == pytest.approx(expected, abs=1e-12)
 
 
 @pytest.mark.parametrize("start", [-8.3, 0.2, 1.0, 3.0, 13.9])
@@ -37,9 +33,6 @@ def test_corners_forwards_and_backwards(start):
     for expected_before in corners[-2::-1]:
         place = TURN.corner_before(place, 1e-9)
         assert place == pytest.approx(expected_before, abs=1e-9)
-
-
-def test_behind_the_last_point_there_is_no_corner():
     assert RAMP.corner_after(4.0) == math.inf
     assert RAMP.corner_before(1.0) == -math.inf
     assert (RAMP.corner_after(1.5), RAMP.corner_before(1.5)) == (2.0, 1.0)
@@ -70,13 +63,10 @@ def test_a_clock_begins_at_the_angle_and_goes_on_in_time():
     assert clock.since_begin(0.25, 3.6, 0.0) == -math.inf
 
 
-def test_a_clock_foresees_the_end():
+def test_a_clock_foresees_the_end_and_starts_within_a_pulse():
     clock = PulseClock(0.2, 3.0, at_end=True, now=0.0, speed=5.0)
     assert clock.since_begin(0.0, 2.0, 5.0) == pytest.approx(0.0)
     assert clock.since_begin(0.0, 2.0, 2.5) == pytest.approx(-0.2)
-
-
-def test_a_run_that_starts_within_a_pulse_has_the_rest_of_it():
     for at_end, angle in ((False, 3.0), (True, 4.0)):
         clock = PulseClock(0.2, angle, at_end=at_end, now=3.5, speed=5.0)
         assert clock.since_begin(0.0, 3.5, 5.0) == pytest.approx(0.1)

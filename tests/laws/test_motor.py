@@ -24,21 +24,6 @@ def test_through_the_rated_point_and_no_further_than_the_breakdown_torque():
     assert SPEEDS[torques.argmin()] == pytest.approx(100.0 * (1.0 + breakdown), abs=0.1)
 
 
-def test_it_drives_up_to_the_synchronous_speed_and_brakes_beyond_it():
-    motor = kloss(**RATED)
-    for speed in (-300.0, -1.0, 0.0, 50.0, 99.0):
-        assert motor(speed)[0] > 0.0
-    for speed in (101.0, 150.0, 300.0):
-        assert motor(speed)[0] < 0.0
-    assert motor(-100.0)[0] < motor(0.0)[0] < 2.0 * 100.0
-
-
-def test_with_a_small_slip_it_is_a_line():
-    motor = kloss(**RATED | {"breakdown_torque": 1e6})
-    for speed in (90.0, 99.0, 104.0):
-        assert motor(speed)[0] == pytest.approx(100.0 * (100.0 - speed) / 5.0, rel=1e-3)
-
-
 @pytest.mark.parametrize(
     "motor", [kloss(**RATED), torque_table([-10.0, 0.0, 70.0, 110.0], [50.0, 90.0, 250.0, -80.0])]
 )

@@ -51,14 +51,6 @@ def test_a_pin_that_turns_under_a_steady_load_bores_a_dent_of_its_own_curvature(
     assert clearance + bearing.max() + journal.max() == pytest.approx(68.8e-6, rel=2e-3)
 
 
-def test_a_pin_that_is_pressed_from_all_sides_wears_its_bearing_evenly():
-    angle = 2.0 * np.pi * (np.arange(72) + 0.5) / 72
-    contacts = Contacts(angle, 0.0 * angle, np.full(72, 1e-5), np.full(72, 1e-10), 1e-3)
-    journal, bearing = worn_after(np.zeros(72), np.zeros(72), 5e-5, contacts, 10.0)
-    assert bearing == pytest.approx(np.full(72, 1e-6), rel=1e-9)
-    assert journal == pytest.approx(bearing, rel=1e-9)
-
-
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)
 
 
@@ -71,17 +63,3 @@ def test_a_smooth_shape_is_met_with_both_derivatives():
         assert bend == pytest.approx(-1e-5 * math.cos(angle - 0.3), abs=1e-8)
     assert shape.mean == pytest.approx(1e-5, rel=1e-9)
     assert shape.sharpest == pytest.approx(1e-5, rel=2e-3)  # a shifted circle stays a circle
-
-
-def test_derivatives_are_those_of_the_depth():
-    shape = profile([0.1, 1.0, 2.5, 4.0], [1e-5, 3e-5, 0.0, 2e-5])
-    for angle in (0.0, 0.1, 0.7, 3.3, 6.2, 6.4):
-        high, low = shape.derivatives(angle + 1e-6), shape.derivatives(angle - 1e-6)
-        _, slope, bend = shape.derivatives(angle)
-        assert slope == pytest.approx((high[0] - low[0]) / 2e-6, rel=1e-6, abs=1e-12)
-        assert bend == pytest.approx((high[1] - low[1]) / 2e-6, rel=1e-4, abs=1e-9)
-    assert shape.derivatives(0.1 + 2.0 * math.pi) == pytest.approx(shape.derivatives(0.1))
-
-
-def test_no_number_stays_none():
-    assert all(map(math.isnan, profile([0.0, 1.0, 2.0], [0.0, 1e-5, 0.0]).derivatives(math.nan)))

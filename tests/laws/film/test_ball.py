@@ -13,7 +13,6 @@ from exu_press import InputError
 from exu_press.laws.film import dissipated_power, socket_drag
 from exu_press.laws.film.ball import ball
 from exu_press.scene.film import BallFilm
-from tabulation.reynolds_sphere import solve_cap
 
 CAPS = [math.pi / 4, 1.2, math.pi / 2]
 GAUSS = np.polynomial.legendre.leggauss(200)
@@ -111,15 +110,6 @@ def test_towards_the_wall_it_is_a_sphere_before_a_plane(cap_angle):
 
 
 @pytest.mark.parametrize(
-    "state",  # eccentricity ratio, speeds, tilt, angle of the cap
-    [(0.3, 1.0, 0.0, 0.3, math.pi / 2), (0.6, 0.3, 1.0, 1.1, 0.9), (0.7, 0.4, -1.0, 2.0, 0.9)],
-)
-def test_the_grid_of_the_table_against_latitude_and_longitude(state):
-    found, wanted = solve_cap(*state), direct(*state)
-    assert math.dist((found.along, found.aside), wanted) < 8e-3 * math.hypot(*wanted)
-
-
-@pytest.mark.parametrize(
     ("eps", "angle", "cap_angle"),  # from closing over rotation to opening
     [(0.8, 0.6, math.pi / 2), (0.25, 1.57, math.pi / 2), (0.8, 2.2, 1.0)],
 )
@@ -133,20 +123,6 @@ def test_the_law_is_the_film_of_a_cap_that_faces_its_load(eps, angle, cap_angle)
     along, aside = direct(eps, v_along, v_aside, tilt, cap_angle)
     assert along == pytest.approx(math.hypot(f_r, f_t), rel=0.015)
     assert abs(aside) < 0.02 * along
-
-
-def test_steady_rotation_pushes_the_ball_aside_and_back():
-    """Attitude from 90 degrees at the centre towards the wall, load growing without bound."""
-    law, last, before = ball().law, math.pi / 2, 0.0
-    for eps in (0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.99):
-        f_r, f_t = law(eps, 0.0, eps)[:2]
-        attitude, load = math.atan2(f_t, -f_r), math.hypot(f_r, f_t)
-        assert 0.0 < attitude < last + 1e-9
-        assert load > before
-        last, before = attitude, load
-    mirrored = law(0.5, 0.2, -0.7)
-    straight = law(0.5, 0.2, 0.7)
-    assert mirrored[:2] == pytest.approx((straight[0], -straight[1]))
 
 
 @pytest.mark.parametrize("onset", [None, 0.02])

@@ -1,5 +1,6 @@
-"""What every film law owes: exact derivatives, a regular centre; tests/properties has the rest."""
+"""What every film law owes, and films under touching asperities, which fade without a jump."""
 
+import itertools
 import math
 import random
 
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 from slopes import slopes
 
-from exu_press.laws.film import finite, pi_film, with_asperities
+from exu_press.laws.film import finite, pi_film, short, with_asperities
 from exu_press.scene.film import FILMS
 
 LAWS = {name: FILMS[name]().film(0.4) for name in ("pinkus", "pi_film", "short", "finite")} | {
@@ -25,15 +26,6 @@ def states(count, highest=0.999, seed=1):
         eps = min(rng.choice([rng.random(), 1.0 - 10.0 ** rng.uniform(-3, 0)]), highest)
         speed, turn = 10.0 ** rng.uniform(-3, 3), rng.uniform(0, 2 * math.pi)
         yield eps, speed * math.cos(turn), speed * math.sin(turn)
-
-
-@EVERY
-def test_first_degree_in_the_speeds_so_euler_holds(law):
-    for eps, eps_dot, eps_w in states(200, seed=3):
-        f_r, f_t, _, r_dot, r_w, _, t_dot, t_w, _, _ = law(eps, eps_dot, eps_w)
-        size = math.hypot(f_r, f_t)
-        assert abs(eps_dot * r_dot + eps_w * r_w - f_r) < 1e-9 * size
-        assert abs(eps_dot * t_dot + eps_w * t_w - f_t) < 1e-9 * size
 
 
 @EVERY
@@ -74,7 +66,42 @@ def test_drag_is_the_shear_all_round_the_gap_the_film_has(law, eps):
 @EVERY
 def test_isotropic_damper_at_the_centre(law):
     damping = -law(0.0, 1.0, 0.0)[0]
+    if law in (LAWS["pinkus"], LAWS["pi_film"]):
+        assert damping == pytest.approx(6.0 * math.pi)
     for turn in (0.3, 1.0, 2.0, 4.0, 5.5):
         f_r, f_t, *_ = law(0.0, math.cos(turn), 2.0 * math.sin(turn))
         assert f_r == pytest.approx(-damping * math.cos(turn))
         assert f_t == pytest.approx(damping * math.sin(turn))
+
+
+ONSET = 0.02
+UNDER_ASPERITIES = {"pi_film": pi_film(), "short": short(0.5), "finite": finite(0.71)}
+EVERY_FILM = pytest.mark.parametrize("film", UNDER_ASPERITIES.values(), ids=UNDER_ASPERITIES.keys())
+SPEEDS = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.3, -1.0), (-0.01, 1.0)]
+
+
+@EVERY_FILM
+def test_is_the_film_itself_down_to_the_onset(film):
+    mixed = with_asperities(film, ONSET)
+    for eps, speeds in itertools.product((0.0, 0.5, 0.97, 1.0 - ONSET), SPEEDS):
+        assert mixed(eps, *speeds) == film(eps, *speeds)
+
+
+@EVERY_FILM
+@pytest.mark.parametrize("eps", [1.0 - ONSET, 1.0, 1.0 + ONSET])
+@pytest.mark.parametrize("speeds", SPEEDS)
+def test_force_damping_and_stiffness_have_no_jump(film, eps, speeds):
+    mixed = with_asperities(film, ONSET)
+    below, at, above = (mixed(eps + d, *speeds) for d in (-1e-10, 0.0, 1e-10))
+    assert below == pytest.approx(above, rel=1e-4, abs=1e-6 * max(map(abs, at)))
+
+
+@EVERY_FILM
+def test_fades_as_the_surfaces_sink_into_each_other(film):
+    mixed = with_asperities(film, ONSET)
+    depths = [1.0 - ONSET, 1.0, 1.0 + ONSET, 1.1, 1.5, 3.0, 100.0]
+    damping = [-mixed(eps, 1.0, 0.0)[3] for eps in depths]
+    assert all(a > b > 0.0 for a, b in itertools.pairwise(damping))
+    assert damping[-1] < 1e-8 * damping[0]
+    turning = [mixed(eps, 0.0, 1.0)[7] for eps in depths]
+    assert 0.0 < max(turning) < 40.0 * turning[0]

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from slopes import slopes
 
-from exu_press import InputError
-from exu_press.laws.film import dissipated_power, short
+from exu_press.laws.film import dissipated_power
 from exu_press.laws.film.grooved_table import (
     DIRECTIONS,
     LAST,
@@ -105,24 +104,6 @@ def test_a_narrow_groove_at_the_widest_gap_is_the_supply_line():
     f_r, f_t, flow, *_ = GroovedFilmState(narrow, 0.6, 0.0, (144, 10)).solve(0.0, 0.3)
     assert (f_r, f_t) == pytest.approx(expected[:2], rel=2e-3)
     assert flow == pytest.approx(expected.side_flow, rel=2e-3)
-
-
-def test_a_groove_around_makes_two_short_bearings():
-    """Each half as long as the lands: a quarter of the short bearing's force times the length."""
-    bearing = GroovedBearing(0.1, (Groove(0.0, 2.0 * math.pi, 0.02),))
-    f_r, f_t, *_ = GroovedFilmState(bearing, 0.5, 0.3, (144, 24)).solve(0.2, 0.25)
-    half = short(0.1 * 0.98 / 2.0)(0.5, 0.2, 0.5)
-    assert (f_r, f_t) == pytest.approx((0.98 * half[0], 0.98 * half[1]), rel=0.02)
-
-
-def test_a_groove_away_from_the_middle_of_its_ends_is_no_bearing():
-    for grooves, words in (
-        ((Groove(0.0, WIDTH, 1.0), Groove(0.1, WIDTH, 1.0)), "grooves at 0 and 5.7"),
-        ((Groove(0.0, 7.0, 1.0),), "shorter than the bearing"),
-        ((Groove(0.0, 7.0, 0.1), Groove(1.0, WIDTH, 1.0)), "is no other"),
-    ):
-        with pytest.raises(InputError, match=words):
-            GroovedBearing(0.5, grooves)
 
 
 def test_a_cell_whose_sources_cancel_is_settled():

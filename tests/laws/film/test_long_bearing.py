@@ -79,9 +79,3 @@ def test_no_jump_of_the_printed_equation_35a():
         before, after = law(0.5, -1e-9, 0.5)[0], law(0.5, 1e-9, 0.5)[0]
         assert before == pytest.approx(-16 / 9, rel=1e-6)
         assert after == pytest.approx(-16 / 9, rel=1e-6)
-
-
-@pytest.mark.parametrize("law", [pinkus(), pi_film()])
-def test_centre_is_a_damper_of_six_pi(law):
-    assert law(0.0, 1.0, 0.0)[0] == pytest.approx(-6.0 * math.pi)
-    assert law(0.0, 0.0, 2.0)[1] == pytest.approx(6.0 * math.pi)

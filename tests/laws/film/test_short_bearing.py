@@ -33,16 +33,3 @@ def test_ocvirk_1952_steady_load(eps, compare):
     s2 = 1.0 - eps**2
     closed = -4 * 0.25**2 * eps**2 / s2**2, 4 * 0.25**2 * math.pi * eps / (4 * s2**1.5)
     compare("force along and across the eccentricity", closed, (f_r, f_t), error=0.0, rel=1e-12)
-
-
-@pytest.mark.parametrize("eps", [0.0, 0.4, 0.9])
-def test_pure_squeeze_both_ways_sums_to_the_full_film(eps):
-    closing, opening = short(0.5)(eps, 1.0, 0.0)[0], short(0.5)(eps, -1.0, 0.0)[0]
-    full = math.pi * (1 + 2 * eps**2) / (1 - eps**2) ** 2.5
-    assert opening - closing == pytest.approx(full)
-
-
-@pytest.mark.parametrize("eps", [0.1, 0.7])
-def test_derives_from_a_dissipation_potential(eps):
-    _, _, _, _, r_w, _, t_dot, *_ = short(0.5)(eps, 0.3, -0.8)
-    assert t_dot == pytest.approx(-2.0 * r_w)

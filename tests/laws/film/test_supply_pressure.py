@@ -79,16 +79,6 @@ def test_what_the_pump_and_the_journal_put_in_is_lost():
         assert twice[:4] == pytest.approx([2.0 * value for value in film[:4]], rel=1e-9)
 
 
-def test_no_pressure_is_the_ambient_film():
-    ambient = GroovedBearing(
-        0.5, tuple(Groove(g.angle, g.width, g.length) for g in POCKETS.grooves)
-    )
-    expected = GroovedFilmState(ambient, 0.6, 0.4, (72, 8)).solve(0.3, 0.4)[:3]
-    state = GroovedFilmState(POCKETS, 0.6, 0.4, (72, 8))
-    assert state.solve(0.3, 0.4)[:3] == pytest.approx(expected, rel=1e-10)
-    assert state.solve(0.3, 0.4, 1e-9)[:3] == pytest.approx(expected, rel=1e-6)
-
-
 def law_of(bearing, tables):
     """Return a law with its tables, each from a module's rows or numbers."""
     law = PressurizedFilm(bearing)

@@ -80,24 +80,6 @@ def test_squeeze_of_a_narrow_bearing_has_a_closed_form():
     assert film(eps, 1.0, 0.0)[:2] == pytest.approx(expected, abs=5e-3 * math.hypot(*expected))
 
 
-def test_the_sign_of_a_tilt_does_not_matter():
-    for tilt, direction, angle, share, *speeds in states(5, 5):
-        one, opposite = (
-            response(TiltedFilm(PLAIN, tilt, direction + turn), angle, share, *speeds)
-            for turn in (0.0, math.pi)
-        )
-        assert one == pytest.approx(opposite, rel=1e-6, abs=1e-6 * math.hypot(*one[:2]))
-
-
-def test_rotation_alone_makes_a_couple_and_no_force():
-    """At the centre both ends bear the same, in opposite directions."""
-    film = TiltedFilm(PLAIN, 0.6, 0.4)
-    film.spin = 10.0
-    law = film.respond(0.0, 0.0, 0.0)
-    assert law[10] > 0.0
-    assert math.hypot(*law[:2]) < 1e-6 * law[10]
-
-
 def test_the_rotation_of_the_inclination_counts():
     """In steady rotation, by the part of the force that eps W alone would miss."""
     film, missed = TiltedFilm(PLAIN, 0.4, 0.0), []

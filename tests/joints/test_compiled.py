@@ -9,21 +9,8 @@ import pytest
 
 import exu_press
 from exu_press.joints import COMPILED
-from exu_press.joints.interface import FilmInterface
-from exu_press.laws.film import pinkus
 
 ROOT = Path(__file__).parents[2]
-
-
-def test_it_knows_whether_it_is_compiled():
-    """A compiled class keeps what it is given as its type; one in Python takes anything."""
-    interface = FilmInterface(pinkus(), 1.0, 1e-4)
-    if COMPILED:
-        with pytest.raises(TypeError):
-            interface.scale = "thick"
-    else:
-        interface.scale = "thick"
-        assert interface.scale == "thick"
 
 
 def test_all_modules_are_compiled_or_none():

@@ -89,23 +89,6 @@ def test_a_block_at_rest_stays_on_a_slope_with_bristles():
     assert abs(np.trapezoid(speed[late], time[late])) < 1e-11
 
 
-@pytest.mark.parametrize("tolerance", [1e-4, None])
-@pytest.mark.parametrize("law", ["coulomb", "stribeck"])
-def test_without_bristles_it_creeps_as_slowly_as_the_law_says(law, tolerance):
-    """At the speed at which mu = tan of the slope: Coulomb's is v_r artanh(tan / mu)."""
-    slope = math.radians(5.0)
-    _container, mbs, motion, along = block(slope, LAWS[law])
-    time, speed = speeds(mbs, motion, along, tolerance=tolerance)
-    low, high = 0.0, 1e-3
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if LAWS[law](middle)[0] < math.tan(slope) else (low, middle)
-    assert speed[-1] == pytest.approx(low, rel=1e-3)
-    assert np.trapezoid(speed, time) < 1.01 * low * time[-1]
-    if law == "coulomb":
-        assert low == pytest.approx(1e-3 * math.atanh(math.tan(slope) / 0.2))
-
-
 @pytest.mark.parametrize("law", LAWS)
 def test_the_jacobian_is_the_derivative_of_the_force(law):
     rng = np.random.default_rng(3)

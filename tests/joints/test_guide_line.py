@@ -46,17 +46,6 @@ def assert_rate(joint, q, q_t):
     assert joint.relative_velocity == pytest.approx(rate, abs=1e-7)
 
 
-def test_the_rows_are_derivatives():
-    for i, h in enumerate(1e-6 * np.eye(6)):
-        ahead, behind = LINE.lateral_displacement(Q + h), LINE.lateral_displacement(Q - h)
-        assert LINE.normal_row(Q)[i] == pytest.approx((ahead - behind) / 2e-6, abs=1e-8)
-        for row, turning in (
-            (LINE.normal_row, LINE.turning(LINE.direction_row(Q))),
-            (LINE.direction_row, LINE.turning(-LINE.normal_row(Q))),
-        ):
-            assert turning[:, i] == pytest.approx((row(Q + h) - row(Q - h)) / 2e-6, abs=1e-8)
-
-
 @pytest.mark.parametrize("item", ["friction", "springs"])
 def test_friction_and_springs_keep_momentum_and_have_their_jacobian(item):
     mbs = exu.SystemContainer().AddSystem()

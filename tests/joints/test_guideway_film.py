@@ -5,72 +5,18 @@ import math
 import exudyn as exu
 import numpy as np
 import pytest
-from differences import assert_jacobian, forces, state_in
 from exudyn.itemInterface import LoadForceVector, LoadTorqueVector, MarkerBodyRigid
 from independent.pad_pressure import end_forces
 from scipy.integrate import solve_ivp
 from solving import completed, planar_body, recorded
 
 from exu_press.joints import add_guideway_contact, add_guideway_film, add_joint_sensor
-from exu_press.joints.ends import BodyEnd
-from exu_press.joints.guideway_film import GuidewayFilm
 from exu_press.laws.contact import hertz, step_damping
-from exu_press.laws.film import pad_with_asperities
-from exu_press.laws.film.plane_pad import plane_pad
 from exu_press.laws.friction import no_friction
 
 MASS, LENGTH, WIDTH, HALF, VISCOSITY = 20.0, 0.3, 0.05, 0.04, 0.1
 CLEARANCE, ONSET, STIFFNESS = 3e-5, 2e-6, 1e9
 SIDE, MOMENT, SPEED = 1e5, 3e3, 0.3
-
-
-def film_between(angle=0.0):
-    """Return a film of a block at a place, whose guideway lies at an angle, and its coordinates."""
-    along = np.array([math.cos(angle), math.sin(angle)])
-    rear, front = (
-        BodyEnd("RigidBody2D", 0, np.array([0.1, -0.2, angle]), np.array([half * LENGTH, 0.0, 0.0]))
-        for half in (-0.5, 0.5)
-    )
-    film = GuidewayFilm(
-        rear,
-        front,
-        BodyEnd("Ground", 0, np.zeros(0), np.array([0.1, -0.2, 0.0])),
-        (float(along[0]), float(along[1])),
-        law=pad_with_asperities(plane_pad(LENGTH, WIDTH), ONSET),
-        viscosity=VISCOSITY,
-        clearance=CLEARANCE,
-        contact_onset=CLEARANCE - ONSET,
-        length=LENGTH,
-        half_width=HALF,
-    )
-    return film, along, np.array([along[1], -along[0]])
-
-
-STATES = [(1e-5, 3e-5, 1e-3, -0.01, 0.4), (-2.8e-5, 1e-5, -1e-3, 0.02, -0.3), (0, 0, 1e-4, 0.01, 0)]
-"""Displacement across, tilt, and rates of both with that along."""
-
-
-def coordinates(along, across, beside, tilt, rate, turning, speed):
-    q = np.append(beside * across, tilt)
-    return q, np.append(rate * across + speed * along, turning)
-
-
-@pytest.mark.parametrize("state", STATES)
-@pytest.mark.parametrize("factors", [(1.0, 0.0), (0.0, 1.0)])
-def test_the_jacobian_is_that_of_the_forces(state, factors):
-    """But for what only turns arms, which the third column by the coordinates has."""
-    film, *guideway = film_between(0.7)
-    assert_jacobian(film, *coordinates(*guideway, *state), factors, 1e-3)
-
-
-@pytest.mark.parametrize("state", STATES)
-def test_its_power_is_that_of_its_forces(state):
-    film, *guideway = film_between(0.7)
-    q, q_t = coordinates(*guideway, *state)
-    told = state_in(film, [*q], [*q_t])
-    assert told.power == pytest.approx(forces(film, q, q_t) @ q_t, rel=1e-6)
-    assert told.dissipated_power > 0.0
-    assert told.eccentricity == pytest.approx(state[0] * guideway[1], abs=1e-12)
 
 
 def block(side=SIDE, moment=MOMENT, speed=SPEED, viscosity=VISCOSITY):
@@ -175,18 +121,3 @@ def test_the_film_gives_way_to_contact():
     early = (ends[0][:, 4] == 0.0) & (ends[0][:, 0] > 0.05)
     assert early.sum() > 20
     assert ends[2][early, 4] == pytest.approx(-5e3, rel=1e-3)
-
-
-def test_it_sinks_as_the_closed_form_of_a_squeeze_says():
-    """1/h^2 grows by 2 F / (mu w^3 L f) of the side that closes; f is the series of torsion."""
-    _container, mbs, (places, _), _ = block(side=2e4, moment=0.0, speed=0.0)
-    completed(mbs, 0.03)
-    data = np.asarray(mbs.GetSensorStoredData(places))
-    begin, end = np.searchsorted(data[:, 0], [0.005, 0.03 - 1e-12])
-    inverse = 1.0 / (CLEARANCE - data[:, 2]) ** 2
-    rate = (inverse[end] - inverse[begin]) / (data[end, 0] - data[begin, 0])
-    odd = np.arange(1, 400, 2)
-    ratio = WIDTH / LENGTH
-    tanh = np.tanh(0.5 * math.pi * odd / ratio)
-    f = 1.0 - 192.0 * ratio / math.pi**5 * (tanh / odd**5).sum()
-    assert rate == pytest.approx(2.0 * 2e4 / (VISCOSITY * WIDTH**3 * LENGTH * f), rel=1e-2)

@@ -1,12 +1,9 @@
 """What two surfaces do to each other: derivatives, rigid rotation, arms, memory."""
 
-import math
-
 import pytest
 from planar_states import BRISTLE, CLEARANCE, LAWS, RADIUS, STEADY, STIFFNESS, dry, film
 
 from exu_press.joints.interface import FilmInterface
-from exu_press.laws.contact import hertz, hunt_crossley
 from exu_press.laws.film import pi_film, with_asperities
 from exu_press.laws.friction import no_friction
 
@@ -61,24 +58,6 @@ def test_dry_contact_point_lies_on_the_journals_surface():
     assert a_b == -(RADIUS + CLEARANCE + 1e-5)
 
 
-def test_stored_energy_of_a_dry_pair_is_the_work_of_its_elastic_force():
-    interface = dry(no_friction())
-    depth = 1e-5
-    assert interface.stored_energy(CLEARANCE + depth) == pytest.approx(STIFFNESS * depth**2.5 / 2.5)
-    assert interface.stored_energy(0.5 * CLEARANCE) == 0.0
-    assert FILMS["pinkus"].stored_energy(0.9 * CLEARANCE) == 0.0
-
-
-@pytest.mark.parametrize("name", LAWS)
-def test_film_outside_its_range_is_nan_and_remembered(name):
-    interface = FILMS[name]
-    (f_n, _), _, _ = force_of(interface, 1.01 * CLEARANCE, 0.1, 0.1, 1.0, 0.0)
-    assert math.isnan(f_n)
-    assert interface.outside == pytest.approx(1.01)
-    force_of(interface, 0.5 * CLEARANCE, 0.1, 0.1, 1.0, 0.0)
-    assert interface.outside is None
-
-
 def test_bristle_is_kept_from_accepted_steps_only():
     interface = dry(BRISTLE)
     state = (CLEARANCE + 1e-6, 0.0, 0.5, 0.0, 0.0)
@@ -103,17 +82,3 @@ def test_bristle_is_not_reset_by_separation():
     force_of(interface, 0.5 * CLEARANCE, 0.0, -0.5, 0.0, 0.0)  # at rest in the mean of the step
     interface.begin_step(1e-9, accepted=True)
     assert interface.bristle == pytest.approx(bent, rel=1e-4)
-
-
-def test_approach_speed_is_that_of_the_touch():
-    """Half-way between two instants the rate's square is the mean of theirs; then it is kept."""
-    interface = dry(contact=hunt_crossley(hertz(STIFFNESS), 0.7))
-    for e, e_dot in ((0.9, 0.1), (0.99, 0.2), (1.01, 0.3)):
-        interface.begin_step(1e-6, accepted=True)
-        force = force_of(interface, e * CLEARANCE, e_dot, 0.0, 0.0, 0.0)
-    touch = math.sqrt((0.2**2 + 0.3**2) / 2.0)
-    contact = interface.contact.force(0.01 * CLEARANCE, 0.3, touch)
-    assert force is not None and -force[0][0] == pytest.approx(contact[0])
-    interface.begin_step(1e-6, accepted=True)
-    assert interface.approach.speed(0.02 * CLEARANCE, 0.15) == pytest.approx(touch)
-    assert interface.approach.speed(-0.02 * CLEARANCE, -0.1) == -0.1

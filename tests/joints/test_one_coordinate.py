@@ -82,7 +82,7 @@ class OneJoint:
         sensors = [recorded(self.mbs, each, "Coordinates") for each in (node, free_node)]
         self.mbs.Assemble()
         newton = {"newton__relativeTolerance": 1e-10}
-        solve(self.mbs, settings(4e-3, 2000, generalizedAlpha__spectralRadius=0.8, **newton))
+        solve(self.mbs, settings(2e-3, 1000, generalizedAlpha__spectralRadius=0.8, **newton))
         return [np.asarray(self.mbs.GetSensorStoredData(s))[:, 1:] for s in sensors]
 
 

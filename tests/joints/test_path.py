@@ -31,13 +31,6 @@ def test_a_way_of_third_degree_is_followed_exactly():
     assert path.quadrature_error(*cubic(3 * STEP), STEP) == pytest.approx((0.0, 0.0), abs=1e-14)
 
 
-def test_what_is_missed_is_told_with_its_part_along_the_place():
-    path = path_of(lambda time: ((3.0, 4.0), (0.0, 0.0)), 3)
-    missed, along = path.quadrature_error((3.0, 4.0 + 1e-6), (0.0, 0.0), STEP)
-    assert missed == pytest.approx(1e-6)
-    assert along == pytest.approx(0.8e-6)
-
-
 def test_the_trapezoidal_rule_drifts_on_a_circle_and_the_drift_is_taken_out():
     """A journal that swings along its bearing: its distance drifts by h^3 v a / 4 a step."""
     radius, speed, rate = 1e-4, 0.05, 40.0
@@ -118,7 +111,3 @@ def test_no_step_amplifies_a_vibration_in_contact():
         (0.1, 0.5, 1.0, 2.0, 4.0, 20.0), (1e-4, 1e-2, 0.1, 1.0, 10.0), (0.5, 0.8, 0.95)
     ):
         assert amplification(turned, ratio, radius, 2.0 * ratio / turned) <= 1.0 + 1e-9
-
-
-def test_a_correction_that_does_not_fade_amplifies_a_vibration_without_damping():
-    assert amplification(2.0, 0.0, 0.8, FOR_EVER) == pytest.approx(1.078, abs=1e-3)

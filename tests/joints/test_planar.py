@@ -1,14 +1,27 @@
-"""A clearance joint between two planar bodies, round or worn: balance, power, and its Jacobian."""
+"""A clearance joint between two planar bodies, round or worn: balance, power, Jacobian, contact."""
 
+import math
 import random
 
 import numpy as np
 import pytest
 from differences import assert_jacobian, forces, state_in
-from planar_states import FILMS, KINDS, WORN_KINDS, arms, joints, places
+from planar_states import (
+    ANGLES,
+    CLEARANCE,
+    KINDS,
+    STIFFNESS,
+    WORN_KINDS,
+    arms,
+    joints,
+    places,
+    unit,
+)
 
 from exu_press.joints.joint import GROUND
-from exu_press.joints.planar import PlanarEnd, PlanarJoint
+from exu_press.joints.worn import WornJoint, WornSurfaces
+from exu_press.laws.contact import hertz, step_damping
+from exu_press.laws.profile import profile
 
 EACH = pytest.mark.parametrize(
     ("kind", "worn"), [*((kind, False) for kind in KINDS), *((kind, True) for kind in WORN_KINDS)]
@@ -17,8 +30,9 @@ EACH = pytest.mark.parametrize(
 
 @EACH
 def test_forces_and_moments_sum_to_zero_about_any_point(kind, worn):
-    rng = random.Random(5)
-    for joint, q, q_t, _ in joints(kind, worn, 5, 150):
+    """Power = Q . q_t, the force of the state is the journal's body's, none comes from nothing."""
+    rng, lost = random.Random(5), 0
+    for joint, q, q_t, _ in joints(kind, worn, 5, 100):
         total = forces(joint, q, q_t)
         size = max(np.abs(total).max(), 1.0)
         assert total[:2] + total[3:5] == pytest.approx([0.0, 0.0], abs=1e-12 * size)
@@ -28,14 +42,6 @@ def test_forces_and_moments_sum_to_zero_about_any_point(kind, worn):
             arm = place - about
             moment += arm[0] * force[1] - arm[1] * force[0] + force[2]
         assert abs(moment) < 1e-12 * size
-
-
-@EACH
-def test_state_agrees_with_the_generalised_forces(kind, worn):
-    """Power = Q . q_t, the force of the state is the journal's body's, none comes from nothing."""
-    lost = 0
-    for joint, q, q_t, _ in joints(kind, worn, 6, 100):
-        total = forces(joint, q, q_t)
         state = state_in(joint, [*q, *GROUND], [*q_t, *GROUND])
         arm_j, arm_b = arms(joint, q)
         at_j, at_b = places(joint, q)
@@ -50,7 +56,7 @@ def test_state_agrees_with_the_generalised_forces(kind, worn):
 
 
 @EACH
-@pytest.mark.parametrize("factors", [(1.0, 0.0), (0.0, 1.0), (1.3, -0.07), (1.0, 2e4)])
+@pytest.mark.parametrize("factors", [(1.3, 0.0), (0.0, -0.07)])
 def test_jacobian_against_differences(kind, worn, factors):
     """-(by_q dQ/dq + by_q_t dQ/dq_t), row by row; journal first, then bearing."""
     acting = 0
@@ -62,12 +68,46 @@ def test_jacobian_against_differences(kind, worn, factors):
     assert acting > 5
 
 
-@pytest.mark.parametrize("interfaces", FILMS.values(), ids=FILMS)
-def test_centred_journal_has_finite_forces(interfaces):
-    """Every run starts there."""
-    end = PlanarEnd((0, 1, 2), (0.0, 0.0, 0.0), (0.0, 0.0))
-    joint = PlanarJoint(end, PlanarEnd((3, 4, 5), (0.0, 0.0, 0.0), (0.0, 0.0)), interfaces())
-    for q_t in ([0.0] * 6, [0.01, 0.02, 25.0, 0.0, 0.0, 3.0]):
-        assert np.all(np.isfinite(forces(joint, [0.0] * 6, q_t)))
-        assert np.all(np.isfinite(joint.jacobian(1.0, 1e4)))
-    assert forces(joint, [0.0] * 6, [0.1, 0.0, 0.0, 0.0, 0.0, 0.0])[0] < 0.0
+def test_the_place_of_contact_is_the_nearest_one():
+    """It is where the state was put, and no other direction is deeper."""
+    for joint, q, q_t, angle in joints("steady friction", True, 2, 20):
+        state = state_in(joint, [*q, *GROUND], [*q_t, *GROUND])
+        assert joint._touched[:2] == pytest.approx(unit(angle), abs=1e-9)
+        all_round = [
+            np.array(state.eccentricity) @ unit(a)
+            - joint.worn.journal.derivatives(a - joint._turned_j - q[2])[0]
+            - joint.worn.bearing.derivatives(a - joint._turned_b - q[5])[0]
+            - CLEARANCE
+            for a in np.linspace(0.0, 2.0 * np.pi, 721)
+        ]
+        assert -1e-12 < -state.gap - max(all_round) < 1e-8
+
+
+def test_what_is_stored_comes_back():
+    """The generalised forces at rest are minus the energy's gradient: turns and moves alike."""
+    for joint, q, _, _ in joints("without friction", True, 3, 30):
+        joint.interfaces[0].contact = step_damping(hertz(STIFFNESS), 0.0, 1e-5)
+        total = forces(joint, q, [0.0] * 6)
+        for i in range(6):
+            sides = []
+            for shift in (1e-8, -1e-8):
+                other = [*q]
+                other[i] += shift
+                sides.append(state_in(joint, [*other, *GROUND], [0.0] * 9).stored_energy)
+            slope = (sides[0] - sides[1]) / 2e-8
+            assert -slope == pytest.approx(total[i], abs=1e-4 * np.abs(total).max() + 1e-6)
+
+
+@pytest.mark.parametrize("kind", WORN_KINDS)
+def test_even_wear_is_a_round_joint(kind):
+    flat = profile(ANGLES, [2e-5] * len(ANGLES), 2e-5)
+    for round_one, q, q_t, _ in joints(kind, False, 6, 30):
+        both = round_one.journal, round_one.bearing
+        even = WornJoint(*both, KINDS[kind](), WornSurfaces(flat, flat))
+        found, wanted = forces(even, q, q_t), forces(round_one, q, q_t)
+        assert found == pytest.approx(wanted, rel=1e-9, abs=1e-9 * np.abs(wanted).max())
+
+
+def test_no_number_where_the_state_is_none():
+    joint, *_ = next(joints("mixed", True, 7, 1))
+    assert np.isnan(forces(joint, [math.nan] * 6, [0.0] * 6)).any()

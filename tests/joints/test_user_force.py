@@ -11,15 +11,15 @@ from exudyn.itemInterface import (
     ObjectGround,
     ObjectMassPoint2D,
 )
-from solving import planar_body, recorded, solve
+from solving import fixed_steps, planar_body, recorded, solve
 from stand_in_system import settings
 
 from exu_press import InputError, add_dry_revolute, add_dry_spherical, add_lubricated_revolute
 from exu_press.joints import States, user_force_of
 from exu_press.joints.history import history
-from exu_press.laws.contact import hertz, step_damping
+from exu_press.laws.contact import DAMPING_LAWS, delivered_restitution, hertz, step_damping
 from exu_press.laws.film import pi_film
-from exu_press.laws.friction import LuGre, lugre_steady
+from exu_press.laws.friction import LuGre, lugre_steady, no_friction
 
 SIZE = {"radius": 0.07, "clearance": 1e-4}
 CONTACT = step_damping(hertz(2.5545e10), 2.5545e6, 1e-5)
@@ -131,13 +131,13 @@ def momenta(bodies):
 
 @pytest.mark.parametrize("kind", ["dry", "ball", "lubricated"])
 def test_two_free_bodies_keep_momentum_and_angular_momentum(kind):
-    """Momentum to rounding; angular momentum to 4e-10 of itself, the integrator's own error.
+    """Momentum to rounding; angular momentum to 1.6e-9 of itself, the integrator's own error.
 
     That error is of second order in the step (asserted too), so nothing of it is the joint's: a
     moment left out would show as 1e-4, whatever the step.
     """
     drift = {}
-    for step in (8e-6, 4e-6, 2e-6):
+    for step in (8e-6, 4e-6):
         bodies, journal, bearing = free_pair()
         add_joint(kind, bodies.mbs, journal, bearing)
         bodies.run(0.006, step)
@@ -147,15 +147,14 @@ def test_two_free_bodies_keep_momentum_and_angular_momentum(kind):
         assert 0.05 * np.ptp(speed[:, 2]) > 2e-4, "and it does turn the bodies"
         assert np.abs(momentum - momentum[0]).max() < 1e-12 * np.abs(momentum[0]).max()
         drift[step] = np.abs(spin - spin[0]).max() / abs(spin[0])
-    assert drift[2e-6] < 4e-10
+    assert drift[4e-6] < 1.6e-9
     assert drift[8e-6] / drift[4e-6] == pytest.approx(4.0, rel=0.1)
 
 
-@pytest.mark.parametrize("kind", ["dry", "lubricated"])
-def test_bodies_are_accelerated_by_what_history_says(kind):
+def test_bodies_are_accelerated_by_what_history_says():
     """m a = F and I alpha = M at every recorded step: forces and moments of the state are real."""
     bodies, journal, bearing = free_pair()
-    joint = add_joint(kind, bodies.mbs, journal, bearing)
+    joint = add_joint("lubricated", bodies.mbs, journal, bearing)
     bodies.run(0.004, 2e-6)
     assert_newton(bodies, joint, journal, bearing)
 
@@ -204,27 +203,6 @@ def test_bristle_is_committed_only_for_accepted_steps():
     assert_newton(bodies, joint, journal, bearing)
 
 
-def test_several_joints_share_one_item():
-    """Five joints of three kinds between four bodies and the ground: one object more."""
-    bodies = Bodies()
-    numbers = [bodies.add(5.0, 0.1, [0.2 * i, 0.0, 0.0], [0.0, 0.0, 0.0]) for i in range(4)]
-    before = bodies.mbs.systemData.NumberOfObjects()
-    ends = [*((number, (0.1, 0.0)) for number in numbers), (bodies.ground, (0.3, 0.2))]
-    for kind, (journal, bearing) in zip(
-        ("dry", "ball", "lubricated", "dry", "lubricated"),
-        ((0, 1), (1, 2), (2, 3), (3, 0), (3, 4)),
-        strict=True,
-    ):
-        add_joint(kind, bodies.mbs, ends[journal], (ends[bearing][0], (-0.1, 0.0)))
-    assert bodies.mbs.systemData.NumberOfObjects() == before + 1
-    user_force = user_force_of(bodies.mbs)
-    assert len(user_force.joints) == 5
-    assert sorted(user_force.nodes) == sorted(bodies.nodes)
-    item = bodies.mbs.GetObject(user_force.item)
-    assert item["objectType"] == "GenericODE2"
-    assert len(item["nodeNumbers"]) == 4
-
-
 @pytest.mark.parametrize("journal_on_ground", [False, True])
 def test_a_joint_to_the_ground_carries_a_body(journal_on_ground):
     """A body at rest in a film's steady state: none; in dry contact it settles and weighs m g.
@@ -237,7 +215,7 @@ def test_a_joint_to_the_ground_carries_a_body(journal_on_ground):
     bodies.mbs.AddLoad(LoadMassProportional(markerNumber=marker, loadVector=[0, -9.81, 0]))
     ends = [(body, (0.0, 0.0)), (bodies.ground, (0.3, 0.2))]
     joint = add_joint("dry", bodies.mbs, *(ends[::-1] if journal_on_ground else ends))
-    bodies.run(0.1, 2e-5)
+    bodies.run(0.05, 2e-5)
     last = bodies.history(joint)
     sign = -1.0 if journal_on_ground else 1.0
     assert last.force[-1, 1] * sign == pytest.approx(98.1, rel=1e-3)
@@ -253,3 +231,29 @@ def test_other_bodies_are_refused():
         InputError, match="MassPoint2D: allowed are RigidBody, RigidBody2D, Ground and"
     ):
         add_joint("dry", bodies.mbs, (body, (0.0, 0.0)), (point, (0.0, 0.0)))
+
+
+def bounce(contact, mass, speed, duration, step=1e-6, clearance=1e-4):
+    """Return rebound over approach speed of a body in a clearance around a point of the ground."""
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
+    body, node = planar_body(mbs, mass, 1.0, (0.99 * clearance, 0, 0), (speed, 0, 0))
+    ground = mbs.AddObject(ObjectGround())
+    add_dry_revolute(
+        mbs, (body, (0, 0)), (ground, (0, 0)), radius=0.05, clearance=clearance,
+        contact=contact, friction=no_friction(),
+    )  # fmt: skip
+    velocity = recorded(mbs, node, "Coordinates_t")
+    mbs.Assemble()
+    chosen = fixed_steps(duration, step)
+    chosen.timeIntegration.newton.modifiedNewtonJacUpdatePerStep = True
+    solve(mbs, chosen)
+    return -np.asarray(mbs.GetSensorStoredData(velocity))[:, 1].min() / speed
+
+
+@pytest.mark.parametrize(("law", "wanted"), [("flores", 0.1), ("hu_guo", 0.9)])
+def test_hysteretic_laws(law, wanted):
+    """A mass that bounces delivers the restitution that its law alone does."""
+    contact = DAMPING_LAWS[law](hertz(1e10), restitution=wanted)
+    expected = delivered_restitution(contact, mass=1.0, speed=0.5)
+    assert bounce(contact, 1.0, 0.5, 1.2e-3) == pytest.approx(expected, abs=1e-3)

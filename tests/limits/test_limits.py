@@ -1,6 +1,5 @@
 """Limits that must come out, whatever the way there costs."""
 
-import functools
 import itertools
 
 import numpy as np
@@ -11,7 +10,7 @@ from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.scene import DryJoint
 
 POINT = PAPER_LAWS
-QUARTER = {"mechanism": "slider_crank", "revolutions": 0.15}
+QUARTER = {"mechanism": "slider_crank", "revolutions": 0.08}
 
 
 def run(**changes):
@@ -20,15 +19,10 @@ def run(**changes):
     return result
 
 
-@functools.cache
-def run_ideal():
-    return run(joints={}, solver={"step": 2e-5})
-
-
 def from_ideal(result):
     """Return how far the slider is from the ideal mechanism's at most, m."""
-    ideal = run_ideal()
-    there = np.interp(result["crank_angle"], ideal["crank_angle"], ideal["slider_position"])
+    scene = result.scene
+    there = scene.build().mechanism.ideal_slider(result["crank_angle"], scene.angular_speed)[0]
     return np.abs(result["slider_position"] - there).max()
 
 
@@ -51,7 +45,7 @@ def test_no_clearance_is_the_ideal_joint(pin):
 
 
 def test_infinite_viscosity_is_the_ideal_joint():
-    apart = [from_ideal(run(film={"viscosity": mu})) for mu in (0.01, 0.1, 1.0, 10.0)]
+    apart = [from_ideal(run(film={"viscosity": mu})) for mu in (0.1, 10.0)]
     assert falling(apart)
     assert apart[-1] < 2e-6
 
@@ -62,10 +56,10 @@ def test_no_viscosity_under_asperities_is_the_dry_joint():
     The last of a film goes slowly: squeezed to the asperities it is 1e5 times as stiff as in the
     middle, so that 1e-5 Pa s still cushion an impact.
     """
-    laws = {**POINT, "revolutions": 0.25}
+    laws = {**POINT}
     dry = run(joints={"crank_pin": DryJoint(clearance=1e-4 - 6e-7)}, **laws)
     apart = []
-    for viscosity in (1e-3, 1e-5, 1e-8):
+    for viscosity in (1e-3, 1e-8):
         film = {"law": "pinkus", "viscosity": viscosity, "at_contact": "mixed"}
         thin = run(film=film, **laws)
         there = np.interp(thin["crank_angle"], dry["crank_angle"], dry["slider_position"])
@@ -74,22 +68,22 @@ def test_no_viscosity_under_asperities_is_the_dry_joint():
     assert apart[-1] < 2e-6
 
 
-@pytest.mark.parametrize(
-    "contact",
-    [POINT["contact"], {"shape": "point", "damping": "flores", "restitution": 0.9}],
-    ids=["default", "lightly damped"],
-)
-def test_infinite_stiffness_does_not_blow_up(contact):
+def test_infinite_stiffness_does_not_blow_up():
+    """Of a contact that hardly damps."""
     depths = []
     for factor in (1e-2, 1e6):
         result = run(
             joints={"crank_pin": "dry"},
-            contact={**contact, "stiffness": 2.5545e10 * factor},
+            contact={
+                "shape": "point",
+                "damping": "flores",
+                "restitution": 0.9,
+                "stiffness": 2.5545e10 * factor,
+            },
             friction=POINT["friction"],
         )
-        summary = result.summary()
-        depths.append(summary["quantities"]["joints.crank_pin.peak_penetration"]["value"])
-        assert summary["quantities"]["energy.residual"]["value"] < 1e-3
+        depths.append(result.quantity("joints.crank_pin.peak_penetration").value)
+        assert result.quantity("energy.residual").value < 1e-3
         assert from_ideal(result) < 1.5e-4 + 2.0 * depths[-1]
     assert falling(depths)
 
@@ -119,9 +113,10 @@ def test_no_speed_is_the_static_solution():
     assert result.info["newton_iterations"] < 1.1 * 3000  # which rest does not need
 
 
-@pytest.mark.parametrize("viscosity", [1e-4, 1e-2, 1.0])
-@pytest.mark.parametrize("law", ["pinkus", "pi_film", "short", "finite"])
-def test_the_journal_stays_in_its_film_which_only_takes_energy(viscosity, law):
+@pytest.mark.parametrize(
+    ("law", "viscosity"), [("pinkus", 1e-4), ("pi_film", 1e-2), ("short", 1.0), ("finite", 1e-2)]
+)
+def test_the_journal_stays_in_its_film_which_only_takes_energy(law, viscosity):
     """A film that does not carry stops the run with the journal still inside."""
     scene = {**QUARTER, "film": {"law": law, "viscosity": viscosity}}
     result = simulate(Scene.from_dict(scene))
@@ -133,9 +128,9 @@ def test_the_journal_stays_in_its_film_which_only_takes_energy(viscosity, law):
     assert lost[-1] > 0.0
 
 
-@pytest.mark.parametrize("pin", ["dry", "lubricated"])
-def test_two_runs_are_the_same_bit_by_bit(pin):
-    scene = Scene.from_dict({"joints": {"crank_pin": pin, "balls": "dry"}, "revolutions": 0.02})
+def test_two_runs_are_the_same_bit_by_bit():
+    joints = {"crank_pin": "lubricated", "balls": "dry"}
+    scene = Scene.from_dict({"joints": joints, "revolutions": 0.02})
     one, other = simulate(scene), simulate(scene)
     assert set(one) == set(other)
     for name in one:

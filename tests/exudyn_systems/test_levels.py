@@ -79,12 +79,14 @@ def test_a_built_system_of_the_last_level_stays_where_it_misses():
     assert runs.mbs is built[3]
 
 
-def test_files_are_written_once(tmp_path):
+def test_files_are_written_once_and_settings_and_functions_are_put_back(tmp_path):
     file = tmp_path / "place.txt"
     mbs, _, sensor = oscillator(fileName=str(file), writeToFile=True)
     asked = settings(2.0, 100)
     asked.solution.file.write = True
     asked.solution.file.name = str(tmp_path / "solution.txt")
+    before, calls = str(asked), []
+    mbs.SetPostStepUserFunction(lambda mbs, time: calls.append(time) or True)
     outcome = solve_dynamic(mbs, asked)
     rows = np.loadtxt(file, delimiter=",", comments="#")
     assert len(rows) == min(outcome.steps, 200) + 1
@@ -92,15 +94,6 @@ def test_files_are_written_once(tmp_path):
     solution = np.loadtxt(tmp_path / "solution.txt", delimiter=",", comments="#")
     assert len(solution) == len(rows)
     assert {path.name for path in tmp_path.iterdir()} == {"place.txt", "solution.txt"}
-
-
-def test_settings_and_functions_are_put_back():
-    mbs, _, _ = oscillator()
-    calls = []
-    mbs.SetPostStepUserFunction(lambda mbs, time: calls.append(time) or True)
-    asked = settings(2.0, 100)
-    before = str(asked)
-    outcome = solve_dynamic(mbs, asked)
     assert str(asked) == before
     assert len(calls) == outcome.steps + 1  # Exudyn calls it for the start too
     mbs.GetPostStepUserFunction()["function"](mbs, 7.0)
@@ -121,9 +114,9 @@ def refusal(monkeypatch, reason):
     if reason == "NGSolve is loaded":
         monkeypatch.setitem(sys.modules, "ngsolve", None)
     elif reason == "there are 2 threads":
-        monkeypatch.setattr(threading, "active_count", lambda: 2)
+        monkeypatch.setattr(threading, "enumerate", lambda: [threading.main_thread()] * 2)
     else:
-        monkeypatch.setattr(threading, "active_count", lambda: 1)
+        monkeypatch.setattr(threading, "enumerate", lambda: [threading.main_thread()])
         monkeypatch.setattr(sys, "platform", "win32")
 
 

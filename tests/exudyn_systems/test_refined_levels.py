@@ -15,8 +15,7 @@ def rows_of(mbs, sensor):
     return np.array(mbs.GetSensorStoredData(sensor))
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
-@pytest.mark.parametrize("radius", [0.5, 0.9, 1.0])
+@pytest.mark.parametrize(("tolerance", "radius"), [(1e-2, 0.5), (1e-3, 1.0), (1e-4, 0.9)])
 def test_an_oscillation_has_its_closed_form(tolerance, radius):
     mbs, _, sensor = oscillator(stiffness=100.0)
     given = settings(2.0, 100)
@@ -27,7 +26,9 @@ def test_an_oscillation_has_its_closed_form(tolerance, radius):
     assert outcome.status is SolverStatus.COMPLETED
     assert true <= outcome.error.sensors[sensor][0] <= tolerance
     assert 0.5 * true <= outcome.error.motion <= tolerance  # over the change, from 1 to -1
-    assert abs(np.abs(values).max() - 1.0) <= outcome.error.peaks[sensor][0] + 1e-12
+    of_peak = outcome.error.peaks[sensor][0]
+    assert abs(np.abs(values).max() - 1.0) <= of_peak + 1e-12
+    assert of_peak < 0.5 * outcome.error.sensors[sensor][0]  # an error of phase
 
 
 def test_steps_grow_by_the_order_of_the_method():
@@ -36,14 +37,6 @@ def test_steps_grow_by_the_order_of_the_method():
         for tolerance in (1e-3, 1e-5)
     ]
     assert 7.0 < steps[1] / steps[0] < 14.0  # sqrt(100), to the next multiple
-
-
-def test_few_steps_of_the_user_are_no_error_of_the_result():
-    mbs, _, sensor = oscillator(stiffness=1e4)
-    outcome = solve_dynamic(mbs, settings(2.0, 5))
-    times, values = rows_of(mbs, sensor).T
-    assert outcome.status is SolverStatus.COMPLETED
-    assert values == pytest.approx(np.cos(100.0 * times), abs=1e-3)
 
 
 def test_a_rotor_whose_steps_span_periods_does_not_deceive():
@@ -59,7 +52,7 @@ def test_a_rotor_whose_steps_span_periods_does_not_deceive():
     finer, node = rotor()
     sensor = coordinate_sensor(finer, node)
     finer.Assemble()
-    finer.SolveDynamic(settings(5.0, 8 * outcome.steps))
+    finer.SolveDynamic(settings(5.0, 4 * outcome.steps))
     both = [rows_of(one, sensor) for one in (mbs, finer)]
     times = both[0][:, 0]
     for column in (1, 2):
@@ -124,7 +117,7 @@ def test_a_sampled_input_is_refined_with_everything_else():
     """The offset that a pre-step function sets; at 100 steps it jumps every 0.04 s."""
     mbs, sensor, given = servo(100)
     outcome = solve_dynamic(mbs, given)
-    finer, _, fine = servo(102_400)
+    finer, _, fine = servo(51_200)
     finer.SolveDynamic(fine)
     true, values = rows_of(finer, sensor)[:, 1], rows_of(mbs, sensor)
     assert outcome.status is SolverStatus.COMPLETED

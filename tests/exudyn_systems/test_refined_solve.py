@@ -31,17 +31,11 @@ def pendulum_with_clearance():
     return mbs
 
 
-def test_a_clearance_joint_takes_error_controlled_steps():
+def test_every_system_without_clearance_is_refined_unless_the_choice_is_overruled():
     outcome = solve_dynamic(pendulum_with_clearance(), settings(0.01, 100))
     assert outcome.status is SolverStatus.COMPLETED
     assert not isinstance(outcome, RefinedOutcome)
-
-
-def test_every_other_system_is_refined():
     assert isinstance(solve_dynamic(oscillator()[0], settings(1.0, 100)), RefinedOutcome)
-
-
-def test_the_choice_is_overruled():
     adaptive = solve_dynamic(oscillator()[0], settings(1.0, 100), method="adaptive", sample=0.5)
     assert not isinstance(adaptive, RefinedOutcome)
     refined = solve_dynamic(pendulum_with_clearance(), settings(1e-3, 1000), method="refine")

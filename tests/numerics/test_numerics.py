@@ -26,11 +26,6 @@ def test_splines_are_those_of_scipy(ends):
     assert np.allclose(evaluate(X, ours, AT, derivative=1), theirs(AT, 1), rtol=1e-11, atol=1e-11)
 
 
-def test_a_cubic_is_its_own_spline():
-    cubic = np.polynomial.Polynomial([1.0, -2.0, 0.5, 3.0])
-    assert evaluate(X, spline(X, cubic(X)), 0.33) == pytest.approx(cubic(0.33), rel=1e-13)
-
-
 def test_values_and_slopes_are_met_as_by_scipy():
     slopes = np.cos(X)
     theirs = CubicHermiteSpline(X, VALUES[1], slopes)

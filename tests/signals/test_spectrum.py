@@ -56,14 +56,6 @@ def test_a_train_of_impacts_has_a_line_at_each_multiple():
     assert between.max() < 1e-6
 
 
-def test_interpolation_would_miss_the_impact_that_a_cell_keeps():
-    x = np.array([0.0, 0.4999, 0.5, 0.5001, 1.0])
-    impact = np.array([0.0, 0.0, 1e4, 0.0, 0.0])
-    edges = np.linspace(0.0, 1.0, 8)
-    assert np.interp(edges, x, impact).max() == 0.0
-    assert cell_means(x, impact, edges).sum() / 7 == pytest.approx(1.0)
-
-
 def test_the_error_covers_an_alias():
     x = np.linspace(0.0, 1.0, 100001)
     fast = np.sin(2.0 * np.pi * 130.0 * x)

@@ -75,11 +75,10 @@ def test_a_drawing_of_few_digits_is_put_together():
     assert outcome.steps < 200
 
 
-@pytest.mark.parametrize("off", [0.02, 0.08])
-def test_a_joint_in_space_that_starts_off_is_put_together(off):
+def test_a_joint_in_space_that_starts_off_is_put_together():
     """Its directions in Exudyn's Jacobian are not those of its violation: it takes iterations."""
     mbs = exu.SystemContainer().AddSystem()
-    turned = items.RotationMatrixX(0.6) @ items.RotationMatrixY(0.5) @ items.RotationMatrixZ(off)
+    turned = items.RotationMatrixX(0.6) @ items.RotationMatrixY(0.5) @ items.RotationMatrixZ(0.08)
     body = mbs.CreateRigidBody(
         inertia=items.InertiaCuboid(1000.0, [0.3, 0.2, 0.1]),
         referenceRotationMatrix=turned,

@@ -71,9 +71,3 @@ def test_the_projection_is_the_least_change_in_the_norm_of_masses(twice):
     project = constraints.projection(np.diag([1.0, 3.0]), directions)
     change = project(np.ones((len(directions), 1)) / lengths[:, None])
     assert change[:, 0] == pytest.approx([0.75, 0.25], rel=1e-6)
-
-
-def test_a_matrix_that_cannot_be_inverted_projects_nowhere():
-    constraints = constraints_of(Scene(mechanism="slider_crank", joints={}))
-    project = constraints.projection(np.full((2, 2), np.nan), np.array([[1.0, 0.0]]))
-    assert np.isnan(project(np.ones((1, 1)))).all()

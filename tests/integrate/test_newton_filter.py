@@ -49,17 +49,15 @@ def test_a_redundant_constraint_filters_like_one(count):
     assert newton_filter.filter_change([3.0, 5.0]) == pytest.approx([0.0, 5.0])
 
 
-@pytest.mark.parametrize(("angle", "moved"), [(0.5 * np.pi, 1.0), (1e-3, 2e3)])
-def test_nearly_redundant_constraints_move_bodies_far_by_their_last_digits(angle, moved):
-    newton_filter = filter_of(np.array([[1.0, 0.0], [np.cos(angle), np.sin(angle)]]))
-    expected = ROUNDING * 3.0 * moved
-    assert newton_filter.roundoff_of_constraints() == pytest.approx(expected, rel=1e-3)
-
-
-def test_what_newtons_method_left_at_the_start_moves_bodies_too():
-    """The links of a press that line up were moved by 2 nm by 5e-14 m, in steps of any size."""
-    newton_filter = filter_of(np.array([[1.0, 0.0], [np.cos(1e-3), np.sin(1e-3)]]), violation=5e-14)
-    expected = (ROUNDING * 3.0 + 5e-14) * 2e3
+@pytest.mark.parametrize(
+    ("angle", "violation", "moved"),
+    [(0.5 * np.pi, 0.0, 1.0), (1e-3, 0.0, 2e3), (1e-3, 5e-14, 2e3)],
+)
+def test_nearly_redundant_constraints_move_bodies_far_by_their_last_digits(angle, violation, moved):
+    """Also by what Newton's method left at the start: a press's links that line up by 2 nm."""
+    directions = np.array([[1.0, 0.0], [np.cos(angle), np.sin(angle)]])
+    newton_filter = filter_of(directions, violation)
+    expected = (ROUNDING * 3.0 + violation) * moved
     assert newton_filter.roundoff_of_constraints() == pytest.approx(expected, rel=1e-3)
 
 

@@ -33,7 +33,9 @@ def peak(result):
 
 @pytest.fixture(scope="module")
 def reference():
-    return run(**{"solver.tolerance": 1e-4})
+    resolved = run(**{"solver.tolerance": 3e-4})
+    assert resolved.info["status"] == "completed"
+    return resolved
 
 
 def test_a_step_that_leaps_over_impacts_names_one_that_does_not(reference):
@@ -52,8 +54,6 @@ def test_a_step_that_leaps_over_impacts_names_one_that_does_not(reference):
 @pytest.mark.parametrize(
     "changes",
     [
-        {"solver.tolerance": 1e-3},
-        {"solver.step": 2e-5},
         {"solver.step": 1e-3, "contact.damping_max": 0.0},  # soft: the impact lasts many steps
         {"solver.step": 1e-3, "joints": {}},
     ],
@@ -63,13 +63,12 @@ def test_resolved_runs_are_completed(changes):
     assert run(**changes).info["status"] == "completed"
 
 
-@pytest.mark.parametrize("rise", [1e-4, 1e-5])
-def test_a_pulse_shorter_than_the_step_is_not_resolved_either(rise):
+def test_a_pulse_shorter_than_the_step_is_not_resolved_either():
     load = {
         "load.blanking.kind": "blanking",
         "load.blanking.force": 1e6,
-        "load.blanking.rise": rise,
-        "load.blanking.fall": 2.0 * rise,
+        "load.blanking.rise": 1e-4,
+        "load.blanking.fall": 2e-4,
     }
     changes = {"joints": {}, "load.blanking.end_angle_deg": 20.0, **load}
     leapt = run(**changes, **{"solver.step": 1e-3})

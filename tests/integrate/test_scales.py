@@ -26,39 +26,30 @@ def scales(nodes, inertias, velocities, given=None, **changes):
     return running
 
 
-def test_the_largest_body_counts_by_its_kinetic_energy():
+def test_the_largest_body_counts_by_its_kinetic_energy_and_rounding_by_the_length():
     running = scales(bodies(2), [*PLANAR, 8.0, 8.0, 1.0], [0.0] * 6)
     assert running.norm([3.0, 4.0, 0.0, 0.0, 0.0, 8.0]) == pytest.approx(5.0)
+    assert running.roundoff == pytest.approx(4e-15 * 2.0)
+    assert running.roundoff_speed == pytest.approx(4e-15 * 2.0 / 1e-3)
 
 
-def test_speed_and_force_are_the_largest_so_far():
+def test_speed_and_force_are_the_largest_so_far_unless_they_are_given():
     running = scales(bodies(1), PLANAR, [3.0, 4.0, 0.0])
     assert running.speed == pytest.approx(5.0)
     running.update([6.0, 8.0, 0.0], [1.0, 0.0, 0.0])
     running.update([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
     assert (running.speed, running.force) == pytest.approx((10.0, 2.0))
-
-
-def test_what_is_given_stays():
     running = scales(bodies(1), PLANAR, [3.0, 4.0, 0.0], ErrorScales(speed=7.0, force=9.0))
     running.update([60.0, 80.0, 0.0], [100.0, 0.0, 0.0])
     assert not running.updates and (running.speed, running.force) == (7.0, 9.0)
 
 
-def test_a_system_at_rest_has_the_speed_that_it_will_have_within_the_largest_step():
-    assert scales(bodies(1), PLANAR, **STILL).speed == pytest.approx(1.0)
-
-
 @PATCHED
-def test_a_body_at_rest_in_a_clearance_has_the_speed_at_which_it_arrives():
+def test_a_system_at_rest_has_the_speed_that_it_will_have_within_the_largest_step():
+    """In a clearance it has that at which it arrives."""
+    assert scales(bodies(1), PLANAR, **STILL).speed == pytest.approx(1.0)
     narrow = scales(bodies(1), PLANAR, **STILL, joints=SimpleNamespace(widest=1e-3))
     assert narrow.speed == pytest.approx(np.sqrt(4.0 * 1e-3 * 10.0))
-
-
-def test_what_rounding_makes_goes_with_the_length():
-    running = scales(bodies(1), PLANAR, [0.0] * 3)
-    assert running.roundoff == pytest.approx(4e-15 * 2.0)
-    assert running.roundoff_speed == pytest.approx(4e-15 * 2.0 / 1e-3)
 
 
 def test_weights_of_nodes():

@@ -43,7 +43,7 @@ def ringing(scene):
 
 @PATCHED
 def test_shorter_steps_do_not_ring(alternating_steps, monkeypatch):
-    scene = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.5)
+    scene = Scene(joints={"crank_pin": "ideal", "balls": "ideal"}, revolutions=0.25)
     fitted = ringing(scene)
     monkeypatch.setattr(VariableStepCorrection, "before_try", lambda change, start, step: None)
     assert fitted < 0.2 * ringing(scene)

@@ -45,8 +45,3 @@ def test_the_error_goes_with_the_cube_of_the_step():
 
     errors = [error_of(cubic, force, step) for step in (1e-2, 5e-3)]
     assert errors[0] / errors[1] == pytest.approx(8.0, rel=1e-2)
-
-
-def test_no_number_asks_for_a_shorter_step():
-    error = error_of(cubic, lambda r, v: r * np.inf if v[1] < 0.0 else r, 0.1)
-    assert np.isnan(error)

@@ -60,10 +60,6 @@ def errors(accelerations, step=0.01, masses=(2.0,), make=None, **keys):
     return values
 
 
-def test_accelerations_that_change_at_one_rate_are_followed_exactly():
-    assert errors([[1.0, 2.0, 3.0], [2.0, 4.0, 6.0]], 0.1)[-1] == 0.0
-
-
 def test_velocities_are_off_by_the_cube_of_the_step():
     """a = b t^2: its second derivative is 2 b."""
     b, h = 3.0, 0.01

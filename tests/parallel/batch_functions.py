@@ -86,6 +86,11 @@ def threads(arguments):
     return {"omp": os.environ["OMP_NUM_THREADS"], "blas": os.environ["OPENBLAS_NUM_THREADS"]}
 
 
+def performs(arguments):
+    """Perform the function of this module that the arguments name."""
+    return globals()[arguments["function"]](arguments)
+
+
 def memory(arguments):
     """Peak memory of the worker, MB."""
     return {"megabytes": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, "x": arguments}

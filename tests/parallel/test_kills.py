@@ -12,7 +12,6 @@ import pytest
 from waiting import alive, until
 
 from exu_press import InputError
-from exu_press.files.lock import lock_directory
 from exu_press.parallel import run_batch
 
 RUNS = 24
@@ -54,7 +53,7 @@ def go_on(arguments, directory):
 
 
 def test_a_killed_parent_loses_only_what_was_under_way(arguments, undisturbed, tmp_path):
-    """Killed twice, then left alone: the same rows bit by bit, and no orphans."""
+    """Killed twice, then left alone: the same rows bit by bit, no orphans, nobody locked out."""
     for enough in (5, 12):
         process = parent("slow_digits", arguments, tmp_path)
         until(lambda enough=enough: lines(tmp_path) >= enough)
@@ -68,11 +67,13 @@ def test_a_killed_parent_loses_only_what_was_under_way(arguments, undisturbed, t
     assert RUNS <= len(calls) <= RUNS + 2 * 2  # two workers, two kills
 
 
-def test_orphans_end_in_the_middle_of_a_run(tmp_path):
+def test_a_folder_belongs_to_one_parent_and_orphans_end_in_the_middle_of_a_run(tmp_path):
     process = parent("sleeps", [{"seconds": 600.0}], tmp_path)
     until(lambda: children(process.pid))
     time.sleep(0.5)  # it sleeps, deaf to SIGTERM
     (worker,) = children(process.pid)
+    with pytest.raises(InputError, match="another run is writing here"):
+        go_on([], tmp_path)
     process.kill()
     process.communicate()
     until(lambda: not alive(worker), seconds=5.0)
@@ -116,18 +117,3 @@ def test_ctrl_c_ends_the_workers_and_keeps_rows(arguments, undisturbed, tmp_path
     assert not any(alive(worker) for _, worker in calls)
     assert 4 <= lines(tmp_path) < RUNS
     assert go_on(arguments, tmp_path) == undisturbed
-
-
-def test_a_directory_belongs_to_one_batch_at_a_time(arguments, undisturbed, tmp_path):
-    process = parent("slow_digits", arguments, tmp_path)
-    until(lambda: lines(tmp_path) >= 1)
-    with pytest.raises(InputError, match="another run is writing here"):
-        go_on(arguments, tmp_path)
-    process.kill()
-    process.communicate()
-    assert go_on(arguments, tmp_path) == undisturbed  # a dead parent locks nobody out
-
-
-def test_the_lock_may_be_nested(tmp_path):
-    with lock_directory(tmp_path), lock_directory(tmp_path):
-        pass

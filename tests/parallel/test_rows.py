@@ -1,6 +1,5 @@
 """The file of finished rows, what it makes of what a kill leaves, and the tasks of rows."""
 
-import json
 import math
 
 import batch_functions
@@ -19,14 +18,6 @@ def write(path, *keys):
             file.append(key, None, ROW)
 
 
-def test_rows_come_back_bit_by_bit(tmp_path):
-    path = tmp_path / "runs.jsonl"
-    write(path, "a", "b")
-    with RowFile(path) as file:
-        assert file.finished_row("a", None) == file.finished_row("b", None) == ROW
-        assert file.finished_row("c", None) is None
-
-
 @pytest.mark.parametrize("kept", [1, 20, -1])
 def test_a_torn_last_line_is_cut_off(tmp_path, kept):
     path = tmp_path / "runs.jsonl"
@@ -39,12 +30,6 @@ def test_a_torn_last_line_is_cut_off(tmp_path, kept):
         assert file.finished_row("b", None) is None
         file.append("b", None, ROW)
     assert path.read_bytes() == whole
-
-
-def test_a_row_is_there_before_the_file_is_closed(tmp_path):
-    with RowFile(tmp_path / "runs.jsonl") as file:
-        file.append("a", None, ROW)
-        assert json.loads((tmp_path / "runs.jsonl").read_text())["key"] == "a"
 
 
 @pytest.mark.parametrize(

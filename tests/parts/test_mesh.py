@@ -13,12 +13,6 @@ from fe_models.errors import InputError
 from fe_models.solid_view import facing, turned_view
 
 
-def test_missing_face_is_named_with_those_there_are(linkage):
-    part = linkage.replace(interfaces=(Interface("middle"),))
-    with pytest.raises(InputError, match=r"no face named 'middle'.*'big bore'"):
-        generate_mesh(part)
-
-
 class Hollow:
     """A geometry that is no solid: a face."""
 
@@ -71,14 +65,11 @@ POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
 OUTWARDS = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
 
 
-def test_faces_behind_and_edge_on_are_left_out():
+def test_faces_behind_and_edge_on_are_left_out_and_near_ones_come_last():
     corners, seen, light = facing(POINTS, OUTWARDS)
     assert seen.tolist() == [[1, 2, 3]]
     assert_allclose(corners[0], [[1, 0], [0, 1], [0, 0]])
     assert 0.0 < light[0] <= 1.0
-
-
-def test_near_faces_come_last():
     both = np.vstack([POINTS + np.array([0, 0, 5]), POINTS])
     _, seen, _ = facing(both, np.vstack([OUTWARDS, OUTWARDS + 4]))
     assert seen.tolist() == [[5, 6, 7], [1, 2, 3]]

@@ -74,7 +74,7 @@ def spun(part):
     )
     marker = body.add_point_marker(mbs, "pin")
     mbs.Assemble()
-    chosen = settings(0.1, 200, generalizedAlpha__spectralRadius=0.8)
+    chosen = settings(0.03, 60, generalizedAlpha__spectralRadius=0.8)
     outcome = solve_dynamic(mbs, chosen, tolerance=1e-6)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
     x, y, _ = mbs.GetMarkerOutput(marker, exu.OutputVariableType.Position)

@@ -1,6 +1,5 @@
 """Temporary folders go with their objects, and those of killed processes with the next one."""
 
-import gc
 import signal
 import subprocess
 import sys
@@ -16,15 +15,6 @@ from fe_models.temporary import TemporaryFolder, remove_abandoned, replacing
 def base(tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     return tmp_path
-
-
-def test_a_folder_goes_with_its_object(base):
-    folder = TemporaryFolder()
-    (folder.path / "values").write_text("1")
-    assert list(base.iterdir()) == [folder.path]
-    del folder
-    gc.collect()
-    assert not list(base.iterdir())
 
 
 def left_by_a_kill(base):
@@ -48,15 +38,11 @@ def left_by_a_kill(base):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="folders are not locked there")
-def test_what_a_killed_process_leaves_goes_at_the_next_start(base):
+def test_what_a_killed_process_leaves_goes_at_the_next_start_or_command(base):
     folder = left_by_a_kill(base)
     with TemporaryFolder() as other:
         assert list(base.iterdir()) == [other]
     assert not folder.exists()
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="folders are not locked there")
-def test_any_command_removes_it(base):
     folder = left_by_a_kill(base)
     assert main(["new", str(base / "scene.toml")]) == 0
     assert not folder.exists()

@@ -7,15 +7,14 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 from matplotlib.text import Text
 from scipy.io import netcdf_file
 
 import exu_press
 from exu_press import InputError, Scene, simulate
-from exu_press.quantities import CATALOGUE, Owner, add, quantities_of, values_of
-from exu_press.quantities.catalogue import QuantityAt, find_quantity, quantity_of
+from exu_press.quantities import CATALOGUE, add, quantities_of, values_of
+from exu_press.quantities.catalogue import QuantityAt, find_quantity
 from exu_press.quantities.table import run_lines
 from exu_press.quantities.units import meaning_of, unit_of
 from exu_press.report.run import run_report
@@ -137,17 +136,6 @@ def test_one_that_workers_cannot_declare_is_refused(mine, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "kind"),
-    [("loads.time.work", "work"), ("joints.power_pin.max_eccentricity_ratio", "motion")],
-)
-def test_a_kind_follows_from_the_quantity_and_not_from_a_name(name, kind):
-    """In a joint named power_pin the eccentricity counted as a load, [load.time] had no errors."""
-    placed = find_quantity(name)
-    assert placed is not None and placed.quantity.kind.name == kind
-    assert placed.quantity.owner in (Owner.JOINT, Owner.LOAD)
-
-
-@pytest.mark.parametrize(
     ("change", "message"),
     [
         ({"name": "my speed"}, "quantity 'my speed': 'my speed' is no name"),
@@ -160,22 +148,6 @@ def test_a_quantity_of_ones_own_that_is_refused(change, message):
         add(dataclasses.replace(find_quantity("peak_velocity").quantity, **change))
 
 
-@pytest.mark.parametrize(
-    ("given", "value"), [(np.float64(2.0), 2.0), (np.int64(2), 2), (np.nan, None), (-np.inf, None)]
-)
-def test_what_a_quantity_gives_is_a_plain_number_or_none(given, value):
-    found = QuantityAt(dataclasses.replace(CATALOGUE[0], read=lambda run, at: given)).read(None)
-    assert found == value and type(found) is type(value)
-
-
 def test_a_quantity_that_gives_no_number_is_named():
     with pytest.raises(InputError, match="quantity stroke: gives 'a'; allowed is a number"):
         QuantityAt(dataclasses.replace(CATALOGUE[0], read=lambda run, at: "a")).read(None)
-
-
-def test_an_unknown_name_gives_those_that_are_like_it_and_not_all():
-    with pytest.raises(InputError) as refused:
-        quantity_of(Scene(), "joints.crank_pin.peak_forse")
-    said = str(refused.value)
-    assert "did you mean 'joints.crank_pin.peak_force'?" in said
-    assert len(said) < 600 and said.endswith(" others")

@@ -1,15 +1,13 @@
 """Rainflow cycles and Miner's sum, against a count by hand and a figure in closed form."""
 
 import dataclasses
-import sys
 
 import numpy as np
 import pytest
 
-from exu_press import InputError, Scene, simulate
+from exu_press import Scene, simulate
 from exu_press.quantities.fatigue import damage
 from exu_press.scene import Flexible
-from exu_press.scene.bodies import require_rainflow
 
 pytest.importorskip("rainflow")
 
@@ -51,9 +49,3 @@ def test_one_cycle_a_revolution():
     assert read("largest_amplitude") == pytest.approx(amplitude, rel=1e-3)
     assert read("cycles") == pytest.approx(1.0, rel=1e-3)
     assert read("life") == pytest.approx(2e6 * 2.0**5, rel=1e-3)
-
-
-def test_without_the_package_it_says_how_to_get_it(monkeypatch):
-    monkeypatch.setitem(sys.modules, "rainflow", None)
-    with pytest.raises(InputError, match=r"sn_stress: needs the package rainflow"):
-        require_rainflow()

@@ -4,28 +4,10 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.quantities import quantities_of, values_of
+from exu_press.quantities import values_of
 from exu_press.quantities.joints import contact_onsets, share_of_contact
-from exu_press.quantities.reading import Reading
-from exu_press.quantities.summary import run_warnings
 
 FILM = {"kind": "lubricated", "film": {"at_contact": "mixed", "roughness": 1e-6}}
-
-
-def names(scene, joint):
-    begin = f"joints.{joint}."
-    return {name.removeprefix(begin) for name in quantities_of(scene) if name.startswith(begin)}
-
-
-def test_each_kind_of_joint_has_its_own():
-    loose = {"max_eccentricity_ratio", "peak_force", "mean_power"}
-    loose |= {"dissipated", "dissipated_per_stroke"}
-    touching = {"peak_penetration", "impacts", "share_free_flight", "share_contact"}
-    dry = Scene(joints={"crank_pin": "dry"})
-    assert names(dry, "crank_pin") == loose | touching
-    assert names(dry, "shaft") == {"peak_force"}
-    assert names(Scene(joints={"crank_pin": "lubricated"}), "crank_pin") == loose | {"min_film"}
-    assert names(Scene(joints={"crank_pin": FILM}), "crank_pin") == loose | touching | {"min_film"}
 
 
 @pytest.fixture(scope="module")
@@ -74,35 +56,6 @@ def test_a_ball_whose_contact_is_as_wide_as_itself_is_warned_of(clearance):
     said = [text for text in result.summary()["warnings"] if "times the ball's" in text]
     assert (wide > 0.5) == (clearance < 1e-5) == bool(said)
     assert all(f"{wide:.2g} times the ball's" in text for text in said)
-
-
-def test_the_start_that_is_excluded_is_not_warned_of():
-    result = simulate(
-        Scene(
-            mechanism="slider_crank",
-            joints={"wrist_pin": "lubricated"},
-            film={"viscosity": 0.2, "length": 0.1},
-            revolutions=2.0,
-            solver={"tolerance": 1e-2},
-        )
-    )
-    clearance = result.joints["wrist_pin"].clearance
-
-    def closer(turns):
-        """Put the journal near its bearing in a part of the run."""
-        angle = result["crank_angle"] / (2.0 * np.pi)
-        near = ((angle > turns - 0.2) & (angle < turns + 0.2))[:, None]
-        return result.map_values(
-            lambda name, values: (
-                np.where(near, [0.99 * clearance, 0.0], values)
-                if name == "wrist_pin_eccentricity"
-                else values
-            )
-        )
-
-    for turns, expected in ((0.5, False), (1.5, True)):
-        told = run_warnings(Reading(closer(turns)))
-        assert any("eccentricity ratio up to 0.990" in text for text in told) == expected
 
 
 TIME = np.linspace(0.0, 1.0, 1001)

@@ -5,7 +5,6 @@ import pytest
 
 from exu_press import InputError, Scene, simulate
 from exu_press.quantities.dead_centre import behind_cut_centre
-from exu_press.quantities.table import run_lines
 
 PIN = {"wrist_pin": {"kind": "dry", "clearance": 1e-4}}
 
@@ -39,26 +38,6 @@ def test_peaks_and_energies_are_of_the_second_revolution(run):
     assert run.quantity("energy.dissipated").value == pytest.approx(expected, rel=1e-6)
     power = run.quantity("drive.mean_power").value
     assert power == pytest.approx(run.quantity("energy.input").value / 0.25, rel=1e-3)
-
-
-def test_the_start_is_told(run):
-    force = np.linalg.norm(run["wrist_pin_force"], axis=1)
-    lines = run_lines(run)
-    assert "read from revolutions 1 to 2" in lines[0]
-    assert run.quantity("start_ratio").value > 0.0
-    assert force.max() > 0.0
-    short = simulate(crank(revolutions=0.1))
-    assert any("with the start" in line for line in run_lines(short))
-
-
-def test_a_dead_centre_that_the_beginning_cuts_is_not_read_where_the_next_one_is():
-    """A film's start lies below the dead centres that follow."""
-    scene = crank(revolutions=1.25, start_angle_deg=180.0, settle=0.0)
-    result = simulate(scene.replace({"joints.wrist_pin.kind": "lubricated"}))
-    position, later = result["slider_position"], result.time > 0.2
-    bottom = result.quantity("bottom_dead_centre").value
-    assert bottom == pytest.approx(position[later].min(), abs=2e-7)
-    assert position[0] < bottom - 1e-6
 
 
 @pytest.mark.parametrize(

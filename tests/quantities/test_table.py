@@ -9,40 +9,6 @@ from exu_press.quantities.quantity import Owner
 from exu_press.quantities.table import SINGULAR, difference_lines, lines_by_heading, run_lines
 
 
-def test_guides_without_friction_say_what_friction_would_take():
-    result = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=1.0))
-    power = result.quantity("guides.slider.sliding_power").value
-    (line,) = (line for line in run_lines(result) if "guide friction at mu 0.1" in line)
-    assert float(line.split()[-1]) == pytest.approx(0.1 * power, rel=1e-3)
-
-
-def test_guides_with_friction_say_what_it_takes():
-    rubbing = Scene(mechanism="slider_crank", joints={}, revolutions=0.1).replace(
-        {"guide": {"friction": "coulomb"}}
-    )
-    result = simulate(rubbing)
-    lost = result.quantity("guides.slider.dissipated").value
-    (line,) = lines_by_heading({"": result})["guide of slider"]
-    assert line.title == "energy dissipated, mJ" and line.values[0].value == lost > 0.0
-    assert run_lines(result)[0] == "completed; read from revolutions 0 to 0.1, with the start"
-
-
-def test_members_of_a_group_that_are_alike_are_one():
-    result = simulate(Scene(joints={"balls": "dry"}, revolutions=0.02))
-    headings = list(lines_by_heading({"": result}))
-    assert "joint balls (alike to 1 %)" in headings and not any("left" in h for h in headings)
-
-
-def test_ideal_joints_have_their_forces_in_the_table():
-    ideal = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=0.1))
-    dry = simulate(Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.02))
-    lines = lines_by_heading({"a": ideal, "b": dry})["joint crank pin"]
-    (force,) = (line for line in lines if line.title.startswith("joint force"))
-    assert [value.value for value in force.values] == [
-        run.quantity("joints.crank_pin.peak_force").value for run in (ideal, dry)
-    ]
-
-
 def test_a_small_machine_has_units_of_its_size():
     """A slider-crank with masses of milligrams: its forces are no zeros of kN."""
     light = dict.fromkeys(("crank_mass", "rod_mass", "slider_mass", "rod_inertia"), 1e-6)

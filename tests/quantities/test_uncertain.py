@@ -6,16 +6,8 @@ import re
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.quantities.uncertain import CELL, bracket_text, significant, uncertain
+from exu_press.quantities.uncertain import CELL, bracket_text, uncertain
 from exu_press.scene.film import BallFilm, Finite, PiFilm, Pinkus, Short
-
-
-@pytest.mark.parametrize(
-    ("value", "digits", "text"),
-    [(331.7, 2, "330"), (-12345.0, 4, "-12340"), (0.01234, 2, "0.012"), (0.0, 2, "0")],
-)
-def test_no_exponent_where_digits_do(value, digits, text):
-    assert significant(value, digits) == text
 
 
 @pytest.mark.parametrize(
@@ -38,11 +30,6 @@ def test_an_error_says_how_many_digits(value, error, text):
     if error is not None:
         stated = {"error": error, "determined": True, "low": value - error, "high": value + error}
     assert uncertain(value, stated) == text
-
-
-def test_units_scale_value_and_error():
-    stated = {"error": 500.0, "determined": True, "low": 0.0, "high": 1.0}
-    assert uncertain(12340.0, stated, 1e-3) == "12.34 +- 0.50"
 
 
 @pytest.mark.parametrize(

@@ -48,13 +48,6 @@ def test_samples_have_every_channel_whatever_is_kept(tmp_path):
     assert loaded.samples.revolution.tolist() == run.samples.revolution.tolist()
 
 
-def test_a_file_without_channels_is_smaller(tmp_path):
-    kept(tmp_path, channels=[])
-    small = (tmp_path / "run.nc").stat().st_size
-    simulate(SCENE).save(tmp_path / "whole.nc")
-    assert small < 0.1 * (tmp_path / "whole.nc").stat().st_size
-
-
 def test_what_was_not_kept_is_said_with_its_cure(tmp_path, capsys):
     _, loaded = kept(tmp_path, channels=["slider_position"])
     with pytest.raises(InputError, match=r"'slider_tilt': was not kept; keep it by \[output\]"):
@@ -63,20 +56,7 @@ def test_what_was_not_kept_is_said_with_its_cure(tmp_path, capsys):
     assert "Traceback" not in capsys.readouterr().err
 
 
-def test_a_run_goes_on_from_a_file_without_channels(tmp_path):
-    run, loaded = kept(tmp_path, channels=[])
-    scene = SCENE.replace({"revolutions": 0.1})
-    one, other = (simulate(scene, start=each.info["state"]) for each in (run, loaded))
-    assert np.array_equal(one["slider_position"], other["slider_position"])
-
-
 def test_an_unknown_channel_is_refused_before_the_run():
     scene = SCENE.replace({"output": {"channels": ["slider_positon"]}, "revolutions": 1e6})
     with pytest.raises(InputError, match="is no channel of this scene"):
         simulate(scene)
-
-
-def test_channels_are_kept_of_a_run_that_settles_and_of_a_fast_one():
-    changes = {"settle": 0.001, "speed_rpm": 9e3, "revolutions": 0.002}
-    run = simulate(SCENE.replace({"output": {"channels": ["slider_position"]}, **changes}))
-    assert run.info["status"] == "completed"

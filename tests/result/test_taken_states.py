@@ -51,12 +51,3 @@ def test_some_instants_may_be_left_out(run):
     whole, part = (history(model.states, joint, instants) for instants in (time, time[::3]))
     assert np.array_equal(part.force, whole.force[::3])
     assert whole.rubbing.shape == part.rubbing.shape == (0, 2)
-
-
-def test_a_further_run_begins_anew(run):
-    model, time = run
-    before = model.states.numbers
-    model.solve()
-    assert model.states.numbers is not before
-    taken = np.frombuffer(model.states.numbers).reshape(-1, 14)
-    assert taken[0, 0] == time[0] and (np.diff(taken[:, 0]) > 0.0).all()

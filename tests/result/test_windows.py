@@ -1,7 +1,5 @@
 """Parts of a run's record."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -23,17 +21,6 @@ def test_both_ends_of_a_window_are_in_it(run):
     assert found.time.tolist() == run.time[3:8].tolist()
     assert found["shaft_force"].tolist() == run["shaft_force"][3:8].tolist()
     assert window(run, 1.001 * begin, 0.999 * end).time.tolist() == run.time[4:7].tolist()
-
-
-def test_a_part_of_a_record_is_a_result_that_can_have_another_scene(run):
-    part = up_to(run, run.time[-4])
-    shorter = replace(part, scene=run.scene.replace({"revolutions": 2.0}))
-    assert len(shorter.time) == len(run.time) - 3
-
-
-def test_all_of_a_record_is_the_record(run):
-    found = up_to(run, run.time[-1])
-    assert all(np.array_equal(found[name], run[name]) for name in run)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.001, 0.5, 0.999, 1.0])

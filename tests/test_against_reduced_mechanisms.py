@@ -162,6 +162,7 @@ def test_press_through_its_first_impacts(pin):
     assert expected[0] > 600.0  # there were impacts
 
 
+@pytest.mark.long
 def test_reference_of_the_press_is_converged():
     _, _, coarse = press("pinkus", 1e-4, 240, 0.2, 1e-9)
     _, _, fine = press("pinkus", 1e-4, 240, 0.2, 1e-11)
@@ -190,13 +191,6 @@ def test_press_over_its_first_revolution(pin, clearance, rpm, compare):
     assert difference(result, times, states).max() < (1e-8 if pin == "pinkus" else 5e-7)
     for name, theirs, ours in zip(PEAKS, expected, peaks_of(result, rpm), strict=True):
         compare(f"{name}, {KINDS[pin]} pin", theirs, ours, error=None, rel=1e-3)
-
-
-def test_press_at_the_default_tolerance():
-    """Lubricated pin, dry balls, over half a revolution."""
-    _, _, expected = press("pinkus", 1e-4, 240, 0.5, 1e-10)
-    result = exudyn_press("pinkus", 1e-4, 240, 0.5)
-    assert peaks_of(result, 240)[0] == pytest.approx(expected[0], rel=2e-3)
 
 
 @PAPERS_PRESS

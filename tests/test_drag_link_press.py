@@ -72,16 +72,6 @@ def test_at_the_largest_load_pins_bear_it_and_the_inertia(of_ideal_pins):
     assert abs(run["guide_force"][at]) == pytest.approx(side + couple / ROD, rel=0.02)
 
 
-def test_flywheel_motor_and_weights_give_what_load_and_friction_take(of_ideal_pins):
-    run = of_ideal_pins
-    speed = run["crank_speed"]
-    given = 0.5 * run.scene.drive.inertia * (speed[0] ** 2 - speed[-1] ** 2)
-    given += np.trapezoid(run["drive_power"], run.time)
-    given += RAM * 9.81 * (run["slider_position"][0] - run["slider_position"][-1])
-    taken = run.quantity("energy.dissipated").value - run.quantity("loads.drawing.work").value
-    assert given == pytest.approx(taken, rel=0.02)
-
-
 def test_the_ideal_guide_rubs_with_its_force(of_ideal_pins):
     run = of_ideal_pins
     expected = np.trapezoid(0.08 * np.abs(run["guide_force"] * run["slider_velocity"]), run.time)

@@ -28,8 +28,8 @@ SLIDER_CRANK = [
     {"mechanism": "slider_crank", "joints": {"crank_pin": pin}}
     for pin in ("ideal", "dry", "lubricated")
 ]
-FEW = [PRESS[0], PRESS[4], *SLIDER_CRANK]
-"""Each kind of joint; the long tests have all pairs, and below a dry press keeps its energy."""
+FEW = [PRESS[4], SLIDER_CRANK[1]]
+"""The long tests have all pairs; below a dry press keeps its energy."""
 
 VARIANTS = pytest.mark.parametrize(
     "variant",
@@ -74,26 +74,12 @@ def test_ideal_joints_dissipate_nothing():
 
 
 def test_a_film_only_dissipates():
-    lost = revolution("lubricated")["energy_dissipated"]
+    """And the balance misses 5e-3 of it at most: 0.6 J of the 900 J that go to and fro."""
+    result = revolution("lubricated")
+    given, stored, lost = (result[f"energy_{kind}"] for kind in ("input", "stored", "dissipated"))
     assert np.all(np.diff(lost) >= 0.0)
     assert lost[-1] > 0.5
-
-
-@pytest.mark.parametrize(("pin", "bound"), [("lubricated", 5e-3), ("dry", 2e-3)])
-def test_balance_against_what_is_dissipated(pin, bound):
-    """The sharper test: a film dissipates 0.6 J a revolution of the 900 J that go to and fro.
-
-    Measured: lubricated 3e-3 of the energy dissipated at 1e-4 s, dry 4e-4 at 1e-5 s.
-    """
-    scene = {
-        "mechanism": "slider_crank",
-        "joints": {"crank_pin": pin},
-        "revolutions": 0.5 if pin == "lubricated" else 0.25,
-        "solver": {"step": 1e-4 if pin == "lubricated" else 1e-5},
-    }
-    result = run(Scene.from_dict(scene))
-    given, stored, lost = (result[f"energy_{kind}"] for kind in ("input", "stored", "dissipated"))
-    assert np.abs(given - stored - lost).max() < bound * lost[-1]
+    assert np.abs(given - stored - lost).max() < 5e-3 * lost[-1]
 
 
 def test_kinetic_and_potential_energy_from_the_textbook():

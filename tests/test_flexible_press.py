@@ -1,7 +1,5 @@
 """The press with flexible crank shaft and linkage."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 from coarse_parts import COARSE
@@ -41,25 +39,6 @@ def test_without_modes_it_is_the_rigid_press(crank_pin, balls, linkage_as_solid)
     assert flexible.completed
 
 
-@pytest.mark.parametrize(
-    ("crank_pin", "balls"),
-    [
-        VARIANTS[2],
-        *(pytest.param(*v, marks=pytest.mark.long) for v in (VARIANTS[:2] + VARIANTS[3:])),
-    ],
-)
-def test_every_pin_variant_runs(crank_pin, balls):
-    result = simulate(
-        Scene(bodies=COARSE, joints={"crank_pin": crank_pin, "balls": balls}, **SHORT)
-    )
-    summary = result.summary()
-    assert result.completed, summary["reason"]
-    assert summary["quantities"]["energy.residual"]["value"] < 1e-2
-    assert 1e-7 < np.abs(result["crank_pin_deflection"]).max() < 1e-3
-    assert np.abs(result["linkage_elongation"]).max() > 1e-8
-    assert 1e5 < summary["stress"]["linkage"]["von_mises"] < 1e9
-
-
 def test_the_balance_knows_that_the_frame_of_a_bending_crank_tilts():
     """In the plane alone it misses 3e-4 of what the drive puts in, however fine the steps."""
     scene = Scene(
@@ -67,7 +46,11 @@ def test_the_balance_knows_that_the_frame_of_a_bending_crank_tilts():
         joints={"crank_pin": "lubricated", "balls": "dry"},
         revolutions=0.1,
     )
-    assert simulate(scene).quantity("energy.residual").value < 3e-5
+    result = simulate(scene)
+    assert result.quantity("energy.residual").value < 3e-5
+    assert 1e-7 < np.abs(result["crank_pin_deflection"]).max() < 1e-3
+    assert np.abs(result["linkage_elongation"]).max() > 1e-8
+    assert 1e5 < result.summary()["stress"]["linkage"]["von_mises"] < 1e9
 
 
 @pytest.mark.long
@@ -145,22 +128,3 @@ def test_a_bearing_sees_the_slope_of_its_shaft(oiled_run):
     largest = np.hypot(*oiled_run["shaft_slope"].T).max()
     assert oiled_run.quantity("joints.shaft.peak_slope").value == pytest.approx(largest)
     assert largest > 1e-6
-
-
-def test_an_end_with_half_of_the_film_is_told(oiled_run):
-    def warnings_at(slope):
-        bent = dataclasses.replace(
-            oiled_run.channels["crank_pin_slope"], values=np.full((len(oiled_run.time), 2), slope)
-        )
-        channels = {**oiled_run.channels, "crank_pin_slope": bent}
-        texts = dataclasses.replace(oiled_run, channels=channels).summary()["warnings"]
-        return [text for text in texts if "shaft's slope" in text]
-
-    length = oiled_run.scene.joints["crank_pin"].film.length
-    steep = 1.2 * oiled_run.joints["crank_pin"].gap.max() / length
-    (text,) = warnings_at(steep)
-    assert text.startswith(
-        f"crank pin: the shaft's slope of {1e6 * np.hypot(steep, steep):.3g} urad"
-    )
-    assert not warnings_at(0.1 * steep)
-    assert not [t for t in oiled_run.summary()["warnings"] if "shaft's slope" in t]

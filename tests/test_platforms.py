@@ -4,14 +4,12 @@ import io
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import matplotlib
 import pytest
 
 from exu_press import Result, Scene
 from exu_press.cli import main
-from exu_press.mechanism import load_mechanism
 from exu_press.parallel.rows import RowFile
 from fe_models.temporary import TemporaryFolder, remove_abandoned
 
@@ -78,13 +76,6 @@ def test_line_ends_of_windows(home, begin):
     plain.write_bytes(SCENE.encode())
     windows.write_bytes((begin + SCENE).replace("\n", "\r\n").encode())
     assert Scene.load(windows) == Scene.load(plain)
-
-
-def test_a_mechanism_with_line_ends_of_windows(home):
-    shipped = Path(load_mechanism.__code__.co_filename).parent / "files" / "six_bar.toml"
-    windows = home / "six_bar.toml"
-    windows.write_bytes(shipped.read_bytes().replace(b"\n", b"\r\n"))
-    assert load_mechanism(windows) == load_mechanism(shipped)
 
 
 def test_rows_are_kept_byte_by_byte_on_a_system_without_links_and_pipes(home, monkeypatch):

@@ -13,7 +13,6 @@ from stored_results import rewritten
 from exu_press import Result, Scene
 from exu_press.cli import main
 from exu_press.errors import InputError
-from exu_press.files.file_format import NewerFormatError, refuse_newer_format
 from exu_press.parallel.rows import RowFile
 
 STUDY = """
@@ -93,10 +92,3 @@ def test_a_study_of_a_later_version_is_refused_as_such(name, words, tmp_path, mo
     assert main([*words, *where]) == 2
     error = capsys.readouterr().err
     assert f"{name}: is of format 2" in error and "update exu_press" in error
-
-
-def test_formats_are_compared_by_name_and_number():
-    for stored in ("exu_press result 2", "exu_press result 1", "exu_press sweep 3", "", "result x"):
-        refuse_newer_format(stored, "exu_press result 2")
-    with pytest.raises(NewerFormatError, match=r"format 10, .* reads formats up to 2"):
-        refuse_newer_format("exu_press result 10", "exu_press result 2")

@@ -27,10 +27,14 @@ sys.exit(main(sys.argv[2:]))
 OF_A_RUN = ["--no-error", "--no-pictures", "--quiet"]
 
 
-def limited(size, *arguments, **options):
-    """Return a command that has ended, whose files may have so many bytes."""
+def limited(size, *arguments, **variables):
+    """Return a command that has ended, whose files may have so many bytes.
+
+    It keeps no bytecode, which would be half a file.
+    """
     command = [sys.executable, "-c", LIMITED, str(size), *arguments]
-    return subprocess.run(command, capture_output=True, text=True, timeout=100, **options)
+    env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", **variables}
+    return subprocess.run(command, capture_output=True, text=True, timeout=100, env=env)
 
 
 def test_a_result_that_does_not_fit(tmp_path):
@@ -101,9 +105,7 @@ def test_refinements_without_room_leave_the_run_without_errors(tmp_path, monkeyp
 def test_a_child_says_that_its_disk_is_full(tmp_path):
     """Blocks of a long run, and of its refinements, in the temporary folder."""
     run = ["run", "slider_crank", "--set", "revolutions=1", "--within", "5%", "--no-pictures"]
-    done = limited(
-        30_000, *run, "--quiet", "--out", tmp_path, env={**os.environ, "TMPDIR": tmp_path}
-    )
+    done = limited(30_000, *run, "--quiet", "--out", tmp_path, TMPDIR=str(tmp_path))
     assert done.returncode == 3
     assert done.stderr.startswith(f"exu-press: {tmp_path}{os.sep}exu_press_temporary_")
     assert done.stderr.count("\n") == 1

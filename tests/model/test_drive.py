@@ -145,26 +145,6 @@ def test_a_press_that_stalls_says_so_and_keeps_what_it_did():
     assert result.quantity("energy.residual").value < 1e-3
 
 
-def test_a_press_that_is_strong_enough_does_not_stall():
-    scene = Scene(
-        mechanism="eccentric_press",
-        speed_rpm=60.0,
-        revolutions=1.0,
-        joints={},
-        drive={"rated_torque": 1500.0, "inertia": 2000.0},
-        load={"draw": FORMING},
-    )
-    result = simulate(scene)
-    assert result.completed
-    crank, motor = result["crank_torque"], result["drive_torque"]
-    assert np.abs(crank).max() > 2.0 * np.abs(motor).max()
-    assert result.quantity("drive.peak_crank_torque").value == np.abs(crank).max()
-    given = 0.5 * 2000.0 * np.diff(result["crank_speed"][[0, -1]] ** 2)[0]
-    through = np.trapezoid(crank * result["crank_speed"], result.time)
-    assert through == pytest.approx(result["energy_input"][-1] - result["load_draw_work"][-1]
-                                    - given, rel=1e-3)  # fmt: skip
-
-
 def test_a_motor_by_its_table():
     table = {"table_speed_rpm": [0.0, 60.0], "table_torque": [900.0, 0.0], "inertia": 300.0}
     scene = Scene(mechanism="eccentric_press", speed_rpm=50.0, joints={}, drive=table)
@@ -175,10 +155,9 @@ def test_a_motor_by_its_table():
     assert result.quantity("energy.residual").value < 1e-3
 
 
-@pytest.mark.parametrize("place", ["start_angle_deg", "end_angle_deg"])
-def test_a_pulse_keeps_its_times_where_the_crank_slows_down(place):
+def test_a_pulse_keeps_its_times_where_the_crank_slows_down():
     """Rise, fall and impulse are those of the scene; its place follows the crank's angle."""
-    load = {"kind": "blanking", "force": 1e4, "rise": 0.03, "fall": 0.015, place: 150.0}
+    load = {"kind": "blanking", "force": 1e4, "rise": 0.03, "fall": 0.015, "end_angle_deg": 150.0}
     weak = {"rated_torque": 40.0, "no_load_speed_rpm": 200.0, "inertia": 5.0}
     scene = Scene(joints={}, drive=weak, revolutions=2.5, load={"blanking": load})
     result = simulate(scene)
@@ -196,10 +175,8 @@ def test_a_pulse_keeps_its_times_where_the_crank_slows_down(place):
         peak = begin + int(force[begin:end].argmax())
         assert result.time[end] - result.time[begin] == pytest.approx(0.045, abs=2e-3)  # to a step
         assert result.time[peak] - result.time[begin] == pytest.approx(0.03, abs=2e-3)
-        if place == "start_angle_deg":
-            assert degrees[begin + 1] - 360.0 * turn == pytest.approx(150.0, abs=0.01)
-        else:  # foreseen from the speed at the beginning
-            assert degrees[end] - 360.0 * turn == pytest.approx(150.0, abs=3.0)
+        # foreseen from the speed at the beginning
+        assert degrees[end] - 360.0 * turn == pytest.approx(150.0, abs=3.0)
     assert result.quantity("energy.residual").value < 1e-3
 
 

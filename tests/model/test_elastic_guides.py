@@ -1,15 +1,11 @@
 """Elastic guides: springs instead of constraints, nothing else."""
 
-import functools
-
 import numpy as np
 import pytest
 from pressed import pressed_slider_crank
 from scipy.optimize import fsolve
 
 from exu_press import Scene, simulate
-from exu_press.model import build
-from exu_press.scene import mechanism_of
 
 IDEAL = {"joints": {}}
 ECCENTRIC = {"kind": "blanking", "force": 1e4, "offset": [0.1, 0.0], "end_angle_deg": 60.0}
@@ -19,31 +15,6 @@ def run(**scene):
     result = simulate(Scene.from_dict(scene))
     assert result.completed, result.info["reason"]
     return result
-
-
-def test_springs_cost_no_callback():
-    mbs = build(Scene.from_dict({**IDEAL, "guide": {"lateral_stiffness": 1e9}})).mbs
-    items = [mbs.GetObject(i) for i in range(mbs.systemData.NumberOfObjects())]
-    assert not any(value for item in items for name, value in item.items() if "Function" in name)
-
-
-def test_the_stiffer_the_nearer_to_ideal_guides():
-    """The slider's position errs by 1 / stiffness: the guides' forces are bounded."""
-    scene = {
-        **IDEAL,
-        "revolutions": 0.25,
-        "solver": {"step": 1e-4},
-        "load": {"blanking": ECCENTRIC},
-    }
-    ideal = run(**scene)
-    errors = []
-    for stiffness in (1e9, 1e10, 1e11):
-        elastic = run(**scene, guide={"lateral_stiffness": stiffness, "damping_ratio": 0.5})
-        apart = elastic["slider_position"] - ideal["slider_position"]
-        errors.append(np.abs(apart).max())
-    assert 1e-6 < errors[0] < 1e-5
-    orders = np.log10(np.divide(errors[:-1], errors[1:]))
-    assert np.all((orders > 0.9) & (orders < 1.1))
 
 
 def test_tilt_of_a_slider_under_a_static_eccentric_force():
@@ -103,7 +74,7 @@ def test_ideal_guides_carry_the_eccentric_moment(balls):
     """With dry balls the guide; with ideal ones these, by forces that differ by M / a."""
     result = run(
         joints={"balls": balls},
-        revolutions=0.25,
+        revolutions=0.17,
         load={"blanking": ECCENTRIC},
         solver={"step": 5e-5},
     )
@@ -121,27 +92,21 @@ def test_ideal_guides_carry_the_eccentric_moment(balls):
 VARIANTS = [(pin, balls) for pin in ("ideal", "dry", "lubricated") for balls in ("ideal", "dry")]
 
 
-@functools.cache
-def eccentric(crank_pin, balls):
-    joints = {"crank_pin": crank_pin, "balls": balls}
-    return run(
-        joints=joints,
+@pytest.mark.parametrize(
+    ("crank_pin", "balls"),
+    [pytest.param(*v, marks=[pytest.mark.long] * (v != ("lubricated", "dry"))) for v in VARIANTS],
+)
+def test_energy_balance_with_what_guides_store_and_lose(crank_pin, balls):
+    """With the default tolerance; measured 3e-5 ... 2e-4 of the largest work.
+
+    With elastic guides a ball's centre moves sideways in its socket, as in figure 18 of the paper.
+    """
+    result = run(
+        joints={"crank_pin": crank_pin, "balls": balls},
         revolutions=0.17,
         load={"blanking": ECCENTRIC},
         guide={"lateral_stiffness": 1e9},
     )
-
-
-QUICK = ("ideal", "ideal"), ("lubricated", "dry")
-
-
-@pytest.mark.parametrize(
-    ("crank_pin", "balls"),
-    [v if v in QUICK else pytest.param(*v, marks=pytest.mark.long) for v in VARIANTS],
-)
-def test_energy_balance_with_what_guides_store_and_lose(crank_pin, balls):
-    """With the default tolerance; measured 3e-5 ... 2e-4 of the largest work."""
-    result = eccentric(crank_pin, balls)
     assert result.quantity("energy.residual").value < 5e-4
     names = [name for name in result if name.endswith("guide_loss")]
     assert len(names) == 5
@@ -152,21 +117,5 @@ def test_energy_balance_with_what_guides_store_and_lose(crank_pin, balls):
     others = [result[f"{joint}_loss"] for joint in result.clearance_joints]
     total = np.sum([lost, *others], axis=0)
     assert result["energy_dissipated"] == pytest.approx(total, abs=1e-12)
-
-
-def test_the_balls_paths_are_planar():
-    """Figure 18: with elastic guides the ball's centre moves sideways in its socket."""
-    ideal = run(revolutions=0.2, load={"blanking": ECCENTRIC})
-    elastic = eccentric("lubricated", "dry")
-    assert np.abs(ideal["ball_left_eccentricity"][:, 0]).max() < 1e-12
-    assert np.abs(elastic["ball_left_eccentricity"][:, 0]).max() > 1e-6
-
-
-def test_guide_force_is_the_springs():
-    result = eccentric("lubricated", "dry")
-    guide = next(g for g in mechanism_of(result.scene).guides if g.body == "slider")
-    still = np.abs(np.gradient(result["slider_lateral"], result.time)) < 1e-7
-    force = -guide.lateral.stiffness * result["slider_lateral"]
-    scale = np.abs(result["guide_force"]).max()
-    assert still.sum() > 5
-    assert np.abs(result["guide_force"] - force)[still].max() < 2e-2 * scale
+    if balls == "dry":
+        assert np.abs(result["ball_left_eccentricity"][:, 0]).max() > 1e-6

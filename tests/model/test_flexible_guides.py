@@ -155,12 +155,8 @@ def test_the_balance_closes_and_the_solid_may_be_drawn_on_its_own(slider):
         )
 
 
-@pytest.mark.parametrize("kind", ["ideal", pytest.param("dry", marks=pytest.mark.long)])
-def test_balls_carry_a_flexible_ram(tmp_path, kind):
-    """Of the eccentric press; ideal balls hold half, along the parallel guides.
-
-    Dry ones hit while the ram follows the slide.
-    """
+def test_balls_carry_a_flexible_ram(tmp_path):
+    """Of the eccentric press; ideal balls hold half, along the parallel guides."""
     mechanism = mechanism_of(Scene(mechanism="eccentric_press"))
     balls = [joint for joint in mechanism.joints if joint.spherical]
     reach = max(abs(joint.at[0]) for joint in balls) + 0.06
@@ -172,10 +168,9 @@ def test_balls_carry_a_flexible_ram(tmp_path, kind):
     solid.WriteStep(str(path))
     scene = Scene(
         mechanism="eccentric_press",
-        joints={"balls": kind},
+        joints={"balls": "ideal"},
         bodies={"ram": {"flexible": str(path), "mesh_size": 0.1, "modes": 8}},
-        revolutions=0.06 if kind == "dry" else 0.3,
-        **({"start": "centred"} if kind == "dry" else {}),
+        revolutions=0.3,
     )
     result = simulate(scene)
     assert result.completed
@@ -183,12 +178,7 @@ def test_balls_carry_a_flexible_ram(tmp_path, kind):
     carried = sum(result[f"{ball.name}_force"][:, 1] for ball in balls)
     lifted = result.info["solids"]["ram"]["mass"] * (9.81 + result["slider_acceleration"])
     sign = 1.0 if balls[0].journal == "ram" else -1.0
-    if kind == "ideal":
-        assert sign * carried == pytest.approx(lifted, rel=1e-2)
-    else:  # pressed from the start, nothing hits
-        loaded = simulate(scene.replace({"start": "loaded"}))
-        pressed = np.linalg.norm(loaded[f"{balls[0].name}_force"], axis=1)
-        assert pressed.max() < 1.01 * pressed[0]
+    assert sign * carried == pytest.approx(lifted, rel=1e-2)
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,7 @@ import scipy.sparse as sp
 from independent.solid import displaced
 from pressed import static_modes
 
-import exu_press
-from exu_press import InputError, Scene, simulate
+from exu_press import Scene, simulate
 from exu_press.model import build
 from exu_press.scene import mechanism_of
 
@@ -17,7 +16,6 @@ pytest.importorskip("ngsolve")
 
 from netgen.occ import Box, Cylinder, Pnt, Z
 
-from exu_press.model.placed_part import placed_parts
 from fe_models import CRANK_STEEL, Axis, Interface, Part, Patch, StepFile
 from fe_models.elasticity import full_model
 
@@ -177,42 +175,3 @@ def test_over_the_height_that_of_the_flexible_output_counts(rocker):
     assert result.completed
     assert np.ptp(result["load_spring_force"]) > 10.0
     assert result.quantity("energy.residual").value < 2e-3
-
-
-@pytest.mark.parametrize(
-    ("face", "message"),
-    [
-        ({"y": [0.6, 0.7]}, r"rocker: .*no face for load one lies wholly within y = \[0\.6"),
-        ("top", r"bodies\.rocker: .*no face named 'top'"),
-        ({"x": [0.35, 0.37], "y": [0.29, 0.31]}, r"knuckle and load one hold the same face"),
-    ],
-)
-def test_faces_that_are_not_there_are_refused(rocker, face, message):
-    asked = scene(rocker, {"one": {**CONSTANT, "face": face}}, body={"modes": 0})
-    with pytest.raises(InputError, match=message) as refused:
-        placed_parts(asked)
-    assert "\n" not in str(refused.value)
-
-
-def test_a_shipped_part_says_which_faces_it_has():
-    load = {"one": {"kind": "blanking", "force": 1.0, "body": "linkage", "face": "bore"}}
-    with pytest.raises(InputError, match=r"no face 'bore' for load one; allowed as load\.one"):
-        placed_parts(Scene(bodies={"linkage": "linkage"}, load=load))
-
-
-def test_a_force_that_fades_at_the_bottom_is_passed_with_a_flexible_rod():
-    """The fading is a damper of 1e9 N s/m, which Newton's matrix did not know: steps of 0.8 us."""
-    rod = Scene.load(Path(exu_press.__file__).parent / "scenes" / "six_bar_rod.toml")
-    bottom = np.degrees(mechanism_of(rod).dead_centres[1])
-    forming = {"kind": "table", "height": [0.0, 0.004, 0.0041], "force": [2e5, 2e5, 0.0]}
-    keys = {"joints": {}, "start_angle_deg": bottom - 15.0, "speed_rpm": 50.0, "settle": 0.0}
-    keys |= {"revolutions": 0.06, "load": {"forming": forming}, "solver.max_steps": 3000}
-    run = simulate(rod.replace(keys))
-    assert run.completed
-    lowest = run["slider_position"].min()
-    assert run["slider_position"][-1] > lowest + 1e-3
-    compressed = lowest - mechanism_of(rod).bottom  # the rod at the bottom
-    assert 1e-4 < compressed < 5e-4
-    work = run.quantity("loads.forming.work").value
-    assert work == pytest.approx(-2e5 * (0.00405 - compressed), rel=0.01)
-    assert run.quantity("energy.residual").value < 1e-3

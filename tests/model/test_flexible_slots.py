@@ -181,10 +181,3 @@ def scene_point(scene):
 def test_a_slot_along_a_flexible_body_is_refused():
     with pytest.raises(InputError, match=r"bodies\.arm\.faces\.block: missing.*face to face"):
         Scene(mechanism="inverted_slider_crank", joints={}, bodies={"arm": "any.step"})
-
-
-def test_ranges_are_for_faces_that_slide():
-    for faces in ({"end": {"x": [0, 1]}}, {"crank_pin": {"y": [0, 1]}}):
-        with pytest.raises(InputError, match="allowed"):
-            bodies = {"rod": {"flexible": "any.step", "faces": faces}}
-            Scene(mechanism=pin_in_slot(), joints={}, bodies=bodies)

@@ -81,10 +81,9 @@ def test_a_loaded_ball_sinks_as_the_closed_form_says():
     assert taken == pytest.approx(0.5, rel=5e-3)
 
 
-@pytest.mark.parametrize("start", ["loaded", "centred"])
-def test_the_press_with_lubricated_balls(start):
+def test_the_press_with_lubricated_balls():
     joints = {"crank_pin": "lubricated", "balls": "lubricated"}
-    result = simulate(Scene(joints=joints, start=start, revolutions=0.25, film={"law": "finite"}))
+    result = simulate(Scene(joints=joints, start="loaded", revolutions=0.25))
     assert result.completed
     assert abs(result.quantity("energy.residual").value) < 1e-4
     for name in ("ball_left", "ball_right"):
@@ -107,12 +106,3 @@ def test_a_film_that_gives_way_passes_its_load_to_contact():
     assert abs(result.quantity("energy.residual").value) < 1e-3
     assert result.quantity("joints.ball_left.max_eccentricity_ratio").value > 0.97
     assert result.joints["ball_left"].gap.min() < 3e-6
-
-
-def test_narrower_caps_carry_less():
-    def ratio(angle):
-        balls = {"kind": "lubricated", "film": {"socket_angle_deg": angle}}
-        result = simulate(Scene(joints={"balls": balls}, revolutions=0.2, start="centred"))
-        return result.quantity("joints.ball_left.max_eccentricity_ratio").value
-
-    assert ratio(90.0) < ratio(75.0) < ratio(55.0)

@@ -137,12 +137,6 @@ def test_every_file_that_goes_in_is_recorded(matrices):
     assert files == {str(file) for file in Path(matrices).parent.glob("rod*")}
 
 
-def test_matrices_take_the_place_of_a_solid_and_its_keys():
-    solid = {"flexible": "rod.step", "mesh_size": 0.05, "density": 7000.0, "modes": 3}
-    body = scene(solid).replace({"bodies.rod.matrices": "rod.toml"}).bodies["rod"]
-    assert (body.flexible, body.mesh_size, body.density, body.modes) == (None, None, None, 3)
-
-
 def test_a_scene_file_has_the_path_from_its_own_folder(matrices, tmp_path):
     saved = tmp_path / "scene.toml"
     scene({"matrices": matrices}).save(saved)

@@ -1,6 +1,5 @@
 """Flexible bodies start in the deformation, and its rate, that the ideal motion asks for."""
 
-import exudyn as exu
 import numpy as np
 import pytest
 from coarse_parts import COARSE
@@ -12,7 +11,6 @@ pytest.importorskip("ngsolve")
 
 IDEAL = {"joints": {"crank_pin": "ideal", "balls": "ideal"}}
 TURN = 0.25  # s
-SMALL = {"modes": 2, "mesh_size": 0.1}
 
 
 def _over(result, channel, begin, end):
@@ -71,38 +69,6 @@ def test_a_body_too_soft_to_stay_in_shape_is_refused(monkeypatch, singular):
     assert "\n" not in str(refused.value)
 
 
-def test_where_nothing_moves_the_bodies_hang_in_their_static_deflection():
-    """A crank at a hundredth of a revolution a minute: weight and stiffness alone."""
-    scene = Scene(
-        **IDEAL,
-        bodies=COARSE,
-        speed_rpm=0.01,
-        revolutions=1e-7,
-        start_angle_deg=60.0,
-    )
-    deflection = simulate(scene)["crank_pin_deflection"]
-    assert np.abs(deflection).max() > 1e-6
-    assert np.abs(deflection - deflection[0]).max() < 1e-3 * np.abs(deflection).max()
-
-
-@pytest.mark.parametrize("angle", [0.0, 175.0, 180.0, 300.0])
-def test_the_start_is_on_the_constraints(angle):
-    """Positions and velocities; at half a turn a rotation matrix tells its angle badly."""
-    scene = Scene(**IDEAL, start_angle_deg=angle, bodies=COARSE)
-    mbs = scene.build().mbs
-    q, q_t = (np.array(get()) for get in (
-        mbs.systemData.GetODE2Coordinates, mbs.systemData.GetODE2Coordinates_t))  # fmt: skip
-    solver, settings = exu.MainSolverImplicitSecondOrder(), exu.SimulationSettings()
-    settings.solution.file.write = False
-    solver.InitializeSolver(mbs, settings)
-    count = solver.GetODE2size()
-    assert len(q) == len(q_t) == count
-    solver.ComputeAlgebraicEquations(mbs, velocityLevel=False)
-    assert np.abs(np.array(solver.GetSystemResidual())[count:]).max() < 1e-10
-    solver.ComputeAlgebraicEquations(mbs, velocityLevel=True)
-    assert np.abs(np.array(solver.GetSystemResidual())[count:]).max() < 1e-7
-
-
 def test_elastic_guides_start_loaded():
     """What the guide of the slide carries at the start is what it carries a revolution later."""
     scene = Scene(
@@ -115,16 +81,6 @@ def test_elastic_guides_start_loaded():
     force = simulate(scene)["slide_guide_force"]
     assert np.abs(force).max() > 1000.0
     assert force[0] == pytest.approx(force[-1], abs=10.0)
-
-
-LINKAGE = {"linkage": {"flexible": "linkage", **SMALL}}
-
-
-@pytest.mark.parametrize(("kind", "coordinates"), [("ideal", ("y",)), ("dry", ("x", "y", "angle"))])
-def test_beside_a_flexible_body_a_joint_with_clearance_is_one_in_space(kind, coordinates):
-    """The slide in its ideal guide has y alone, which such a joint could not hold on to."""
-    model = Scene(bodies=LINKAGE, joints={"slide_pin": kind}).build()
-    assert model.rigid["slide"].coordinates == coordinates
 
 
 def test_with_clearance_in_the_guides_they_start_in_the_deformation_between_ideal_ones():

@@ -129,43 +129,6 @@ def test_a_damper_dissipates_what_it_takes():
     assert result.quantity("energy.residual").value < 1e-3
 
 
-def test_a_loaded_start_knows_the_springs():
-    """The pins start where they bear ram, rod and spring: nothing falls on them."""
-    pins = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
-    keys = {"start_angle_deg": 60.0, "revolutions": 1e-3}
-    mechanism = sprung(gas(at=((0.1, -1.2), (0.1, -0.5))))
-    result = slow(
-        mechanism, joints={"rod_pin": pins, "wrist_pin": pins}, contact={"length": 0.05}, **keys
-    )
-    ideal = slow(mechanism, **keys)
-    for pin in ("rod_pin", "wrist_pin"):
-        peaks = [np.hypot(*run[f"{pin}_force"].T).max() for run in (result, ideal)]
-        assert peaks[0] == pytest.approx(peaks[1], rel=0.02)
-
-
-def test_a_guide_bears_a_spring_that_swings_through():
-    """Within a tenth of a millimetre of the ram's way it turns by half a turn: nothing is moved."""
-    ends = (-0.05, -0.767), (-0.0499, -0.83)
-    spring = LinearSpring("turns", ("ram", GROUND), ends, 1e5, free_length=0.2, damping=100.0)
-    mechanism = replace(shipped_mechanism("drag_link"), springs=(spring,))
-    scene = Scene(mechanism=mechanism, joints={}, gravity=0.0, speed_rpm=1.0, revolutions=0.5)
-    peak = simulate(scene, errors=True).quantity("guides.ram.peak_force")
-
-    beside, expected = 1e-4, 0.0
-    angle = np.linspace(0.0, np.pi, 20_001)
-    for _ in range(2):  # then near the largest one
-        motion = mechanism.motion(angle, np.pi / 30.0)
-        height = -0.83 - (motion["ram"].position[:, 1] + 0.00047)
-        length = np.hypot(beside, height)
-        tilt = np.tan(motion["rod"].position[:, 2])
-        force = np.abs(1e5 * (0.2 - length) / length * (beside + height * tilt))
-        expected = force.max()
-        angle = np.linspace(-1.0, 1.0, 20_001) * angle[1] + angle[force.argmax()]
-    assert np.abs(tilt).max() > 0.01, "the rod bears the spring's part along the guide"
-    assert peak.value == pytest.approx(expected, rel=1e-3)
-    assert abs(peak.value - expected) < peak.error < 0.01 * expected
-
-
 @pytest.mark.parametrize("rest", [1e-2, pytest.param(1e-5, marks=pytest.mark.long)])
 def test_a_gas_spring_that_nearly_bottoms_keeps_the_energy(rest):
     """All but this share of the gas is pressed together: its peak is the polytropic one."""

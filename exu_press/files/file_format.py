@@ -12,11 +12,7 @@ class NewerFormatError(InputError):
 
 
 def refuse_newer_format(stored: str, known: str) -> None:
-    """Refuse a file of the known name with a greater number.
-
-    Args:
-        stored: what the file says of its format, a name and a number.
-        known: the newest format that this version reads.
+    """Refuse a file of the known name, "name number", with a greater number.
 
     Raises:
         NewerFormatError: the file is of a later one.

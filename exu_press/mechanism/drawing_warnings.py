@@ -25,9 +25,7 @@ thirty, the root of it, than the motion of the others asks for."""
 def drawing_warnings(mechanism: Mechanism, stroke: float) -> Iterator[str]:
     """Yield warnings about a drawing of another size than machines, or than the rest of it.
 
-    Args:
-        mechanism: drawn.
-        stroke: of its output, m; infinite where the crank does not turn.
+    The stroke of its output, m, is infinite where the crank does not turn.
     """
     size = mechanism.size
     if size > LARGEST:

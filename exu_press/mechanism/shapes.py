@@ -82,12 +82,7 @@ class Shape:
 
 
 def shapes_of(mechanism: Mechanism, height: float | None = None) -> dict[str, Shape]:
-    """Return every body's shape by name.
-
-    Args:
-        mechanism: drawn.
-        height: of the mechanism, m; by default that of a revolution.
-    """
+    """Return every body's shape by name; the height, m, is that of a revolution unless given."""
     if height is None:
         height = float(np.ptp(swept_points(mechanism)[:, 1]))
     guides = {guide.body: guide for guide in mechanism.guides if not guide.is_slot}
@@ -159,10 +154,7 @@ def transform_points(points: Array, pose: Array) -> Array:
 def rail_corners(guide: Guide, outline: Array, unit: float) -> list[Array]:
     """Return the corners (4, 2) of the rails on both sides of a body in its guide.
 
-    Args:
-        guide: of the body.
-        outline: the body's outlines over a revolution, (n, 2).
-        unit: size of the drawing, m.
+    The outlines (n, 2) are those over a revolution; the unit is the drawing's size, m.
     """
     gap, width = 0.004 * unit, 0.008 * unit
     axes = np.array([guide.normal, guide.direction])

@@ -39,10 +39,6 @@ def hold_flexible_bodies(system: System, start: Mapping[str, Motion]) -> None:
     """Hold flexible bodies in the plane and on pivots of the frame.
 
     A disc drives a flexible crank, and one moves with each face in a slot or a moving guide.
-
-    Args:
-        system: with all bodies in it.
-        start: name -> motion at the start, where it is not the ideal mechanism's.
     """
     for name, body in system.flexible.items():
         placed, ideal = system.parts[name], system.ideal[name]

@@ -52,10 +52,7 @@ def moved_start(
 ) -> tuple[dict[str, Motion], dict[str, "FrameStart"]]:
     """Return the start of ideal joints with every body moved into the loaded start.
 
-    Args:
-        system: with nothing but the frame in it.
-        start: name -> motion of bodies at the start, where it is not the ideal mechanism's.
-        frames: name -> start of the frame of a flexible body that starts deformed.
+    Of flexible bodies that start deformed the frames are moved.
     """
     moved, moved_frames = {**start, **loaded_start(system)}, {}
     owners = {carrier: body for (_, body), carrier in system.carriers.items()}

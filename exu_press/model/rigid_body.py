@@ -76,13 +76,7 @@ class RigidBody:
         return self.local(point)
 
     def motion(self, q: Array, q_t: Array, q_tt: Array) -> Motion:
-        """Return the centre of mass and the angle by displacements, rates and accelerations.
-
-        Args:
-            q: (n, coordinates) from the reference.
-            q_t: same shape.
-            q_tt: same shape.
-        """
+        """Return the motion of the centre of mass, by displacements (n, coordinates) and rates."""
         return Motion(self.reference + q, q_t, q_tt)
 
 

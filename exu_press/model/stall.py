@@ -38,13 +38,7 @@ class Stall:
         self._starts = True
 
     def __call__(self, time: float, speed: float, *, driven: bool) -> bool:
-        """Return whether it has stalled.
-
-        Args:
-            time: s.
-            speed: of the crank, rad/s.
-            driven: whether the drive is engaged.
-        """
+        """Return whether the press has stalled at a time, s, at a speed of its crank, rad/s."""
         if not driven or self._since == -math.inf:
             self._starts, self._fastest, self._since = True, speed, time
         if speed > self._slow:
@@ -57,14 +51,10 @@ class Stall:
 
     @staticmethod
     def message(time: float, angle: float, needed: float, available: float, *, slips: bool) -> str:
-        """Return the message about a press that has stalled.
+        """Return the message about a press that has stalled at a time, s, and crank angle, rad.
 
-        Args:
-            time: s.
-            angle: of the crank, rad.
-            needed: torque at the crank that balances loads, springs and weights, N m.
-            available: torque of the motor, or of a clutch that slips, N m.
-            slips: whether the clutch slips.
+        Loads, springs and weights need one torque, N m; the motor, or a clutch that slips, has the
+        available one.
         """
         source, cure = "the motor", "a larger drive.inertia, or a motor of a larger torque"
         if slips:

@@ -98,9 +98,7 @@ class ClutchElement:
     def end_of_slip(self, time: float, close: float) -> float:
         """Return the time at which slip will end, s, by extrapolation, or infinity.
 
-        Args:
-            time: s.
-            close: an end as close as this counts as passed, s.
+        An end as close as some time, s, counts as passed.
         """
         rate = self._sign * self._rate
         if self.state != SLIPS or self._slope * self._sign >= 0.0:
@@ -137,13 +135,9 @@ class StartStop:
     def __init__(
         self, schedule: Schedule, crank: CrankAngle, speed: float, ends_after: float | None
     ) -> None:
-        """Take the schedule.
+        """Take the schedule, and the crank's speed in operation, rad/s.
 
-        Args:
-            schedule: of the commands.
-            crank: its angle and angular velocity.
-            speed: of the crank in operation, rad/s.
-            ends_after: time for which the press stands before the run ends, s; None: no limit.
+        A press that has stood for `ends_after`, s, ends its run.
         """
         self.schedule, self._crank, self._speed = schedule, crank, speed
         self._ends_after = math.inf if ends_after is None else ends_after

@@ -177,12 +177,7 @@ def _are_alike(recent: Sequence[Heat], earlier: Sequence[Heat]) -> bool:
 def warm_films(
     joints: Mapping[str, ClearanceJoint], described: Mapping[str, Joint]
 ) -> dict[str, WarmFilm]:
-    """Return name -> the film whose oil warms, at its supply temperature.
-
-    Args:
-        joints: name -> joint with clearance.
-        described: name -> the scene's joint.
-    """
+    """Return name -> the film whose oil warms, at its supply temperature."""
     films = {}
     for name, joint in joints.items():
         kind = described[name]

@@ -81,23 +81,13 @@ class AppliedLoad:
         return np.array([self.force_at(*pair) for pair in pairs])
 
     def moment(self, force: Array, angle: Array) -> Array:
-        """Return the moment about the body's centre of mass, (n,), N m.
-
-        Args:
-            force: (n,), N.
-            angle: of the body, (n,), rad.
-        """
+        """Return the moment (n,), N m, of forces about the centre of a body at angles, rad."""
         (x, y), (u, v) = self.point, self.direction
         c, s = np.cos(angle), np.sin(angle)
         return np.asarray(force * ((c * x - s * y) * v - (s * x + c * y) * u))
 
     def shortest_edge(self, mechanism: Mechanism, angular_speed: float) -> float:
-        """Return how long the steepest part of the curve would take from zero to the peak, s.
-
-        Args:
-            mechanism: ideal.
-            angular_speed: of the crank, rad/s.
-        """
+        """Return how long the steepest part of the curve takes from zero to the peak, s."""
         if self.sheet is not None:
             return min(self.sheet.crack_time, self._rise(fastest_output(mechanism, angular_speed)))
         if self.curve.steepest == 0.0:

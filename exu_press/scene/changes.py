@@ -168,13 +168,7 @@ def _drawing_keys(mechanism: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def gives_key(name: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]) -> bool:
-    """Return whether changes give a key or a table, or a key of it, themselves.
-
-    Args:
-        name: dotted, of one joint where it is a joint's.
-        groups: names for several joints at once -> these joints.
-        changes: dotted name -> value; a table may be given whole.
-    """
+    """Return whether changes give a key or a table, of one joint, or a key of it, themselves."""
     for changed, value in changes.items():
         for path in _member_names(changed, groups):
             if name == path or path.startswith(f"{name}."):
@@ -213,13 +207,7 @@ def _has(value: Any, name: str) -> bool:
 def by_group(
     message: str, groups: Mapping[str, tuple[str, ...]], changes: Mapping[str, Any]
 ) -> str:
-    """Return a message about a joint with the group's name, where that was changed.
-
-    Args:
-        message: names one joint of the group.
-        groups: names for several joints at once -> these joints.
-        changes: dotted name in the scene -> value.
-    """
+    """Return a message about a joint with the name of its group, where changes name that."""
     for path in changes:
         group = path.removeprefix("joints.").partition(".")[0]
         for member in groups.get(group, ()):

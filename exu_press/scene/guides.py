@@ -51,10 +51,6 @@ def guides_of(
 ) -> tuple[ElasticGuide, dict[str, ElasticGuide]]:
     """Return [guide] with complete tables by name, and the guides that are not ideal.
 
-    Args:
-        table: [guide] of a scene.
-        mechanism: with guides and slots.
-
     Raises:
         InputError: there is no guide of a name, or a key of its table is not allowed.
     """

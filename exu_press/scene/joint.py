@@ -73,22 +73,14 @@ class Joint(CustomKind, Table):
         return all(kind.resolved for kind in self.kinds().values())
 
     def missing_keys(self, path: str) -> list[Need]:
-        """Return which of the keys that decide its behaviour are missing.
-
-        Args:
-            path: dotted name of the joint.
-        """
+        """Return which of the keys that decide its behaviour are missing, by its dotted name."""
         return []
 
     def check_laws(self) -> None:
         """Make every law once, so that values outside its range are refused before a run."""
 
     def to_dict(self, laws: Mapping[str, Mapping[str, Any] | None]) -> dict[str, Any]:
-        """Return the joint as a nested mapping, with the keys of laws that differ from a scene's.
-
-        Args:
-            laws: of the scene, "contact", "friction" and "film".
-        """
+        """Return the joint as a nested mapping, without the keys of laws that a scene has itself."""
         keys: dict[str, Any] = {"kind": self.kind}
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)

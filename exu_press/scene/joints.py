@@ -82,11 +82,7 @@ class Joints(dict[str, Joint]):
         return joints
 
     def to_dict(self, laws: Mapping[str, Mapping[str, Any] | None]) -> dict[str, dict[str, Any]]:
-        """Return the joints with clearance as nested mappings.
-
-        Args:
-            laws: the scene's; keys of a joint that differ from them are given.
-        """
+        """Return the joints with clearance as nested mappings, each with its own keys of laws."""
         return {name: joint.to_dict(laws) for name, joint in self.with_clearance.items()}
 
     def unused_laws(self) -> dict[str, str]:
@@ -104,12 +100,7 @@ class Joints(dict[str, Joint]):
     def law_keys(
         self, law: str, names: Iterable[str] | None = None
     ) -> dict[str, dataclasses.Field[Any]]:
-        """Return the keys of a law that joints use, with their declarations.
-
-        Args:
-            law: "contact", "friction" or "film".
-            names: of the joints; all unless given.
-        """
+        """Return the keys of a law that some joints, or all, use, with their declarations."""
         tables = (getattr(self[n], law) for n in (self if names is None else names))
         keys: dict[str, dataclasses.Field[Any]] = {}
         for table in filter(None, tables):
@@ -122,11 +113,7 @@ class Joints(dict[str, Joint]):
     ) -> str:
         """Return why none of some joints uses a key of a law.
 
-        Args:
-            law: "contact", "friction" or "film".
-            key: of it.
-            shared: the scene's keys; where a joint's own decides, the reason says so.
-            names: of the joints.
+        Where a joint's own key decides, and not the shared one of the scene, the reason says so.
         """
         name, table = next((n, t) for n in names if (t := getattr(self[n], law)))
         own = {k: value for k, value, field in key_values(table)

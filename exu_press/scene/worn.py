@@ -73,10 +73,7 @@ class WornDepths(Table):
         return journal, bearing
 
     def refuse_sharp(self, clearance: float) -> None:
-        """Refuse a shape that the journal cannot follow.
-
-        Args:
-            clearance: radial, before any wear, m.
+        """Refuse a shape that the journal cannot follow, with the clearance before any wear, m.
 
         Raises:
             InputError: somewhere the surface bends away faster than the journal can follow.

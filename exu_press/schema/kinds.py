@@ -84,11 +84,6 @@ Kind = TypeVar("Kind", bound=CustomKind)
 def custom_class(key: str, name: object, base: Any) -> type[Any] | None:
     """Return the class of a kind that a user has written; None for a text that is no such name.
 
-    Args:
-        key: that has the name, for messages.
-        name: of the kind, or the class itself.
-        base: of such kinds.
-
     Raises:
         InputError: code of that name is not loaded, or the class is no such kind.
     """

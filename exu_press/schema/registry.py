@@ -130,13 +130,7 @@ class Choice:
     kinds: Registry
 
     def select(self, key: str, path: str, keys: Mapping[str, Any], default: Any) -> type[Any]:
-        """Return the dataclass that a table's keys choose.
-
-        Args:
-            key: that chooses.
-            path: its dotted name.
-            keys: of the table.
-            default: value of the key.
+        """Return the dataclass that a table's keys choose, or else the default of the choosing key.
 
         Raises:
             InputError: there is no such kind.
@@ -149,14 +143,7 @@ class Choice:
             yield str(name).lower() if isinstance(name, bool) else repr(name), kind
 
     def reason(self, key: str, place_of: PlaceOf, chosen: CustomKind, holders: list[str]) -> str:
-        """Return why a key of other kinds is not used.
-
-        Args:
-            key: that chooses.
-            place_of: dotted names of keys.
-            chosen: part of the table.
-            holders: names of the kinds that use it.
-        """
+        """Return why a key of other kinds, the holders, is not used beside the chosen one."""
         name = chosen.kind
         name_text = str(name).lower() if isinstance(name, bool) else repr(name)
         return f"{place_of(key)} is {name_text}; it belongs to {' or '.join(holders)}"
@@ -181,7 +168,7 @@ class Alternatives:
     def select(
         self, key: str, path: str, keys: Mapping[str, Any], default: Any
     ) -> type[Any] | None:
-        """Return the dataclass that a table's keys choose, or None; arguments as of `Choice`."""
+        """Return the dataclass that a table's keys choose, or None."""
         home = next(
             (home for name, home in self.homes.items() if _is_there(keys.get(name))),
             self.homes.get("", ""),
@@ -203,7 +190,7 @@ class Alternatives:
         return keys
 
     def reason(self, key: str, place_of: PlaceOf, chosen: Any, holders: list[str]) -> str:
-        """Return why a key of other kinds is not used; arguments as of `Choice`."""
+        """Return why a key of other kinds, the holders, is not used beside the chosen one."""
         order = list(self.homes)
         deciding = [
             n for n, home in self.homes.items() if home and load_object(home) is type(chosen)

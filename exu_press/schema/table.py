@@ -185,12 +185,7 @@ def dotted_name(path: str, key: str) -> str:
 
 
 def table_from(kind: type[T], name: str, data: Any) -> T:
-    """Return the table `name` of a scene from a mapping of its keys.
-
-    Args:
-        kind: of the table.
-        name: dotted; "" is the scene itself.
-        data: key -> value, or the table.
+    """Return the table `name` of a scene from its keys, or as it is; "" is the scene itself.
 
     Raises:
         InputError: a key is unknown, not used by the others or not allowed.
@@ -284,14 +279,7 @@ def _as_keys(name: str, data: Any) -> Mapping[str, Any]:
 def refuse_unknown_keys(
     kinds: Collection[type[Table]], name: str, keys: Mapping[str, Any], used: Collection[str]
 ) -> None:
-    """Raise InputError for the first key that no table of some kinds may have.
-
-    Args:
-        kinds: of tables.
-        name: dotted, of the table that has the keys.
-        keys: of it.
-        used: names of keys that are known to be used.
-    """
+    """Raise InputError for the first key that is not used, and that no table of some kinds has."""
     for key, value in keys.items():
         if key in used:
             continue
@@ -316,13 +304,7 @@ def _choosing_keys(kind: type[Table], used: Collection[str]) -> Iterator[str]:
 
 
 def unused_reason(table: Table, key: str, place_of: Callable[[str], str]) -> str | None:
-    """Return why a table does not use a key, or None where it has none of that name.
-
-    Args:
-        table: complete.
-        key: that another choice of its parts has.
-        place_of: dotted names of keys.
-    """
+    """Return why a complete table does not use a key, or None where no choice has it."""
     for field, selector in _parts(type(table)):
         value = getattr(table, field.name)
         if value is not None and (reason := unused_reason(value, key, place_of)) is not None:

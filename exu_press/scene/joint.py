@@ -80,7 +80,7 @@ class Joint(CustomKind, Table):
         """Make every law once, so that values outside its range are refused before a run."""
 
     def to_dict(self, laws: Mapping[str, Mapping[str, Any] | None]) -> dict[str, Any]:
-        """Return the joint as a nested mapping, without the keys of laws that a scene has itself."""
+        """Return the joint as a nested mapping, without keys of laws that a scene has itself."""
         keys: dict[str, Any] = {"kind": self.kind}
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)

@@ -65,6 +65,8 @@ class System:
         states: of clearance joints and guideways at the steps of the last run.
     """
 
+    states: States
+
     def __init__(self, scene: Scene, parts: Mapping[str, "PlacedPart"]) -> None:
         self.scene, self.parts = scene, parts
         solids = {name: (placed.reduced.mass, placed.inertia) for name, placed in parts.items()}
@@ -102,7 +104,6 @@ class System:
         self.sensors: dict[tuple[str, str], int] = {}
         self.clearance_joints: dict[str, ClearanceJoint] = {}
         self.guideways: dict[str, tuple[ClearanceJoint, ...]] = {}
-        self.states = States([])
         still = MarkerNodeCoordinate(nodeNumber=self.ground_node, coordinate=0)
         self.still = self.mbs.AddMarker(still)
 

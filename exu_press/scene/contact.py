@@ -19,7 +19,7 @@ from exu_press.laws.contact.stiffness import Stiffness, cylindrical, hertz, hert
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import CustomKind
 from exu_press.schema.registry import Registry, alternatives, choice
-from exu_press.schema.table import Table, plain
+from exu_press.schema.table import Table
 
 __all__ = [
     "DAMPING",
@@ -98,7 +98,7 @@ class StepDamping(ContactDamping):
         self, stiffness: Stiffness, *, tension: bool, usual_slowest: float
     ) -> NormalContact:
         """Return the normal contact; it does not depend on the speed of impact."""
-        return step_damping(stiffness, **plain(self), tension=tension)
+        return step_damping(stiffness, self.damping_max, self.damping_depth, tension)
 
 
 @dataclass(frozen=True)

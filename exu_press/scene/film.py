@@ -47,25 +47,17 @@ class AlignedAmbientFilm:
     is_oriented: ClassVar[bool] = False
     """Whether it depends on the angle of the eccentricity in the bearing."""
 
+    inclination = 0.0
+    """Angle between the axes of journal and bearing, rad."""
+    supply_pressure = 0.0
+    """Largest pressure at which oil is supplied, Pa above ambient."""
+    ring_pressure = 0.0
+    """Pressure of oil in a groove all around, Pa above ambient."""
+
     @property
     def errors(self) -> tuple[float, float]:
         """Relative errors of its forces and of its side flow."""
         return self.error, self.flow_error
-
-    @property
-    def inclination(self) -> float:
-        """Angle between the axes of journal and bearing, rad."""
-        return 0.0
-
-    @property
-    def supply_pressure(self) -> float:
-        """Largest pressure at which oil is supplied, Pa above ambient."""
-        return 0.0
-
-    @property
-    def ring_pressure(self) -> float:
-        """Pressure of oil in a groove all around, Pa above ambient."""
-        return 0.0
 
 
 @dataclass(frozen=True)

@@ -73,17 +73,17 @@ class GroovedLaw(FilmLaw):
     )
 
     @property
-    def inclination(self) -> float:
+    def inclination(self) -> float:  # type: ignore[override]
         """Angle between the axes of journal and bearing, rad."""
         return self.tilt
 
     @property
-    def supply_pressure(self) -> float:
+    def supply_pressure(self) -> float:  # type: ignore[override]
         """Largest pressure of the grooves, Pa above ambient."""
         return max((groove.pressure or 0.0 for groove in self.grooves or ()), default=0.0)
 
     @property
-    def ring_pressure(self) -> float:
+    def ring_pressure(self) -> float:  # type: ignore[override]
         """Pressure of oil in a groove all around, Pa above ambient."""
         around = any(groove.width_deg >= 360.0 for groove in self.grooves or ())
         return self.supply_pressure if around else 0.0

@@ -43,6 +43,8 @@ def test_a_changed_input_is_refused_unless_it_is_allowed(folder, capsys):
     (folder / "scene.toml").write_text(SCENE.replace("0.05", "0.04"))
     assert main(["rerun", "o"]) == 2
     assert "scene.toml (changed); allowed is --changed" in capsys.readouterr().err
+    assert main(["rerun", "o", "--changed", "--out", "o/run.nc"]) == 2
+    assert "is the run itself; allowed is another file" in capsys.readouterr().err
     assert main(["rerun", "o", "--changed"]) == 1, "a shorter run"
     said = capsys.readouterr().out
     assert "scene.toml (changed)" in said and "do not agree" in said
@@ -78,21 +80,10 @@ def test_what_a_foreign_result_says_is_refused(folder, capsys, name, foreign, wo
     assert text in capsys.readouterr().err
 
 
-def test_a_run_is_not_replaced_by_its_repetition(capsys):
-    assert main([*RUN, "--no-error"]) == 0
-    assert main(["rerun", "o", "--out", "o/run.nc"]) == 2
-    assert "is the run itself; allowed is another file" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (
-            [
-                ".",
-            ],
-            ".: has none of run.nc; allowed is a directory that has one",
-        ),
+        (["."], ".: has none of run.nc; allowed is a directory that has one"),
         (["o", "--out", "a.txt"], "--out a.txt: allowed is a name that ends in .nc"),
     ],
 )

@@ -122,20 +122,6 @@ def test_ctrl_c_while_a_finished_run_is_stored_loses_nothing(tmp_path, capsys, m
     assert {path.name for path in tmp_path.iterdir()} == {"run.nc", "summary.json", ".lock"}
 
 
-@pytest.mark.long
-def test_a_run_that_is_not_known_goes_on_unless_it_is_to_run_once(tmp_path, capsys):
-    """A dry press at a coarse tolerance: the first run's figures are not within 5 %."""
-    coarse = ["joints.crank_pin=dry", "solver.tolerance=5e-2", "revolutions=0.3"]
-    arguments = [text for change in coarse for text in ("--set", change)]
-    said = []
-    for more in ([], ["--once"]):
-        out = str(tmp_path / f"out{len(more)}")
-        assert main(["run", "press", *arguments, *more, "--no-pictures", "--out", out]) == 0
-        said.append(" ".join("".join(capsys.readouterr()).split()))
-    assert "not known within 5%; goes on at a tolerance of 0.013" in said[0]
-    assert "goes on" not in said[1]
-
-
 @pytest.mark.parametrize("size", [100, 200_000_000])
 def test_a_result_is_no_scene(size, tmp_path, capsys):
     with (tmp_path / "run.nc").open("wb") as file:

@@ -246,14 +246,6 @@ def test_a_number_that_no_values_give_is_told(given, tmp_path, capsys):
 
 
 @pytest.mark.long
-def test_too_many_failed_runs(given, capsys, processes):
-    assert main(given("sensitivity", "time_limit = 1e-3\n" + STUDIES["sensitivity"])) == 2
-    shown = capsys.readouterr().err
-    assert "gave numbers, " in shown
-    assert "too few for 8 samples" in shown
-
-
-@pytest.mark.long
 def test_several_objectives(given, tmp_path, capsys):
     assert main(given("optimise")) == 0
     printed = capsys.readouterr().out

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from exu_press import Scene, simulate
 from exu_press.page.curves import PEAKS, curves_of
 from exu_press.page.marks import impacts, peaks, values_on
 from exu_press.page.thinning import Thinning
@@ -36,15 +35,6 @@ def test_impacts_are_those_that_are_counted(press):
         largest = max(one["force"] for one in mine)
         assert largest == pytest.approx(press.quantity(f"joints.{name}.peak_force").value)
     assert all(one["from"] <= one["peak"] <= one["to"] for one in found)
-
-
-def test_peaks_are_marked_in_the_part_that_is_read():
-    scene = {"mechanism": "slider_crank", "joints": {"crank_pin": "dry"}, "start": "centred"}
-    run = simulate(Scene.from_dict({**scene, "revolutions": 0.3, "settle": 0.25}))
-    assert np.abs(run["drive_torque"]).argmax() < np.searchsorted(run["crank_angle"], np.pi / 2)
-    marks = peaks(run, curves_of(run))
-    begin = float(np.interp(np.pi / 2, run["crank_angle"], run.time))
-    assert marks["drive_torque"] and all(m["at"] >= begin * (1 - 1e-9) for m in marks.values())
 
 
 def test_thinning_keeps_extremes_and_vectors():

@@ -10,10 +10,9 @@ from PIL import Image
 
 from exu_press.errors import InputError
 from exu_press.files.output_directory import PICTURES
-from exu_press.plots import save_comparison, save_pictures
+from exu_press.plots import save_pictures
 from exu_press.plots.file import draw_figures, read_sources
 from exu_press.plots.format import PictureFormat, drawn_as
-from exu_press.studies.curve_comparison import MEASURED_PICTURE
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="no process is copied there")
 
@@ -42,14 +41,6 @@ def test_pictures_of_a_run(results, tmp_path, monkeypatch):
     assert path.name == "force.png"
     assert list(tmp_path.iterdir()) == [path]
     assert_pictures([path])
-
-
-@pytest.mark.long
-def test_pictures_of_a_comparison(results, tmp_path):
-    paths = save_comparison({name: results[name] for name in ("ideal", "dry")}, tmp_path)
-    drawn = [name for name in PICTURES["compare"] if name != MEASURED_PICTURE]
-    assert [path.name for path in paths] == [f"{name}.png" for name in drawn]
-    assert_pictures(paths)
 
 
 @pytest.mark.parametrize("copied", [pytest.param(True, marks=linux), False])

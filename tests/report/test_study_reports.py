@@ -71,16 +71,6 @@ def test_curves_lie_over_each_other(tmp_path, browser):
         assert "<i>measured" in page.inner_text("body")
 
 
-def test_a_page_has_tables_lines_pictures_and_the_scene(tmp_path):
-    text = page_of(Trials(), tmp_path).read_text(encoding="utf-8")
-    headings = ("Points", "Trials", "Lines", "Warnings", "Pictures", "Scene", "Assumptions")
-    places = [text.index(f"<h2>{heading}</h2>") for heading in headings]
-    assert places == sorted(places)
-    assert "<p>above</p>" in text and "<p>below</p>" in text
-    assert "2 \N{PLUS-MINUS SIGN} 1 µm" in text
-    assert "None was drawn." in text
-
-
 def test_a_terminal_shows_an_excerpt_and_what_is_meant_for_it():
     rows = [(str(k), f"{k**2}") for k in range(4)]
     table = Table("", ("k", "square"), rows, ["first"], ["last"], right=True, excerpt=[0, 3])

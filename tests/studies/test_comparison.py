@@ -83,16 +83,6 @@ def test_runs_are_labelled_by_what_they_are(result):
         result.compare(result, labels=("a",))
 
 
-def test_the_columns_of_a_csv_have_every_quantity(result):
-    stated = with_made_up_errors(result, 1)
-    columns = stated.compare(result, labels=("a", "b")).columns()
-    at = columns["quantity"].index("peak_velocity")
-    value = stated.quantity("peak_velocity")
-    assert columns["quantity"] == list(values_of(result)) and columns["unit"][at] == "m/s"
-    assert (columns["a"][at], columns["a, low"][at]) == (value.value, value.low)
-    assert columns["b, error"][at] is None
-
-
 def test_energies_per_stroke_are_those_of_whole_revolutions(scene):
     lubricated = {"revolutions": 2.0, "settle": 0.0, "joints.crank_pin": "lubricated"}
     run = simulate(scene.replace(lubricated))

@@ -66,15 +66,6 @@ def test_errors_of_mean_and_scatter_are_those_of_many_samples():
     assert 0.91 < np.mean([abs(one.mean[0]) <= one.mean[1] for one in runs]) < 0.98
 
 
-def test_what_steps_miss_is_in_all_of_it():
-    values = np.random.default_rng(3).normal(5.0, 2.0, 100)
-    exact, told = (Distribution.from_values(values, missed) for missed in (0.0, 0.3))
-    assert told.mean == pytest.approx((exact.mean[0], exact.mean[1] + 0.3))
-    assert told.scatter == pytest.approx((exact.scatter[0], exact.scatter[1] + 0.3))
-    for percent, (value, low, high) in exact.percentiles.items():
-        assert told.percentiles[percent] == pytest.approx((value, low - 0.3, high + 0.3))
-
-
 def test_differences_of_pairs_that_scatter_are_known_the_worse():
     random = np.random.default_rng(3)
     assert discretization_error([0.2] * 5) == pytest.approx(

@@ -44,15 +44,11 @@ def test_of_a_smooth_peak_twice_what_lies_between_steps_is_taken(run):
     assert taken == pytest.approx(0.5 * 1e8 * before * after)
 
 
-def test_what_a_film_may_do_within_the_first_step_is_open(run):
-    rising = np.full((len(run.time), 2), 500.0)
-    rising[0] = 100.0
-    found = add_start_overshoot(with_force(run, rising))["shaft_force"]
-    assert np.abs(found).max() == pytest.approx(500.0 + OF_FIRST_STEP * 400.0)
-
-
 def test_a_film_may_take_up_its_load_at_once(run):
-    """Then the first step's area below the load is the second value's, not that of a triangle."""
+    """Then the first step's area below the load is the second value's, not that of a triangle.
+
+    A force that rises within the first step may go beyond what it rises to.
+    """
     falling = np.zeros((len(run.time), 2))
     falling[0] = 100.0
     found = add_start_overshoot(with_force(run, falling))
@@ -60,6 +56,10 @@ def test_a_film_may_take_up_its_load_at_once(run):
     assert abs(area) < OF_FIRST_STEP * np.trapezoid(falling[:, 0], run.time) * 1.001
     assert found["slider_position"][1] == run["slider_position"][0]
     assert found.time[1] > found.time[0]
+    rising = np.full((len(run.time), 2), 500.0)
+    rising[0] = 100.0
+    found = add_start_overshoot(with_force(run, rising))["shaft_force"]
+    assert np.abs(found).max() == pytest.approx(500.0 + OF_FIRST_STEP * 400.0)
 
 
 def test_energy_and_mean_power_are_as_unsure_as_the_balance(run):
@@ -68,25 +68,6 @@ def test_energy_and_mean_power_are_as_unsure_as_the_balance(run):
     assert (read["energy_input"] - run["energy_input"])[1:] == pytest.approx(residual)
     power = read["drive_power"] - run["drive_power"]
     assert np.trapezoid(power, run.time) == pytest.approx(residual)
-
-
-@pytest.mark.long
-def test_what_the_balance_misses_is_stated():
-    """Of a guide with clearance: dissipated and stored energy are known far better."""
-    scene = Scene.from_dict(
-        {
-            "mechanism": "slider_crank",
-            "speed_rpm": 60.0,
-            "revolutions": 1.0,
-            "joints": {"crank_pin": "ideal"},
-            "guide": {"clearance": 2e-5, "width": 0.1},
-        }
-    )
-    run = simulate(scene)
-    told = errors_of(run, [(4.0, run), (8.0, run)])["errors"]["drive.mean_power"]
-    balance = run.quantity("energy.dissipated").value + run.quantity("energy.stored").value
-    off = abs(run.quantity("drive.mean_power").value - balance)
-    assert told["error"] >= 0.99 * off > 0.01 * balance
 
 
 def test_a_peak_velocity_between_steps_is_stated(run):
@@ -112,20 +93,3 @@ def test_a_peak_of_one_sample_is_stated_as_unsure(run, steps, more, least):
     loud = with_force(run, force)
     stated = errors_of(loud, [(4.0, loud), (8.0, loud)])["errors"]["joints.shaft.peak_force"]
     assert stated["error"] >= least
-
-
-def test_the_work_of_a_pulse_has_what_few_steps_in_its_edges_leave_out():
-    """All runs have the same steps there; they agreed to a thousandth of what they miss."""
-    pulse = {"kind": "blanking", "force": 760.0, "rise": 1e-3, "fall": 5e-4, "end_angle_deg": 179.0}
-    scene = Scene(
-        mechanism="slider_crank",
-        joints={},
-        speed_rpm=60.0,
-        start_angle_deg=170.0,
-        revolutions=0.04,
-        load={"pulse": pulse},
-    )
-    work = simulate(scene, errors=True, beside=False).quantity("loads.pulse.work")
-    fine = simulate(scene.replace({"solver.tolerance": 1e-5, "solver.max_step_deg": 0.01}))
-    off = abs(fine.quantity(work.name).value - work.value)
-    assert 1e-4 * abs(work.value) < off < work.error < 4.0 * off

@@ -8,7 +8,6 @@ from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.quantities import Quantity, QuantityAt
 from exu_press.quantities.kind import DIFFERENCE, RESULTANT
 from exu_press.scene import flexible_press
-from exu_press.verification.estimate import ORDERS
 from exu_press.verification.refinement import RefinementRuns
 from exu_press.verification.run import errors_of
 from exu_press.verification.stated_errors import compare_errors
@@ -91,22 +90,6 @@ def test_errors_go_with_the_tolerance_until_journals_are_apart(result):
     assert apart > 3.0 * near
 
 
-def test_energies_that_agree_at_the_end_by_chance_are_not_known_so_well(result):
-    """Those of a run with clearance swing, and so do their differences."""
-    swing = np.cos(6.5 * np.pi * result.time / result.time[-1])  # nothing at the end
-    away = result["crank_pin_eccentricity"] * (1.0 + 1e-3 * swing[:, None])
-    found = []
-    for joules in (0.0, 0.2):
-        energy = {"energy_stored": result["energy_stored"] + joules * swing}
-        other = result.with_values({"crank_pin_eccentricity": away, **energy})
-        told = errors_of(result, [(0.5, other), (8.0, other)])
-        assert told["horizon"] is None
-        found.append(told["errors"]["energy.stored"]["error"])
-    assert found[0] < 1e-3
-    expected = 0.2 / (1.0 - 0.5 ** ORDERS["tolerance"])
-    assert expected <= 1.1 * found[1] <= 1.2 * expected
-
-
 def test_a_peak_may_be_exceeded_after_the_horizon_although_it_was_in_no_run(result):
     """Later forces scatter by half of the peak, beneath it."""
     peak = result.quantity("joints.crank_pin.peak_force").value
@@ -166,21 +149,7 @@ def test_a_peak_that_is_smaller_than_its_error_is_not_determined(kind, signed, d
     assert told["determined"] is determined
 
 
-def test_a_force_that_symmetry_makes_nothing_is_known():
-    """Its error is what Newton's method leaves of large forces that cancel."""
-    run = simulate(Scene(mechanism="press", joints={}, revolutions=0.04), errors=True)
-    known = run.info["errors"]["shaking.horizontal"]
-    assert known["determined"]
-    lifting = run.with_values({"shaking_force": 1e-12 * run["shaking_force"]})
-    told = errors_of(lifting, [(4.0, lifting), (8.0, lifting)])["errors"]["shaking.horizontal"]
-    assert told["error"] > 1e-12 * known["high"]
-    assert told["determined"]
-
-
-@pytest.mark.parametrize(
-    "tolerance", [3e-3, *(pytest.param(t, marks=pytest.mark.long) for t in (1e-3, 3e-4))]
-)
-def test_a_peak_while_a_film_passes_its_load_over_is_seen(tolerance):
+def test_a_peak_while_a_film_passes_its_load_over_is_seen():
     """At the end of a pulse the load changes sides within 2 us; the force is then across: 1012 N.
 
     Runs that passed over this peak said 1633 +- 1250 N and 993 +- 3870 N.
@@ -192,11 +161,11 @@ def test_a_peak_while_a_film_passes_its_load_over_is_seen(tolerance):
         joints={"wrist_pin": {"kind": "lubricated", "clearance": 1e-4}},
         film={"at_contact": "mixed"},
         load={"pulse": {"kind": "blanking", "force": 65e3}},
-        solver={"tolerance": tolerance},
+        solver={"tolerance": 3e-3},
     )
     told = simulate(scene, errors=True).quantity("shaking.horizontal")
     assert told.low < 1012.5 < told.high
-    assert told.error < 200.0 * tolerance * told.value
+    assert told.error < 0.6 * told.value
 
 
 @pytest.mark.long
@@ -220,36 +189,3 @@ def test_the_vibration_behind_a_slow_cut_is_within_its_error():
     told = simulate(scene, errors=True, beside=False).quantity("joints.wrist_pin.peak_force")
     assert told.low < 168368.54 < told.high
     assert told.error < 0.02 * told.value
-
-
-CHAOTIC = Scene.from_dict(
-    {
-        "mechanism": "eccentric_press",
-        "speed_rpm": 327.1655547459466,
-        "revolutions": 3.0,
-        "start_angle_deg": 270.74765147729784,
-        "joints": {"shaft": {"kind": "dry", "clearance": 8.736209995142197e-05}},
-        "contact": {"restitution": 0.9398828529733374},
-        "friction": {"law": "none"},
-    }
-)
-"""One of the random ones (seed [4, 104] of the calibration)."""
-
-
-@pytest.mark.long
-def test_figures_that_finer_runs_scatter_are_not_determined():
-    """The run ends 0.24 clearances from one at half the tolerance, 0.44 and 0.67 from those at a
-    tenth and a thirtieth. Their figures are here, the coarser one's first.
-    """
-    result = simulate(CHAOTIC, errors=True, beside=False)
-    assert result.info["horizon"] is not None
-    for name in ("drive.mean_power", "energy.input"):
-        assert not result.quantity(name).determined
-    finer = {
-        "drive.mean_power": (-2.63318, -9.09821),
-        "peak_velocity": (1.05789, 1.05681),
-        "peak_acceleration.differentiated_1khz": (63.3721, 63.3770),
-    }
-    for name, values in finer.items():
-        found = result.quantity(name)
-        assert all(found.low <= value <= found.high for value in values), name

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from matplotlib.text import Text
 
-from exu_press.view import instants, moment
+from exu_press.view import instants
 from exu_press.view.animation import Painter
 
 CASES = ["press", "slider_crank", "ideal", "flexible"]
@@ -43,15 +43,3 @@ def test_a_body_that_leaves_the_picture_is_named_at_its_edge(runs, animation):
     Painter(picture, 100.0)
     axes = picture.figure.axes[0]
     assert all(abs(text.get_position()[1]) < 1e3 for text in axes.texts)
-
-
-def test_an_animation_says_how_slow_it_is_and_a_picture_does_not(runs, animation):
-    def words(result, shown):
-        return " ".join(text.get_text() for text in visible_texts(animation(result, shown).figure))
-
-    shown = instants(runs["press"], 0.0, 0.05, slow=16.0)
-    assert "16 times slower than the machine at 25 frames a second" in words(runs["press"], shown)
-    shown = instants(runs["press"], 0.0, 0.05, frames=2)  # 40 ms for 50
-    assert "1.25 times faster than the machine at 25 frames a second" in words(runs["press"], shown)
-    still = words(runs["press"], moment(runs["press"], 0.02))
-    assert "slower" not in still and "faster" not in still

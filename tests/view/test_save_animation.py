@@ -2,12 +2,10 @@ import shutil
 import subprocess
 
 import pytest
-from matplotlib.colors import to_rgb
 from PIL import Image
 
 from exu_press.errors import InputError
 from exu_press.view import instants, save_animation
-from exu_press.view.joint_panel import FORCE
 
 
 def test_gif_with_all_frames_at_their_speed(runs, animation, tmp_path):
@@ -16,20 +14,6 @@ def test_gif_with_all_frames_at_their_speed(runs, animation, tmp_path):
     with Image.open(path) as image:
         assert (image.n_frames, image.info["duration"], image.size) == (4, 50, (960, 540))
     assert list(tmp_path.iterdir()) == [path]
-
-
-def test_gif_keeps_the_colours_that_its_first_frame_does_not_show(runs, animation, tmp_path):
-    """At the start no force acts; the arrow's colour is needed later."""
-    shown = instants(runs["slider_crank"], frames=5)
-    (path,) = save_animation(animation(runs["slider_crank"], shown), tmp_path / "a.gif")
-    wanted = tuple(round(255 * part) for part in to_rgb(FORCE))
-
-    def has(frame):
-        image.seek(frame)
-        return wanted in {colour for _, colour in image.convert("RGB").getcolors(1 << 20)}
-
-    with Image.open(path) as image:
-        assert any(has(frame) for frame in range(1, 5))
 
 
 def test_numbered_frames(runs, animation, tmp_path):

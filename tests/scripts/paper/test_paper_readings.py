@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.scene import mechanism_of
 from paper.readings import permanent_contact, readings
 
 
@@ -27,20 +26,6 @@ def with_motion(result, time, position, velocity, acceleration):
     }
     at = np.clip(np.searchsorted(result.time, time), 0, len(result.time) - 1)
     return result.with_values({name: values.get(name, result[name][at]) for name in result})
-
-
-def test_the_ideal_press_is_the_closed_form_under_every_model(ideal):
-    read = readings(ideal)
-    angle = np.linspace(0.0, 2.0 * np.pi, 4001)
-    _, velocity, acceleration = mechanism_of(ideal.scene).ideal_slider(
-        angle, ideal.scene.angular_speed
-    )
-    for model in ("resolved", "mean_1ms", "differentiated_1khz"):
-        peak = read[f"peak_acceleration.{model}"]
-        assert peak == pytest.approx(abs(acceleration).max(), rel=3e-3)
-    assert read["peak_velocity"] == pytest.approx(abs(velocity).max(), rel=2e-3)
-    assert read["below_ideal"] == pytest.approx(0.0, abs=5e-6)
-    assert not any("share" in name or "power" in name for name in read)
 
 
 def test_an_impact_is_spread_over_the_millisecond(ideal):

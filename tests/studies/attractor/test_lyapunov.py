@@ -65,17 +65,6 @@ def test_a_contraction_is_known_down_to_the_error():
     assert below.sign == "regular"
 
 
-def test_an_interval_that_has_not_aligned_holds_the_exponent_that_it_tends_to():
-    """Two contractions, by 0.3 and 0.238 a revolution; a neighbour begins in the faster one."""
-    turn = np.arange(1, 41)
-    growths = [
-        np.diff(np.log(np.hypot(np.exp(-0.30 * turn), part * np.exp(-0.238 * turn))))
-        for part in (0.02, 0.5)
-    ]
-    found = combine_exponents(growths, (1e-2, 1e-3), 1e-9, (0.0, 0.0))
-    assert found.low < -0.3 and found.high > -0.245
-
-
 @pytest.fixture(scope="module")
 def lubricated():
     return attractor(FILM, revolutions=20, skip=2, most=4)

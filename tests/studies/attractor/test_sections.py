@@ -54,11 +54,6 @@ def test_a_motor_turns_a_lubricated_press_regularly():
     assert "crank_pin_force.x, N" in "\n".join(AttractorReport(turned).lines())
 
 
-@pytest.fixture(scope="module")
-def fixed():
-    return attractor(FILM.replace({"solver.step": 4e-4}), skip=3, **SHORT)
-
-
 def test_an_interrupted_orbit_is_no_motion_that_fails(monkeypatch):
     orbit = Orbit(FILM)
     ended = replace(orbit._model.solve(), status=SolverStatus.INTERRUPTED)
@@ -66,17 +61,6 @@ def test_an_interrupted_orbit_is_no_motion_that_fails(monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         orbit.advance()
     orbit.close()
-
-
-@pytest.mark.long
-def test_fixed_steps_end_on_the_section_and_have_an_error(fixed):
-    assert fixed.period.revolutions == 1
-    assert fixed.exponent.sign == "regular"
-    assert fixed.turns == pytest.approx(4.0, rel=1e-9)
-    exact = attractor(FILM, skip=3, **SHORT)
-    apart = np.linalg.norm(fixed.points[-1] - exact.points[-1])
-    assert 1e-7 < fixed.error < 1e-2
-    assert apart < 3.0 * (fixed.error + exact.error)
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,5 @@
 """Bifurcation studies: branches with carried states, resumption, picture, refusals."""
 
-import json
-
 import numpy as np
 import pytest
 from slider_cranks import FILM
@@ -11,7 +9,6 @@ from exu_press.cli import main
 from exu_press.model.state import State
 from exu_press.studies.attractor.orbit import Orbit
 from exu_press.studies.bifurcation import Bifurcation, bifurcation
-from exu_press.studies.bifurcation.figure import bifurcation_figure
 from exu_press.studies.bifurcation.run import rescale_state
 
 SHORT = {"skip": 1, "revolutions": 20, "longest": 2}
@@ -36,28 +33,6 @@ def test_both_ways_end_on_the_same_attractor_where_there_is_one(found):
         assert one["motion"] == "regular"
         apart = np.linalg.norm(np.array(one["points"])[-1] - np.array(other["points"])[-1])
         assert apart < 10.0 * (one["error"] + other["error"])
-
-
-@pytest.mark.long
-def test_a_study_goes_on_with_the_rows_that_it_has(found):
-    directory, study, report = found
-    before = (directory / "runs.jsonl").read_text()
-    again = bifurcation(study, directory, workers=1)
-    assert (directory / "runs.jsonl").read_text() == before
-    assert (
-        again.to_dict()
-        == report.to_dict()
-        == json.loads((directory / "bifurcation.json").read_text())
-    )
-
-
-@pytest.mark.long
-def test_the_picture_has_each_branch(found):
-    points, period, exponent = bifurcation_figure(found[2]).axes
-    assert [text.get_text() for text in points.get_legend().get_texts()] == ["up", "down"]
-    assert len(points.lines) == 4
-    assert {float(line.get_ydata()[0]) for line in period.lines} == {1.0}
-    assert exponent.get_xlabel()
 
 
 def test_a_state_fits_another_speed():

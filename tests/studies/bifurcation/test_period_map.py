@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from slider_cranks import FILM
 
-from exu_press.studies.bifurcation import Bifurcation, BifurcationReport, Branch, bifurcation
+from exu_press.studies.bifurcation import Bifurcation, BifurcationReport, Branch
 from exu_press.studies.bifurcation.figure import period_map_figure
 
 SHORT = {"skip": 1, "revolutions": 20, "longest": 2}
@@ -73,14 +73,3 @@ def test_the_map_shows_each_cell(report):
     legend = [text.get_text() for text in periods.get_legend().get_texts()]
     assert legend == ["1", "2", "-: none up to 2", "?: undecided", "x: failed"]
     assert np.isnan(np.ma.filled(exponents.images[0].get_array(), np.nan)[0, 0])
-
-
-@pytest.mark.long
-def test_each_value_of_the_second_key_has_its_own_way(tmp_path):
-    keys = {"speed_rpm": [230.0, 240.0], "film.viscosity": [0.1, 0.2]}
-    study = Bifurcation(scene=FILM, keys=keys, bifurcation={**SHORT, "way": "up"})
-    found = bifurcation(study, tmp_path, workers=2)
-    assert [(branch.name, branch.second) for branch in found.branches] == [("up", 0.1), ("up", 0.2)]
-    thin, thick = (np.array(branch.rows[1]["points"])[-1] for branch in found.branches)
-    assert np.linalg.norm(thick - thin) > 0.01  # another film, another path
-    assert {row["period"] for branch in found.branches for row in branch.rows} == {1}

@@ -58,20 +58,6 @@ def test_intervals_hold_the_true_keys_as_often_as_they_say():
     assert held / number == pytest.approx([0.95, 0.95], abs=3.5 * np.sqrt(0.95 * 0.05 / number))
 
 
-def test_an_interval_that_is_not_symmetric_is_found_where_chi_square_has_risen():
-    """One number, the square of the key: the likelihood is far from normal."""
-
-    def evaluate(points):
-        return (points**2 - 0.04) / 0.03
-
-    found, derivative = fitted(evaluate, 1)
-    one = profile(evaluate, found[0], derivative, 0, 0.95)
-    rise = 1.959964 * 0.03
-    assert one.high.value == pytest.approx(np.sqrt(0.04 + rise), rel=0.001)
-    assert one.low == End(0.0, OPEN)  # 0.04 below is within the uncertainty
-    assert one.high.value - found[0].x[0] < 0.8 * (1.959964 * 0.03 / 0.4)
-
-
 @pytest.mark.parametrize("power", [1, 2, 3, 4, 6, 8])
 def test_an_end_is_where_chi_square_has_risen_however_late_it_rises(power):
     def evaluate(points):

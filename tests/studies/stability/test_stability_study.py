@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
+from exu_press.integrate.resolution import ImpactResolution
 from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.studies.stability import (
     Row,
@@ -30,17 +31,11 @@ def judged(**changes):
     return judge({"name": "a case", "scene": scene.to_dict()})
 
 
-def test_a_run_that_says_it_was_not_resolved_has_stopped():
-    row = judged(**DRY, **{"solver.step": 1e-3})
-    assert row["verdict"] == "stopped"
-    assert row["status"] == "under-resolved"
-    assert "solver.step" in row["reason"]
-
-
-def test_the_same_run_without_a_word_would_be_wrong(monkeypatch):
+def test_a_run_that_was_not_resolved_has_stopped_and_without_a_word_would_be_wrong(monkeypatch):
     """The checks, not the status, find it: the verdict does not rest on the run's own word."""
-    from exu_press.integrate.resolution import ImpactResolution
-
+    row = judged(**DRY, **{"solver.step": 1e-3})
+    assert (row["verdict"], row["status"]) == ("stopped", "under-resolved")
+    assert "solver.step" in row["reason"]
     monkeypatch.setattr(ImpactResolution, "worst", lambda resolution: None)
     row = judged(**DRY, **{"solver.step": 1e-3})
     assert row["status"] == "completed"

@@ -8,8 +8,6 @@ import sys
 import pytest
 
 from exu_press import InputError, Result, Scene, simulate
-from exu_press.parallel import run_batch
-from exu_press.studies.base import run_scene
 from exu_press.studies.sweep import Sweep, sweep
 from exu_press.studies.sweep.report import RUN_TIMES
 
@@ -87,18 +85,6 @@ def test_a_damaged_study_beside_the_rows_is_another_one(tmp_path):
     (tmp_path / "study.json").write_text("[" * 100_000)
     with pytest.raises(InputError, match="belongs to another study"):
         sweep(ONE, tmp_path)
-
-
-@pytest.mark.long
-def test_a_worker_does_not_share_memory_of_runs(tmp_path, processes):
-    """One worker after many runs gives what a fresh one gives."""
-    scenes = [LUBRICATED.replace({"speed_rpm": speed}) for speed in (200.0, 300.0)]
-    arguments = [{"scene": scene.to_dict()} for scene in scenes]
-    rows = run_batch(run_scene, arguments, tmp_path / "one", workers=1, quiet=True)
-    (fresh,) = run_batch(run_scene, arguments[-1:], tmp_path / "two", workers=1, quiet=True)
-    for name in RUN_TIMES:
-        rows[-1].pop(name), fresh.pop(name)
-    assert rows[-1] == fresh
 
 
 def test_a_directory_of_another_study_is_refused(done, tmp_path):

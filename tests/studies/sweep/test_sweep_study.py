@@ -22,22 +22,6 @@ def load(tmp_path, text):
     return load_study(path, Sweep)
 
 
-def test_a_grid_with_the_scene_inside(tmp_path):
-    study = load(
-        tmp_path,
-        "save_runs = true\ntime_limit = 600\n"
-        + SCENE
-        + '[keys]\n"joints.crank_pin.clearance" = [5e-5, 1e-4]\nspeed_rpm = [200.0, 300.0]\n',
-    )
-    assert tuple(study.keys) == ("joints.crank_pin.clearance", "speed_rpm")
-    assert study.save_runs is True and study.time_limit == 600.0
-    first = Scene(joints={"crank_pin": "lubricated", "balls": "ideal"}).replace(
-        {"joints.crank_pin.clearance": 5e-5, "speed_rpm": 200.0}
-    )
-    assert study.scenes[0] == first
-    assert [s.speed_rpm for s in study.scenes] == [200.0, 300.0] * 2
-
-
 def test_a_scene_beside_the_study(tmp_path, monkeypatch):
     (tmp_path / "scene.toml").write_text(SCENE.replace("[scene]\n", ""))
     monkeypatch.chdir("/")

@@ -64,18 +64,6 @@ def test_netcdf_reads_back(table, tmp_path):
         assert texts == [row["reason"] for row in ROWS]
 
 
-def test_the_table_in_a_terminal(table):
-    head, first, second, third, *rest = table.lines()
-    quantities = "bottom_dead_centre, mm joints.crank_pin.peak_force, kN"
-    assert head.split() == ["speed_rpm", *quantities.split(), "status"]
-    assert list(table.columns)[:5] == ["speed_rpm", "status", "reason", "file", "cost.steps"]
-    assert first.split() == ["200", "300", "1", "completed"]
-    assert second.split() == ["300", "-", "-", "failed"]
-    assert third.endswith("film broke down")
-    assert rest[0] == "3 runs: 1 completed, 1 failed, 1 film broke down"
-    assert rest[1] == '  1 x failed: ValueError: "a", b'
-
-
 def test_which_quantities_are_shown(table):
     assert table.quantities() == ("bottom_dead_centre", "joints.crank_pin.peak_force")
     assert replace(table, selected=["cost.steps"]).quantities() == ("cost.steps",)

@@ -1,4 +1,4 @@
-"""The process of refinement runs: how it starts, fails and ends."""
+"""Processes of refinement runs and of several scenes: how they start, fail and end."""
 
 import os
 import signal
@@ -9,9 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from exu_press import Scene
+from exu_press import InputError, Scene
 from exu_press.verification import refinement
 from exu_press.verification.refinement import RefinementRuns, plan
+from exu_press.verification.run import simulate_with_errors
+from exu_press.verification.side_by_side import simulate_side_by_side
 from fe_models.processes import Child
 
 SHORT = Scene(mechanism="slider_crank", revolutions=0.02)
@@ -124,3 +126,25 @@ def test_fixed_steps_go_with_the_ratio():
         ratio: run.solver.step for ratio, run in plan(SHORT.replace({"solver.step": 1e-5})).items()
     }
     assert steps == pytest.approx({2.0: 2e-5, 3.0: 3e-5, 4.0: 4e-5})
+
+
+SCENES = {
+    kind: Scene(mechanism="slider_crank", joints={"crank_pin": kind}, revolutions=0.01)
+    for kind in ("dry", "lubricated")
+}
+
+
+def test_results_are_those_of_one_run_after_the_other():
+    """In all digits, with their errors."""
+    results = dict(simulate_side_by_side(SCENES))
+    assert results.keys() == SCENES.keys()
+    for label, scene in SCENES.items():
+        alone = simulate_with_errors(scene, beside=False)
+        assert results[label].info["errors"] == alone.info["errors"] != {}
+        assert (results[label]["slider_velocity"] == alone["slider_velocity"]).all()
+
+
+def test_a_scene_that_cannot_be_run_is_refused():
+    off = SCENES["dry"].replace({"output.channels": ["no_such_channel"]})
+    with pytest.raises(InputError, match="no_such_channel"):
+        dict(simulate_side_by_side({"a": off}, errors=False))

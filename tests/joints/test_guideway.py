@@ -74,6 +74,15 @@ def test_a_block_slides_down_a_slope_as_coulomb_says(degrees):
     assert normal @ np.array(along) == pytest.approx(-mu * expected, rel=1e-4)
 
 
+def test_below_the_angle_of_friction_it_stays_but_for_a_creep():
+    """Coulomb's smooth law creeps at v_r artanh(tan / mu)."""
+    slope, mu = math.radians(5.0), 0.2
+    _container, mbs, _, motion, along = block(slope, coulomb(mu, 1e-4))
+    completed(mbs, 0.2)
+    speed = np.asarray(mbs.GetSensorStoredData(motion))[-1, 1:3] @ np.array(along)
+    assert speed == pytest.approx(1e-4 * math.atanh(math.tan(slope) / mu), rel=1e-3)
+
+
 def test_a_moment_is_borne_by_opposite_corners():
     """N (L) = M, one end on either side: the tilt is 2 (c + N / k) / L."""
     moment = 300.0

@@ -1,16 +1,13 @@
 """What a step misses of a journal's way, and what of it is taken out of a penetration."""
 
-import itertools
 import math
 
-import numpy as np
 import pytest
 
 from exu_press.joints.path import SMALL_DRIFT, Path
 
 STEP = 1e-3
 FOR_EVER = math.inf
-FAR = 1e3
 
 
 def cubic(time):
@@ -70,44 +67,3 @@ def test_drift_fades_with_the_memory_of_the_contact_not_with_steps():
             path.go_on((1.0 + 1e-6, 0.0), (0.0, 0.0), 0.05 / count, 1e-4, memory=0.1)
         drifts.append(path.drift)
     assert drifts == pytest.approx([1e-6 * math.exp(-0.5)] * 2)
-
-
-def amplification(turned, ratio, radius, memory):
-    """Largest factor by which a vibration in contact grows in a step with its correction.
-
-    Generalized-alpha with (q, v, a, q_tt, drift, last change of v) after a step of size 1, of
-    q_tt = -omega^2 (q - drift) - 2 ratio omega v.
-
-    Args:
-        turned: omega times the step.
-        ratio: of the damping, to the critical one.
-        radius: spectral radius at infinity.
-        memory: of the contact that the correction is given, over the step.
-    """
-    alpha_m, alpha_f = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
-    gamma = 0.5 - alpha_m + alpha_f
-    beta = 0.25 * (1.0 - alpha_m + alpha_f) ** 2
-    stiffness, damping = turned**2, 2.0 * ratio * turned
-    columns = []
-    for q, v, a, pushed, drift, before in np.eye(6):
-        ahead, faster = q + v + (0.5 - beta) * a, v + (1.0 - gamma) * a
-        force = -stiffness * (ahead - drift) - damping * faster
-        right = (1.0 - alpha_f) * force + alpha_f * pushed - alpha_m * a
-        give = beta * stiffness + gamma * damping
-        a_1 = right / (1.0 - alpha_m + (1.0 - alpha_f) * give)
-        q_1, v_1 = ahead + beta * a_1, faster + gamma * a_1
-        path = Path()
-        path.eccentricity, path.velocity, path.acceleration = (FAR + q,), (v,), (before,)
-        path.drift = drift
-        path.go_on((FAR + q_1,), (v_1,), 1.0, 1e9, memory)
-        pushed = -stiffness * (q_1 - drift) - damping * v_1
-        columns.append([q_1, v_1, a_1, pushed, path.drift, v_1 - v])
-    return np.abs(np.linalg.eigvals(np.transpose(columns))).max()
-
-
-def test_no_step_amplifies_a_vibration_in_contact():
-    """A watch's four-bar: its shaft, pressed by 0.1 nN, was shaken up to 2 nN by the correction."""
-    for turned, ratio, radius in itertools.product(
-        (0.1, 0.5, 1.0, 2.0, 4.0, 20.0), (1e-4, 1e-2, 0.1, 1.0, 10.0), (0.5, 0.8, 0.95)
-    ):
-        assert amplification(turned, ratio, radius, 2.0 * ratio / turned) <= 1.0 + 1e-9

@@ -4,12 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from exact_bearings import long_full_film_moments, long_half_film_moments, wall_moments
+from exact_bearings import long_full_film_moments, long_half_film_moments
 from test_finite_bearing import BUTENSCHOEN, ERROR, WIDTHS, rows
 
 from exu_press.joints.interface import FilmInterface
 from exu_press.laws.film import finite, pi_film
-from exu_press.laws.film.reynolds import solve_reynolds
 
 
 def moments(law, eps, eps_dot, eps_w, spin):
@@ -47,19 +46,6 @@ def test_long_half_film_against_the_stress_on_both_walls(eps, speeds):
     eps_dot, eps_w = speeds
     found = long_half_film_moments(eps, eps_dot, eps_w, 1.3)
     assert moments(pi_film(), eps, eps_dot, eps_w, 1.3) == pytest.approx(found, rel=1e-4)
-
-
-@pytest.mark.parametrize("ratio", [0.25, 1.0])
-@pytest.mark.parametrize("eps", [0.2, 0.8])
-def test_finite_bearing_against_the_stress_on_both_walls(ratio, eps):
-    film = solve_reynolds(eps, 0.2, eps, ratio, math.pi)
-    zeta = np.append(film.zeta, 1.0)  # p = 0 there
-    mean = np.trapezoid(np.column_stack([film.p, np.zeros(len(film.p))]), zeta, axis=1)
-    theta = np.concatenate([[math.pi], film.theta, [3.0 * math.pi]])
-    pressure = np.concatenate([[0.0], mean, [0.0]])
-    found = wall_moments(theta, 1.0 - eps * np.cos(theta), pressure, 1.0)
-    given = moments(finite(ratio), eps, 0.2, eps, 1.0)
-    assert given == pytest.approx(found, rel=5e-3)  # the grid's
 
 
 def friction(ratio, eps):

@@ -81,18 +81,6 @@ def test_ideal_links_bend_and_do_not_ring(links, names):
     assert np.abs(np.diff(force)).max() < 0.1 * force.max()
 
 
-@pytest.mark.parametrize(
-    "joint", ["knuckle", *(pytest.param(j, marks=pytest.mark.long) for j in ("crank_pin", "pivot"))]
-)
-def test_any_joint_between_them_has_clearance(links, joint):
-    loose = {"kind": "dry", "clearance": 1e-4, "radius": 0.02, "contact": {"length": 0.02}}
-    keys = {"joints": {joint: loose}, "revolutions": 0.02, "start": "centred"}
-    result = simulate(scene(links, ["coupler", "rocker"], **keys))
-    assert result.completed
-    assert result.quantity("energy.residual").value < 1e-3
-    assert np.abs(result[f"{joint}_eccentricity"]).max() > 1e-5
-
-
 def test_without_modes_it_is_the_rigid_mechanism_with_the_solids_masses(links):
     """Mass, centre of mass and inertia of the solids, put into the rigid bodies."""
     solids = scene(links, ["coupler", "rocker"], revolutions=0.1, solver={"step": 1e-4})

@@ -78,12 +78,6 @@ def test_what_is_filled_in_stands_in_every_file():
         assert OWNER["security"] in write_release.release_text(file, OWNER)
 
 
-def test_a_file_without_the_lines_between_which_it_repeats_is_refused(monkeypatch):
-    monkeypatch.setitem(write_release.BLOCKS, "LICENSE", [write_release.citation])
-    with pytest.raises(ValueError, match="release: begin"):
-        write_release.release_text("LICENSE", OWNER)
-
-
 SCHEMAS = {
     "vendor.github-workflows": ".github/workflows/*.yml",
     "vendor.github-issue-forms": ".github/ISSUE_TEMPLATE/[!c]*.yml",
@@ -100,15 +94,3 @@ def test_a_file_has_the_form_that_its_reader_expects(schema, path, capsys):
         program.main(["--builtin-schema", schema, "--output-format", "json", str(path)])
     report = json.loads(capsys.readouterr().out)
     assert end.value.code == 0, report
-
-
-def test_workflows_run_what_ci_runs():
-    runs = (ROOT / ".ci" / "run").read_text(encoding="utf-8")
-    workflows = {
-        path.stem: path.read_text(encoding="utf-8")
-        for path in (ROOT / ".github" / "workflows").glob("*.yml")
-    }
-    assert "- run: .ci/run" in workflows["tests"]
-    assert "scripts/check_distribution.py" in runs
-    build_site = "sphinx-build -W --quiet docs"
-    assert build_site in workflows["docs"] and build_site in runs

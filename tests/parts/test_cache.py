@@ -123,11 +123,3 @@ def test_folder_that_cannot_be_written(bar, made, tmp_path: Path):
     with pytest.warns(UserWarning, match=r"bar.*npz: cannot be written \(.*\)") as warned:
         same(reduced_part(bar, Reduction(6), folder=blocked / "cache"), made[1])
     assert len(warned) == 1
-
-
-def test_default_folder(monkeypatch, tmp_path: Path):
-    monkeypatch.setenv("EXU_PRESS_CACHE", str(tmp_path))
-    assert cache.default_folder() == tmp_path
-    monkeypatch.delenv("EXU_PRESS_CACHE")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert cache.default_folder() == tmp_path / "exu_press" / "fe_models"

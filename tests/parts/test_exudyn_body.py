@@ -6,6 +6,7 @@ import pytest
 from exudyn.itemInterface import (
     SensorNode,
 )
+from stand_in_system import settings
 
 from fe_models import Reduction, add_flexible_body
 from fe_models.errors import InputError
@@ -14,18 +15,14 @@ from fe_models.reduction import _craig_bampton_basis, _orthogonalise, reduce_mod
 OUTPUT = exu.OutputVariableType
 
 
-def settings(end, step):
-    s = exu.SimulationSettings()
-    s.timeIntegration.endTime = end
-    s.timeIntegration.numberOfSteps = round(end / step)
-    s.timeIntegration.generalizedAlpha.spectralRadius = 1.0
-    s.timeIntegration.newton.relativeTolerance = 1e-10
-    s.timeIntegration.newton.absoluteTolerance = 1e-12
-    s.timeIntegration.verboseMode = 0
-    s.solution.file.write = False
-    s.solution.sensors.writePeriod = step
-    s.linearSolver.solverType = exu.LinearSolverType.EigenSparse
-    return s
+def fixed_steps(end, step):
+    """Return settings without numerical damping that record every step."""
+    chosen = settings(
+        end, round(end / step), step, generalizedAlpha__spectralRadius=1.0,
+        newton__relativeTolerance=1e-10, newton__absoluteTolerance=1e-12, verboseMode=0,
+    )  # fmt: skip
+    chosen.linearSolver.solverType = exu.LinearSolverType.EigenSparse
+    return chosen
 
 
 def system():
@@ -46,7 +43,7 @@ def test_every_mode_decays_with_two_per_cent(reduced_bar, mode):
         )
     )
     mbs.Assemble()
-    mbs.SolveDynamic(settings(6 * period, period / 120))
+    mbs.SolveDynamic(fixed_steps(6 * period, period / 120))
     q = mbs.GetSensorStoredData(sensor)[:, 1 + mode]
     peaks = np.flatnonzero((q[1:-1] > q[:-2]) & (q[1:-1] > q[2:])) + 1
     decrement = np.log(q[peaks[0]] / q[peaks[-1]]) / (len(peaks) - 1)
@@ -86,7 +83,7 @@ def test_free_spinning_body_keeps_energy_and_momentum(bar, bar_model, reduced_ba
         )
         mbs.Assemble()
         before = energy_and_momenta(mbs, body, bar_model, modes)
-        mbs.SolveDynamic(settings(2e-3, step))
+        mbs.SolveDynamic(fixed_steps(2e-3, step))
         after = energy_and_momenta(mbs, body, bar_model, modes)
         drifts.append(
             [
@@ -110,7 +107,7 @@ def test_a_free_body_falls_undeformed_and_without_modes_it_is_rigid(
     mbs.Assemble()
     assert (body.node_modes is None) == (modes == 0)
     assert mbs.GetMarkerOutput(end, OUTPUT.Position) == pytest.approx([0.3, 1.025, 0.015])
-    mbs.SolveDynamic(settings(0.1, 1e-3))
+    mbs.SolveDynamic(fixed_steps(0.1, 1e-3))
     fallen = mbs.GetNodeOutput(body.node_rigid, OUTPUT.Position)
     assert fallen == pytest.approx([0, 1 - 0.5 * 9.81 * 0.01, 0], abs=1e-9)
     if modes:

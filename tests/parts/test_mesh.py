@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from fe_models import Interface, draw_mode_shapes
 from fe_models.elasticity import generate_mesh
 from fe_models.errors import InputError
-from fe_models.solid_view import facing, turned_view
+from fe_models.solid_view import facing
 
 
 class Hollow:
@@ -73,11 +73,3 @@ def test_faces_behind_and_edge_on_are_left_out_and_near_ones_come_last():
     both = np.vstack([POINTS + np.array([0, 0, 5]), POINTS])
     _, seen, _ = facing(both, np.vstack([OUTWARDS, OUTWARDS + 4]))
     assert seen.tolist() == [[5, 6, 7], [1, 2, 3]]
-
-
-def test_a_view_is_a_rotation_about_y_and_then_about_x():
-    assert_allclose(turned_view(np.pi / 2, 0.0) @ [1, 0, 0], [0, 0, -1], atol=1e-15)
-    assert_allclose(turned_view(0.0, np.pi / 2) @ [0, 1, 0], [0, 0, 1], atol=1e-15)
-    view = turned_view(-0.6, 0.4)
-    assert_allclose(view @ view.T, np.eye(3), atol=1e-15)
-    assert np.linalg.det(view) > 0.0

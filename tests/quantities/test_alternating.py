@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
-from exu_press.quantities import alternating, quantity_of
+from exu_press.quantities import alternating
 from exu_press.quantities.alternating import peaks, remove_alternation
-from exu_press.quantities.value import numbers_of
 
 
 @pytest.fixture(scope="module")
@@ -33,20 +32,6 @@ def test_a_peak_of_one_sample_stays(run):
     force = np.zeros((len(run.time), 2))
     force[40] = 500.0
     assert np.array_equal(remove_alternation(run.time, force), force)
-
-
-@pytest.mark.long
-def test_the_peak_of_a_finer_run_is_not_worse():
-    """In steps of some microseconds the rounding of positions alternates by 0.7 N in its forces."""
-    scene = Scene(
-        mechanism="slider_crank", speed_rpm=60.0, guide={"clearance": 1e-4}, revolutions=0.5
-    )
-    peak = {"peak": quantity_of(scene, "joints.wrist_pin.peak_force")}
-    runs = [simulate(scene.replace({"solver.tolerance": 10.0**-n})) for n in (4, 5, 6)]
-    found = [numbers_of(run, peak)["peak"] for run in runs]
-    assert found == pytest.approx([found[-1]] * 3, rel=3e-6)
-    raw = [np.linalg.norm(run["wrist_pin_force"], axis=1).max() for run in runs]
-    assert np.ptp(raw) > 2.0 * np.ptp(found)
 
 
 @pytest.mark.parametrize("at_once", [7, 50, 10_000])

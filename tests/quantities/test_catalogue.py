@@ -30,7 +30,6 @@ CRANK = Scene(mechanism="slider_crank", joints={}, revolutions=0.1)
 @pytest.mark.parametrize(
     "scene",
     [
-        Scene(revolutions=0.02),
         Scene(joints={"crank_pin": "dry"}, guide={"clearance": 1e-4}, revolutions=0.02),
         Scene(
             mechanism="slider_crank",

@@ -61,13 +61,3 @@ def test_only_what_errors_leave_open_is_named(bare):
     (line,) = difference_lines(runs(bare, dry=dry) | {"old": bare})
     assert "old has no errors" in line
     assert difference_lines({"dry": bare, "oil": bare}) == []
-
-
-def test_a_part_without_a_dead_centre_is_said_to_be_one():
-    half = Scene(mechanism="slider_crank", joints={}, revolutions=0.5)
-    stroke = "stroke: of the part that was run, without both dead centres."
-    bottom = "bottom dead centre: of the part that was run, without the dead centre itself."
-    runs = (half, half.replace({"revolutions": 0.4}), half.replace({"start_angle_deg": 30.0}))
-    texts = [run_lines(simulate(scene)) for scene in runs]
-    assert [stroke in lines for lines in texts] == [False, True, True]
-    assert [bottom in lines for lines in texts] == [False, True, False]

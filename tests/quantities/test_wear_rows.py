@@ -157,12 +157,3 @@ def test_a_pin_without_a_diameter_does_not_wear():
     changes = {"guide.width": 0.0, "wear.guides": {"yoke_slot": {"coefficient": 1e-5}}}
     with pytest.raises(InputError, match=r"guide\.width = 0"):
         SLOTTED.replace(changes)
-
-
-@pytest.mark.long
-def test_a_slot_is_ranked_with_its_pin():
-    turned = simulate(SLOTTED.replace({"revolutions": 1.0}))
-    names = ("pin_depth", "guideway_depth", "volume", "rank", "pressure_velocity")
-    values = {n: turned.quantity(f"guides.yoke_slot.wear.{n}").value for n in names}
-    assert values["rank"] in (1, 2)
-    assert min(values.values()) > 0.0

@@ -34,9 +34,7 @@ def changed(original, tmp_path):
 INFO = [
     ({"status": None}, "info: has no status"),
     ({"versions": [1]}, r"info.versions = \[1\]: allowed is a table"),
-    ({"versions": 5}, "info.versions = 5: allowed is a table"),
     ({"status": "fine"}, "info.status = 'fine': allowed is one of 'completed', 'under-resolved'"),
-    ({"status": ["completed"]}, "info.status = .*: allowed is a text"),
     ({"steps": 10**400}, "info.steps = .*: allowed is a whole number"),
     ({"colour": "red"}, "info.colour: unknown key; allowed are status, reason"),
 ]
@@ -78,7 +76,6 @@ def test_texts_of_the_file(changed, texts, message):
         ("guide_force", {"dimensions": ("time", "plane")}, "columns are 'plane'; allowed is ''"),
         ("slider_tilt", {"units": None}, "channel 'slider_tilt': has no units"),
         ("slider_tilt", {"long_name": b"\xff"}, "channel 'slider_tilt': long_name = .*: allowed"),
-        ("slider_tilt", {"values": np.full(1, np.nan)}, "slider_tilt.*: allowed are numbers below"),
         ("slider_tilt", {"values": np.full(1, 1e200)}, "slider_tilt.*: allowed are numbers below"),
         ("slider_tilt", {"values": np.zeros(1, np.float32)}, "type float32; allowed is float64"),
         ("time", {"values": np.zeros(1)}, "channel time: allowed are increasing instants"),

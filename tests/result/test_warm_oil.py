@@ -162,17 +162,6 @@ def test_a_motor_goes_on_by_the_same_revolutions_of_the_crank():
     assert turns == pytest.approx(3.0, abs=1e-5)  # of part of a revolution nothing is known
 
 
-def test_a_worn_bearing_has_the_viscosity_of_its_own_gap():
-    worn = {"bearing_depth": [2e-5] * 72}
-    pin = {"kind": "lubricated", "worn": worn}
-    run = simulate(scene_of(joints={"crank_pin": pin}, revolutions=2.0))
-    usual = run.scene.joints["crank_pin"].clearance
-    wide = {"crank_pin": {"kind": "lubricated", "clearance": usual + 2e-5}}
-    assert of_pin(run, "film.temperature") == pytest.approx(
-        of_pin(simulate(scene_of(joints=wide, revolutions=2.0)), "film.temperature"), abs=0.02
-    )
-
-
 def test_a_film_that_keeps_its_heat_ends_the_run():
     own = {"conductance": 1e-9, "heat_capacity": 1e-6}
     with pytest.warns(UserWarning, match="film too hot"):

@@ -49,9 +49,5 @@ def deaf(mark):
     re.match("(a+)+$", "a" * 60 + "b")
 
 
-def holds(gigabytes):
-    return len(bytearray(int(gigabytes * 2**30)))
-
-
 def large(count):
     return [bytes(2**20)] * count, os.getpid()

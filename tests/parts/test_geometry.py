@@ -1,24 +1,30 @@
-"""Solids, their faces and patches, and parts."""
+"""Solids, their faces and patches, parts, meshes and their pictures."""
 
 import math
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
+from matplotlib.image import imread
 from netgen.occ import Axis as Line
 from netgen.occ import Box, Cylinder, Pnt, Vec, Z
+from numpy.testing import assert_allclose
 
 from fe_models import (
     CRANK_STEEL,
     Interface,
     Material,
     StepFile,
+    draw_mode_shapes,
     shipped_part,
 )
 from fe_models.dimensions import Patch, Sides
+from fe_models.elasticity import generate_mesh
 from fe_models.errors import InputError
 from fe_models.part import shipped_names
 from fe_models.patches import name_patches
+from fe_models.solid_view import facing
 
 MASSES = {"crank": 217.6, "linkage": 184.5}
 
@@ -48,13 +54,6 @@ def test_step_file_in_mm_with_boxes(tmp_path: Path):
     assert names.count("left") == names.count("right") == 1
     with pytest.raises(InputError, match="no face lies wholly inside the box of 'top'"):
         StepFile(file, scale=1e-3, faces={"top": ((1, 1, 1), (2, 2, 2))}).build()
-
-
-def test_a_pocket_takes_volume_and_leaves_the_faces():
-    rod = replace(ROD, pocket_depth=0.03, rim=0.03)
-    names = {face.name for face in rod.build().faces}
-    assert {"big bore", "small bore"} <= names
-    assert rod.build().mass < ROD.build().mass
 
 
 CRANK, ROD = (shipped_part(name).geometry for name in ("crank", "linkage"))
@@ -129,3 +128,65 @@ def test_a_patch_without_faces_is_refused(patch, message):
     with pytest.raises(InputError, match=message) as refused:
         named(stepped(), {"it": patch})
     assert "\n" not in str(refused.value)
+
+
+class Hollow:
+    """A geometry that is no solid: a face."""
+
+    def key(self):
+        return {}
+
+    def build(self):
+        from netgen.occ import Box, Pnt, X
+
+        face = Box(Pnt(0, 0, 0), Pnt(1, 1, 1)).faces.Max(X)
+        face.name = "end"
+        return face
+
+
+class Thin:
+    """A pipe with a wall of 10 um: its two sides' triangles cut each other."""
+
+    def key(self):
+        return {}
+
+    def build(self):
+        from netgen.occ import Cylinder, Pnt, Z
+
+        bore = Cylinder(Pnt(0, 0, -1), Z, r=0.05999, h=3)
+        bore.faces.name = "end"
+        return Cylinder(Pnt(0, 0, 0), Z, r=0.06, h=0.1) - bore
+
+
+@pytest.mark.parametrize(("geometry", "size"), [(Hollow(), 0.06), (Thin(), 0.05)])
+def test_a_mesh_that_fails_says_what_to_do_in_one_line(linkage, geometry, size, capfd):
+    """What Netgen prints of it is dropped."""
+    part = linkage.replace(geometry=geometry, interfaces=(Interface("end"),), mesh_size=size)
+    with pytest.raises(InputError, match=r"meshing failed at mesh_size.*try a smaller") as refused:
+        generate_mesh(part)
+    print("afterwards")
+    assert capfd.readouterr().out == "afterwards\n"
+    assert "\n" not in str(refused.value)
+
+
+def test_picture_is_drawn_and_coloured(bar, tmp_path: Path):
+    file = tmp_path / "bar.png"
+    draw_mode_shapes(bar, file, modes=(2, 5))
+    picture = imread(file)[:, :, :3]
+    assert picture.shape[1] > 1000
+    coloured = (picture.max(axis=2) - picture.min(axis=2)) > 0.3
+    assert coloured.mean() > 0.02
+
+
+POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+OUTWARDS = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+def test_faces_behind_and_edge_on_are_left_out_and_near_ones_come_last():
+    corners, seen, light = facing(POINTS, OUTWARDS)
+    assert seen.tolist() == [[1, 2, 3]]
+    assert_allclose(corners[0], [[1, 0], [0, 1], [0, 0]])
+    assert 0.0 < light[0] <= 1.0
+    both = np.vstack([POINTS + np.array([0, 0, 5]), POINTS])
+    _, seen, _ = facing(both, np.vstack([OUTWARDS, OUTWARDS + 4]))
+    assert seen.tolist() == [[5, 6, 7], [1, 2, 3]]

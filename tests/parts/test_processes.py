@@ -12,7 +12,7 @@ import pytest
 from waiting import alive, until
 
 from fe_models.errors import DiskFullError, InputError
-from fe_models.processes import Child, ChildError, TimeLimitError, computed_beside, may_copy
+from fe_models.processes import Child, ChildError, computed_beside, may_copy
 
 HERE = str(Path(__file__).parent)
 
@@ -75,17 +75,6 @@ def test_what_goes_wrong_is_told(copied, name, kind, text):
         with pytest.raises(kind) as told:
             process.answer()
     assert str(told.value) == text
-
-
-def test_limits_of_time_and_memory(tmp_path):
-    with child("deaf") as process:
-        process.request(str(tmp_path / "mark"))
-        with pytest.raises(TimeLimitError, match=r"stopped after 0\.5 s"):
-            process.answer(0.5)
-    with child("holds", memory=2 * 2**30) as process:
-        process.request(4.0)
-        with pytest.raises(ChildError, match="MemoryError"):
-            process.answer()
 
 
 ASKS = """

@@ -1,9 +1,17 @@
-"""Peak acceleration as three observers read it, on curves with known answers."""
+"""Peaks as three observers read them, and of loads that alternate from step to step."""
 
 import numpy as np
 import pytest
 
-from exu_press.quantities import acceleration, differentiated_peak, mean_peak, mean_peak_of
+from exu_press import Scene, simulate
+from exu_press.quantities import (
+    acceleration,
+    alternating,
+    differentiated_peak,
+    mean_peak,
+    mean_peak_of,
+)
+from exu_press.quantities.alternating import peaks, remove_alternation
 
 TIME = np.linspace(0.0, 0.1, 10001)
 
@@ -23,13 +31,6 @@ def test_an_impact_is_spread_over_the_window(begin, window, mean):
     """1000 m/s^2 over 0.1 ms is 100 m/s^2 over 1 ms, wherever the window may fall."""
     velocity, _ = pulse(1000.0, begin, 1e-4)
     assert mean_peak(TIME, velocity, window=window) == pytest.approx(mean, rel=1e-3)
-
-
-@pytest.mark.parametrize("step", [1e-5, 1e-3, 2.5e-3, 0.02])
-def test_mean_of_a_load_in_steps_longer_than_the_window(step):
-    """A ramp's largest mean is half a millisecond before its end, however long steps are."""
-    time = np.linspace(0.0, 0.02, round(0.02 / step) + 1)
-    assert mean_peak_of(time, 1000.0 * time) == pytest.approx(19.5)
 
 
 @pytest.mark.parametrize(("middle", "expected"), [(0.03, 100.0), (0.0305, 50.0)])
@@ -98,3 +99,45 @@ def test_no_larger_mean_is_left_out(window, monkeypatch):
         monkeypatch.setattr(acceleration, "AT_ONCE", at_once)
         parts = mean_peak(time, values, window), mean_peak_of(time, values, window)
         assert parts == pytest.approx(whole, rel=1e-12)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(Scene(mechanism="slider_crank", revolutions=0.1))
+
+
+def smooth(run):
+    turns = 2.0 * np.pi * (run.time / run.time[-1])
+    return 1000.0 * np.stack([np.sin(turns), 2.0 + np.cos(turns)], axis=1)
+
+
+def signs(run):
+    return np.where(np.arange(len(run.time)) % 2, 1.0, -1.0)[:, None]
+
+
+@pytest.mark.parametrize("size", [3.0, 900.0])
+def test_what_alternates_is_taken_away(run, size):
+    found = remove_alternation(run.time, smooth(run) + size * signs(run))
+    assert found[2:] == pytest.approx(smooth(run)[2:], abs=0.02 * size + 0.5)
+
+
+def test_a_peak_of_one_sample_stays(run):
+    force = np.zeros((len(run.time), 2))
+    force[40] = 500.0
+    assert np.array_equal(remove_alternation(run.time, force), force)
+
+
+@pytest.mark.parametrize("at_once", [7, 50, 10_000])
+def test_the_largest_is_that_of_the_steady_load(run, monkeypatch, at_once):
+    """The last parts of a record are those of the whole."""
+    whole = alternating.AT_ONCE
+    for count in (3, 7, 8, 15, 51, len(run.time)):
+        time, values = run.time[:count], (smooth(run) + 300.0 * signs(run))[:count]
+        monkeypatch.setattr(alternating, "AT_ONCE", whole)
+        expected = remove_alternation(time, values)
+        monkeypatch.setattr(alternating, "AT_ONCE", at_once)
+        assert np.array_equal(remove_alternation(time, values), expected)
+        found = peaks(time, values)
+        assert np.array_equal(found.columns, np.abs(expected).max(axis=0))
+        assert found.length == np.linalg.norm(expected, axis=1).max()
+        assert peaks(time, values[:, 0]).length == found.columns[0]

@@ -1,11 +1,14 @@
 """Quantities of joints: those that a kind of joint has, and their values on a run's channels."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
 from exu_press.quantities import values_of
 from exu_press.quantities.joints import contact_onsets, share_of_contact
+from exu_press.quantities.slopes import slope_warnings
 
 FILM = {"kind": "lubricated", "film": {"at_contact": "mixed", "roughness": 1e-6}}
 
@@ -82,16 +85,41 @@ def test_touches_and_their_share_of_time():
     assert share_of_contact(TIME, depth) == pytest.approx(0.5, abs=3e-4)  # jumps take a step
 
 
-def test_a_touch_begins_and_ends_within_steps():
-    """Each of 37 coarse steps is ten percent of a swing, whose half is in contact."""
-    time = np.linspace(0.0, 1.0, 38)
-    depth = 1e-6 * np.sin(2.0 * np.pi * 3.7 * time - 0.35)
-    fine = np.linspace(0.0, 1.0, 100_001)
-    true = np.mean(np.sin(2.0 * np.pi * 3.7 * fine - 0.35) > 0.0)
-    assert share_of_contact(time, depth) == pytest.approx(true, abs=2e-3)
-
-
 def test_shares_are_shares_of_time_not_of_steps():
     time = np.concatenate([np.linspace(0.0, 0.9, 10), np.linspace(0.91, 1.0, 1000)])
     depth = np.where(time > 0.905, 1e-6, -1e-4)
     assert share_of_contact(time, depth) == pytest.approx(0.09, abs=1e-3)
+
+
+CLEARANCE, LENGTH, ASPERITIES = 1e-4, 0.05, 6e-7
+
+
+class Bent(dict):
+    """A result whose journal is at an eccentricity, with a slope along it."""
+
+    def __init__(self, eccentricity, slope):
+        super().__init__(pin_slope=np.array([[slope, 0.0]]))
+        film = SimpleNamespace(length=LENGTH, contact_gap=ASPERITIES)
+        self.scene = SimpleNamespace(joints={"pin": SimpleNamespace(film=film)})
+        at = np.array([[eccentricity, 0.0]])
+        self.joints = {
+            "pin": SimpleNamespace(clearance=CLEARANCE, eccentricity=at, distance=np.abs(at[:, 0]))
+        }
+
+
+@pytest.mark.parametrize(
+    ("middle", "thinner", "warns"),
+    [
+        (2e-5, 0.9e-5, False),
+        (2e-5, 1.1e-5, True),
+        (-1e-7, 0.4 * ASPERITIES, False),  # the middle touches: asperities leave their height
+        (-1e-7, 0.6 * ASPERITIES, True),
+        (0.0, 1e-5, True),
+    ],
+)
+def test_where_an_end_has_half_of_the_film(middle, thinner, warns):
+    result = Bent(CLEARANCE - middle, thinner / (0.5 * LENGTH))
+    texts = list(slope_warnings(SimpleNamespace(result=result)))
+    assert len(texts) == warns
+    if warns:
+        assert f"where the middle has {1e6 * max(0.0, middle):.3g} um" in texts[0]

@@ -1,4 +1,4 @@
-"""result.joints: any joint of the mechanism with clearance, on the frame and between links."""
+"""result.joints: any joint with clearance, on the frame and between links; its recorded states."""
 
 import functools
 
@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, simulate
+from exu_press.joints import user_force_of
+from exu_press.joints.history import history
+from exu_press.joints.joint import GROUND as STILL
 from exu_press.mechanism import GROUND
+from exu_press.model import build
+from exu_press.result.motion import sensor
 from exu_press.scene import mechanism_of
 
 SCENES = {
@@ -86,3 +91,46 @@ def test_a_crank_that_rests_in_two_bearings_has_no_clearance_there():
     scene = Scene(bodies={"crank": {"flexible": "crank", "modes": 0}}, joints={"shaft": "dry"})
     with pytest.raises(InputError, match=r"joints\.shaft: holds 2 faces .* allowed is 'ideal'"):
         simulate(scene)
+
+
+LUBRICATED = Scene.from_dict(
+    {
+        "mechanism": "slider_crank",
+        "joints": {"crank_pin": "lubricated"},
+        "film": {"law": "finite"},
+        "revolutions": 0.1,
+    }
+)
+
+
+@pytest.fixture
+def oiled():
+    model = build(LUBRICATED)
+    model.solve()
+    return model, sensor(model, model.mechanism.slider, "position", with_time=True)[:, 0]
+
+
+def test_they_are_those_of_the_recorded_coordinates(oiled):
+    """To the last bit: a film has no memory."""
+    model, time = oiled
+    joint = model.clearance_joints["crank_pin"]
+    states = history(model.states, joint, time)
+    names = {number: name for name, number in model.nodes.items()}
+    q, q_t = (
+        np.hstack([sensor(model, names[node], level) for node in user_force_of(model.mbs).nodes])
+        for level in ("position", "velocity")
+    )
+    for i in range(0, len(time), 7):
+        out = [0.0] * (q.shape[1] + len(STILL))
+        joint.add_force([*q[i], *STILL], [*q_t[i], *STILL], out)
+        assert joint.state.force == tuple(states.force[i])
+        assert joint.state.eccentricity == tuple(states.eccentricity[i])
+        assert joint.state.power == states.power[i]
+
+
+def test_some_instants_may_be_left_out(oiled):
+    model, time = oiled
+    joint = model.clearance_joints["crank_pin"]
+    whole, part = (history(model.states, joint, instants) for instants in (time, time[::3]))
+    assert np.array_equal(part.force, whole.force[::3])
+    assert whole.rubbing.shape == part.rubbing.shape == (0, 2)

@@ -49,21 +49,6 @@ def test_round_trip(result, path):
     assert loaded.summary() == result.summary()
 
 
-def test_opens_without_the_package(result, path):
-    """SciPy alone: every variable has units and a long name, time is a dimension."""
-    result.save(path)
-    with netcdf_file(path, mmap=False) as file:
-        assert set(file.variables) == set(result.channels)
-        for name, variable in file.variables.items():
-            assert variable.units.decode() == result.channels[name].unit
-            assert variable.long_name.decode() == result.channels[name].long_name
-            assert variable.dimensions[0] == "time"
-        assert file.dimensions["time"] == len(result.time)
-        assert file.variables["slider_position"][-1] == result["slider_position"][-1]
-        assert b'"exudyn"' in file.info
-        assert b'"law": "lugre"' in file.scene
-
-
 @pytest.mark.parametrize("moment", ["while writing", "when closing", "when renaming"])
 @pytest.mark.parametrize("kind", [OSError, KeyboardInterrupt])
 def test_a_write_that_fails_leaves_the_old_file_and_no_half_one(

@@ -43,7 +43,6 @@ def test_the_positive_direction_is_that_of_output_and_guide():
     """To the right of a guide along +x is down."""
     mechanism = shipped_mechanism("four_bar")
     for direction, text in (
-        ((1.0, 0.0), "to the right"),
         ((0.0, -1.0), "downwards"),
         ((3.0, 4.0), "along [0.6, 0.8]"),
     ):

@@ -13,12 +13,14 @@ __all__ = [
     "MissingKeysError",
     "Need",
     "UnusedKeyError",
+    "collected_needs",
     "error_prefix",
     "required_package",
 ]
 
 Need = tuple[str, str]
-"""Dotted name of a place in a scene, and what it needs, in which {path} stands for that name."""
+"""Dotted name of a place in a scene, and what it needs, in which {path} stands for that name, and
+{list} for that of the list that has the place."""
 
 for error in (InputError, DiskFullError):
     error.__module__ = __name__  # as tracebacks and the reference name it
@@ -51,16 +53,28 @@ class MissingKeysError(InputError):
         messages = []
         for (kind, text), names in paths.items():
             (name, verb) = (names[0], "needs") if len(names) == 1 else (f"{kind}.NAME", "need")
-            messages.append(f"{', '.join(names)} {verb} {text.replace('{path}', name)}")
+            text = text.replace("{path}", name).replace("{list}", names[0].rpartition(".")[0])
+            messages.append(f"{', '.join(n.strip('.') or 'it' for n in names)} {verb} {text}")
         super().__init__("; ".join(messages))
 
 
 @contextmanager
+def collected_needs(needs: list[Need]) -> Iterator[None]:
+    """Add what the block needs to a list, and go on behind it."""
+    try:
+        yield
+    except MissingKeysError as error:
+        needs += error.needs
+
+
+@contextmanager
 def error_prefix(prefix: str) -> Iterator[None]:
-    """Begin the message of an InputError with a prefix."""
+    """Begin the message of an InputError with a prefix; one that ends in "." names a place."""
     try:
         yield
     except InputError as error:
+        if isinstance(error, MissingKeysError) and prefix.endswith("."):
+            raise MissingKeysError((prefix + path, text) for path, text in error.needs) from None
         raise InputError(f"{prefix}{error}") from None
 
 

@@ -36,7 +36,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from exu_press.errors import InputError, error_prefix
+from exu_press.errors import (
+    InputError,
+    MissingKeysError,
+    Need,
+    collected_needs,
+    error_prefix,
+)
 from exu_press.files.digests import note_digests, recorded_files
 from exu_press.mechanism.gears import Gear
 from exu_press.mechanism.mechanism import Mechanism
@@ -145,16 +151,19 @@ def mechanism_from_dict(data: Mapping[str, Any]) -> Mechanism:
             f"mechanism = {data['mechanism']!r:.200}: is a key of a scene; allowed is a mechanism, "
             f"with {', '.join(TOP[0])}"
         )
-    top = _checked_keys("", data, *TOP)
-    elements: dict[str, Any] = {
-        section: tuple(
-            _element(section, name, table)
-            for name, table in _table(section, top.pop(section, {})).items()
-        )
-        for section in SECTIONS
-    }
+    needs, top, elements = list[Need](), dict(_table("", data)), dict[str, Any]()
+    with collected_needs(needs):
+        _checked_keys("", top, *TOP)
+    for section in SECTIONS:
+        elements[section] = ()
+        for name, table in _table(section, top.pop(section, {})).items():
+            with collected_needs(needs):
+                elements[section] += (_element(section, name, table),)
     elements["guides"] += elements.pop("slots")
-    output = Output(**_checked_keys("output", top.pop("output"), *OUTPUT))
+    with collected_needs(needs):
+        output = Output(**_checked_keys("output", top.pop("output", {}), *OUTPUT))
+    if needs:
+        raise MissingKeysError(needs)
     groups = _table("groups", top.pop("groups", {}))
     groups = {name: _value(members) for name, members in groups.items()}
     return Mechanism(**top, **elements, output=output, groups=groups)
@@ -290,7 +299,7 @@ def _checked_keys(
         if isinstance(value, float) and math.isnan(value):  # `ROD`: in a file, omit the key
             raise InputError(f"{where}.{key} = {value!r}: allowed is a number")
     if missing := ", ".join(key for key in required if key not in table):
-        raise InputError(f"{f'{where}.{missing}' if where else missing}: missing")
+        raise MissingKeysError([(where, missing)])
     return {key: _value(value) if where else value for key, value in table.items()}
 
 

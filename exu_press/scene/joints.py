@@ -4,7 +4,14 @@ import dataclasses
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from exu_press.errors import InputError, Need, UnusedKeyError, error_prefix
+from exu_press.errors import (
+    InputError,
+    MissingKeysError,
+    Need,
+    UnusedKeyError,
+    collected_needs,
+    error_prefix,
+)
 from exu_press.mechanism import Mechanism
 from exu_press.scene.custom import CustomJoint
 from exu_press.scene.joint import JOINT_KINDS, SIZES, IdealJoint, Joint
@@ -141,6 +148,7 @@ def joints_of(tables: Any, mechanism: Mechanism, laws: LawKeys) -> tuple[Joints,
         laws: the scene's own, likewise.
 
     Raises:
+        MissingKeysError: a joint has no kind, or its laws' tables lack keys.
         InputError: there is no such joint or group, a joint lies in two groups that are given, a
             key is not one of this kind of joint, or a law's parameters are outside its range.
     """
@@ -169,12 +177,15 @@ def joints_of(tables: Any, mechanism: Mechanism, laws: LawKeys) -> tuple[Joints,
             )
         elif name not in groups:
             raise InputError(_unknown(name, mechanism.name, names, groups, table))
-    complete, needs = {}, list[Need]()
+    complete, needs, incomplete = dict[str, Joint](), list[Need](), list[Need]()
     for joint in mechanism.joints:
         shown_name = joint.name if joint.name in tables else by_group.get(joint.name, joint.name)
         keys = own.get(joint.name, {"kind": "ideal"})
-        table = _joint(shown_name, keys, laws, sizes, spherical=joint.spherical)
-        complete[joint.name] = table
+        with collected_needs(incomplete):
+            complete[joint.name] = _joint(shown_name, keys, laws, sizes, joint.spherical)
+        table = complete.get(joint.name)
+        if table is None:
+            continue
         if missing := table.missing_keys(f"joints.{shown_name}"):
             needs += missing
         elif table.is_resolved:
@@ -182,6 +193,8 @@ def joints_of(tables: Any, mechanism: Mechanism, laws: LawKeys) -> tuple[Joints,
                 table.check_laws()
             except InputError as error:
                 raise InputError(f"{error} (joints.{shown_name})") from None
+    if incomplete:
+        raise MissingKeysError([*needs, *incomplete])
     joints = Joints(complete, mechanism)
     for name, table in tables.items():
         _refuse_unused(name, joint_keys(name, table), joints, laws)
@@ -227,7 +240,6 @@ def _joint(
     table: Mapping[str, Any],
     laws: LawKeys,
     sizes: Mapping[str, float],
-    *,
     spherical: bool,
 ) -> Joint:
     path, kind = f"joints.{name}", table.get("kind")
@@ -269,8 +281,9 @@ def _law(path: str, law: str, own: Any, laws: LawKeys, spherical: bool) -> Any:
             f"{path}.contact.shape = 'cylindrical': a ball has Hertz's point contact; allowed is "
             "'point', or [contact] shape, which is that of the pins"
         )
+    shared = laws.keys_of(law)
     with error_prefix(f"{path}."):
-        merged = changed_table(kind, laws.keys_of(law), keys)
+        merged = changed_table(kind, shared, keys)
         refuse_unknown_keys([*LAWS[law].values()], law, keys, used_names(kind, law, merged))
         return resolve(kind, law, merged)
 

@@ -6,7 +6,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast, overload
 
-from exu_press.errors import InputError, MissingKeysError, Need, UnusedKeyError, error_prefix
+from exu_press.errors import (
+    InputError,
+    MissingKeysError,
+    Need,
+    UnusedKeyError,
+    collected_needs,
+    error_prefix,
+)
 from exu_press.files.digests import recorded_files
 from exu_press.mechanism import (
     SHIPPED,
@@ -167,11 +174,10 @@ class Scene(Table):
             self._refuse(name, table, unused.get(name, ""))
             if table is None and (name in unused or name in ONLY_WHERE_GIVEN):
                 continue
-            try:
+            object.__setattr__(self, name, None)
+            with collected_needs(needs):
                 table = table_from(TABLES[name], name, {} if table is None else table)
-            except MissingKeysError as error:
-                needs, table = [*needs, *error.needs], None
-            object.__setattr__(self, name, table)
+                object.__setattr__(self, name, table)
         sampled = self.output is not None and self.output.samples
         if sampled and self.solver.step is not None:
             raise InputError(
@@ -185,13 +191,11 @@ class Scene(Table):
             )
         self._check_start_stop()
         self._settle_guides()
-        needs += self._settle_joints()
-        self._settle_bodies()
-        for settle in (self._settle_wear, self._settle_loads):
-            try:
+        with collected_needs(needs):
+            needs += self._settle_joints()
+        for settle in (self._settle_bodies, self._settle_wear, self._settle_loads):
+            with collected_needs(needs):
                 settle()
-            except MissingKeysError as error:
-                needs += error.needs
         if needs:
             raise MissingKeysError(needs)
 
@@ -332,7 +336,7 @@ class Scene(Table):
     def _settle_wear(self) -> None:
         """Complete the wear of each place; a scene in which nothing wears has no such table."""
         object.__setattr__(self, "wearing", {"joints": {}, "guides": {}})
-        if self.wear is None:
+        if self.wear is None or not self.joints:
             return
         mechanism = mechanism_of(self)
         joints = {joint.name: self._why_unworn(joint) for joint in mechanism.joints}
@@ -385,7 +389,7 @@ class Scene(Table):
                         f"springs.{spring.name}: bodies.{body} is flexible; allowed is an end in "
                         "the centre of one of its joints"
                     )
-        for drawn in mechanism.joints:
+        for drawn in mechanism.joints if self.joints else ():  # none where they lack keys
             worn = self.joints[drawn.name].worn
             for body in (drawn.journal, drawn.bearing):
                 if worn is not None and body in bodies:

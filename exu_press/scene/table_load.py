@@ -44,11 +44,9 @@ class TableLoad(Load):
         super().__post_init__()
         columns = [name for name in COLUMNS if getattr(self, name) is not None]
         if len(columns) != 1 or self.force is None:
-            names = (
-                ", ".join([*columns, *(["force"] if self.force is not None else [])]) or "nothing"
-            )
+            names = ", ".join([*columns, *(["force"] if self.force is not None else [])])
             raise InputError(
-                f"{names} given: allowed is file, a CSV, or one of {', '.join(COLUMNS)} with force"
+                f"{f'{names} given' if names else 'force: missing'}: allowed is file, a CSV, or one of {', '.join(COLUMNS)} with force"
             )
         positions = getattr(self, columns[0])
         check_columns((columns[0], "force"), positions, self.force)

@@ -5,7 +5,7 @@ from contextlib import suppress
 from dataclasses import Field
 from typing import Any
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, MissingKeysError
 from exu_press.schema.registry import Registry
 from exu_press.schema.table import Table, changed_table, check_keys, declared_keys, used_names
 
@@ -81,7 +81,8 @@ class LawKeys:
         self._checked: dict[str, dict[str, Any]] = {}
         for law, keys in scene_keys.items():
             if keys is not None:
-                self.keys_of(law)
+                with suppress(MissingKeysError):  # said with those of the joints that need the law
+                    self.keys_of(law)
 
     def keys_of(self, law: str) -> dict[str, Any]:
         """Return the keys of a law, checked when they are first asked for."""

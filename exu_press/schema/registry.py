@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from keyword import iskeyword
 from typing import Any
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, MissingKeysError
 from exu_press.lazy import load_object
 from exu_press.schema.checks import key
 from exu_press.schema.kinds import (
@@ -68,8 +68,10 @@ class Registry(Mapping[Any, type[Any]]):
         kind = self.find(key, name, keys)
         if kind is None:
             allowed = "true or false" if True in self else f"one of {', '.join(map(repr, self))}"
-            value_text = ": missing;" if name is None else f" = {name!r:.200}:"
-            raise InputError(f"{key}{value_text} allowed is {allowed}")
+            if name is None:
+                path, _, last = key.rpartition(".")
+                raise MissingKeysError([(path, f"{last}, {allowed}; give it in [{{path}}]")])
+            raise InputError(f"{key} = {name!r:.200}: allowed is {allowed}")
         return kind
 
     def find(self, key: str, name: Any, keys: Collection[str] = ()) -> type[Any] | None:

@@ -173,7 +173,7 @@ def tables_from(kind: type[T], name: str, value: Any) -> tuple[T, ...]:
         try:
             tables.append(table_from(kind, path, entry))
         except MissingKeysError as error:
-            needs += [(path, text.replace("[{path}]", f"[[{name}]]")) for _, text in error.needs]
+            needs += [(path, text.replace("[{path}]", "[[{list}]]")) for _, text in error.needs]
     if needs:
         raise MissingKeysError(needs)
     return tuple(tables)

@@ -76,7 +76,11 @@ def test_a_mechanism_is_written_and_read_back_equal(drawn):
 @pytest.mark.parametrize(
     ("changes", "shown"),
     [
-        ([("mass = 3.0", "")], "bodies.rod.mass: missing"),
+        ([("mass = 3.0", "")], "bodies.rod needs mass"),
+        (
+            [("mass = 3.0", ""), ("at = [0.0, 0.0]", ""), ('crank = "crank"', "")],
+            "it needs crank; bodies.rod needs mass; joints.shaft needs at",
+        ),
         ([("mass = 3.0", "mass = 0.0")], "bodies.rod.mass = 0.0: allowed is a number > 0 (kg)"),
         ([("mass = 3.0", 'mass = "3"')], "bodies.rod.mass = '3': allowed is a number"),
         ([("mass = 3.0", "mas = 3.0")], "bodies.rod.mas = 3.0: unknown key (did you mean 'mass'?)"),

@@ -74,7 +74,7 @@ joints.crank_pn = 'dry' -> joints.crank_pn = 'dry': press has no such joint or g
 joints.crank_pin = 'wet' -> joints.crank_pin.kind = 'wet': allowed is one of 'ideal', 'dry',
 joints.crank_pin.kind = ['dry'] -> joints.crank_pin.kind = ['dry']: allowed is one of
 joints.crank_pin = ['dry'] -> joints.crank_pin = ['dry']: allowed is a table of keys, or one of
-joints.crank_pin = {} -> joints.crank_pin.kind: missing; allowed is one of
+joints.crank_pin = {} -> joints.crank_pin needs kind, one of 'ideal', 'dry', 'lubricated'
 joints.pivots = {kind = 'dry', clearance = '1'} -> joints.pivots.clearance = '1': allowed is a num
 joints.pivots = {kind = 'dry', gap = 1} -> joints.pivots.gap = 1: unknown key
 joints.pivots = {kind = 'dry', clearance = 2, radius = 1} -> clearance = 2.0: allowed is .. < radius
@@ -216,6 +216,8 @@ radius = 0.05}; film = {law = 'grooved', length = 0.05, viscosity = 0.05}
 speed_rpm = 10 -> film.grooves: missing; allowed is one .. or film.tilt > 0
 film.grooves = [] -> film.grooves = .. allowed is a list of tables
 film.grooves = [{}] -> film.grooves.0 needs width_deg (around the .. in [[film.grooves]]
+joints.crank_pin.film.grooves = [{}] -> joints.crank_pin.film.grooves.0 needs width_deg (around \
+.. give it in [[joints.crank_pin.film.grooves]]
 film.grooves = [{}, {width_deg = 9}, {}] -> film.grooves.0, film.grooves.2 need width_deg (around
 film.grooves = [{width_deg = 1e-20}] -> film.grooves.width_deg = 1e-20
 film.grooves = [{width_deg = 5.0, angle_deg = 1e30}] -> film.grooves.angle_deg = 1e
@@ -266,7 +268,7 @@ bodies.crank.faces.crank_pin.z = [1, 0] -> pin.z = [1.0, 0.0]: allowed
 load = 5 -> load = 5: allowed is a table of loads
 load.'a b'.kind = 'blanking' -> load: 'a b' is no name
 load.a = 3 -> load.a = 3: allowed is a table of keys
-load.a.force = 1.0 -> load.a.kind: missing; allowed is one of 'blanking', 'table'
+load.a.force = 1.0 -> load.a needs kind, one of 'blanking', 'table'
 load.a.kind = [] -> load.a.kind = []: allowed is one of
 load.a.kind = 'blank' -> load.a.kind = 'blank': allowed is one of
 load.a.kind = 'blanking' -> load.a needs force (peak force; in N) .. give it in [load.a]
@@ -282,6 +284,8 @@ needs drive.clutch_torque .. joints.crank_pin, joints.rod_pin need clearance
 guide = {clearance = 1e-5, viscosity = 0.1} -> joints.rod_pin need clearance .. guide.face_width
 wear = {} -> need clearance .. joints.crank_pin, joints.rod_pin need wear.coefficient
 load = {a = {kind = 'spring'}, b = {kind = 'blanking'}} -> clearance .. load.a needs .. load.b needs
+load = {a = {force = 1.0}}; joints.wrist_pin.radius = 0.1 -> need clearance .. joints.wrist_pin \
+needs kind, one of 'ideal' .. load.a needs kind
 
 # loads
 = load.a = {kind = 'blanking', force = 1e4}
@@ -305,7 +309,7 @@ load.a.face = 3 -> load.a.face = 3: allowed is a face's name, or a table
 load.a.face.radius = 1 -> load.a.face.radius = 1: unknown key
 load.a.face.x = [1, 0] -> load.a.face.x = [1.0, 0.0]: allowed
 = load.a.kind = 'table'
-speed_rpm = 10 -> load.a.nothing given: allowed is file, a CSV, or one of time
+speed_rpm = 10 -> load.a.force: missing: allowed is file, a CSV, or one of time
 load.a = {time = [0, 1], crank_angle_deg = [0, 1], force = [0, 1]} -> time, crank_angle_deg, force g
 load.a = {file = 'a.csv', force = [0, 1]} -> load.a.file and force: allowed is one of the two
 load.a = {time = [0, 1], force = [1]} -> load.a.time, force: 2 and 1 values

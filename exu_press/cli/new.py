@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import replacing
+from exu_press.files.output_directory import check_writable, replacing
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.blanking_load import BlankingLoad
 from exu_press.scene.bodies import Flexible
@@ -58,6 +58,7 @@ def execute(options: argparse.Namespace) -> int:
         raise InputError(f"{path}: allowed is a name that ends in .toml")
     if path.exists():
         raise InputError(f"{path}: exists; allowed is another name")
+    check_writable(path)
     text = template(options.mechanism, os.path.relpath(options.mechanism or ".", path.parent))
     with replacing(path) as partial:
         partial.write_text(text, encoding="utf-8")
@@ -72,7 +73,7 @@ def template(mechanism: str, path_text: str = "") -> str:
 
     Args:
         mechanism: name of a shipped one, or the path of a mechanism file.
-        shown: that path as the scene is to have it.
+        path_text: that path as the scene is to have it.
 
     Raises:
         InputError: there is no such mechanism.

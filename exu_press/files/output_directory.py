@@ -153,7 +153,7 @@ def check_writable(path: Path) -> None:
         InputError: there is no such directory, or nothing can be written into it.
     """
     if not path.parent.is_dir():
-        raise InputError(f"{path}: there is no directory {path.parent}")
+        raise InputError(f"{path}: there is no directory {path.parent}; allowed is one that exists")
     if path.is_dir():
         raise InputError(f"{path}: is a directory; allowed is a file")
     with writing(path), tempfile.TemporaryFile(dir=path.parent):

@@ -33,7 +33,8 @@ def reading(file: Path, kind: str) -> Iterator[Any]:
     except OSError as error:
         raise InputError(f"{error.filename}: cannot be read ({error.strerror})") from None
     except WRONG as error:
-        raise InputError(f"{file}: not {kind} ({error!s:.200})") from None
+        why = f"{file}: not {kind} ({error!s:.200})"
+        raise InputError(f"{why}; the command that wrote it writes it anew") from None
 
 
 def study_page(file: Path) -> str:

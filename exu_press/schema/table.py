@@ -289,7 +289,11 @@ def refuse_unknown_keys(
             now = RENAMED.get(path) or RENAMED[key]
             raise InputError(f"{path} = {value!r:.200}: is {now} now")
         allowed = {*used, *(name for kind in kinds for name in _choosing_keys(kind, used))}
-        demand_known(f"{path} = {value!r:.200}: unknown key", key, dict.fromkeys(known), allowed)
+        text = f"{path} = {value!r:.200}: unknown key"
+        has_names = any("by_name" in field.metadata for kind in kinds for field in _fields(kind))
+        if has_names and isinstance(value, str) and not nearest(key, known):
+            text += f" (one {name} has a table, as {path} = {{kind = {value!r:.200}}})"
+        demand_known(text, key, dict.fromkeys(known), allowed)
 
 
 def _choosing_keys(kind: type[Table], used: Collection[str]) -> Iterator[str]:

@@ -64,9 +64,7 @@ def save_picture(animation: Animation, frame: int, path: Path) -> Path:
     """Write one frame as .png."""
     check_target(path)
     image = Painter(animation, DPI[".png"]).paint(frame)
-    with replacing(path) as partial:
-        write_png(partial, image, DPI[".png"], _texts(animation))
-    return path
+    return _write_png(path, frame, image, _texts(animation))
 
 
 def _texts(animation: Animation) -> PngInfo:
@@ -109,6 +107,7 @@ def save_animation(
 
 
 def _write_png(path: Path, number: int, image: Image.Image, texts: PngInfo) -> Path:
+    """Write a frame; its number stands in the name where this asks for it."""
     numbered = path.with_name(NUMBER.sub(lambda match: match[0] % number, path.name))
     with replacing(numbered) as partial:
         write_png(partial, image, DPI[".png"], texts)

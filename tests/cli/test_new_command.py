@@ -36,7 +36,7 @@ def test_a_mechanism_file_is_named_as_the_scenes_directory_has_it(tmp_path, monk
     [
         (["mine.toml"], "mine.toml: exists"),
         (["mine.txt"], "mine.txt: allowed is a name that ends in .toml"),
-        (["none/mine.toml"], "cannot be written"),
+        (["none/mine.toml"], "there is no directory none; allowed is one that exists"),
         (["new.toml", "--mechanism", "pres"], "mechanism = 'pres': allowed"),
     ],
 )

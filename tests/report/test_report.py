@@ -160,6 +160,7 @@ def test_the_file_names_the_kind(outputs, tmp_path):
         ({"comparison.json": '{"../a": 1}'}, ".", "'../a': allowed is the name of a variant"),
         ({"comparison.json": r'{"a\u0000": 1}'}, ".", r"'a\x00': allowed is the name of a variant"),
         ({"report.json": "{}"}, ".", "not a report of exu_press"),
+        ({"report.json": ""}, ".", "the command that wrote it writes it anew"),
         ({"report.json": "[" * 100_000}, ".", "allowed is JSON"),
         ({"summary.json": "{}"}, "summary.json", "allowed is a result file"),
     ],

@@ -75,7 +75,8 @@ def error_prefix(prefix: str) -> Iterator[None]:
     except InputError as error:
         if isinstance(error, MissingKeysError) and prefix.endswith("."):
             raise MissingKeysError((prefix + path, text) for path, text in error.needs) from None
-        raise InputError(f"{prefix}{error}") from None
+        kind = DiskFullError if isinstance(error, DiskFullError) else InputError
+        raise kind(f"{prefix}{error}") from None
 
 
 def required_package(name: str, use: str, install: str) -> Any:

@@ -205,13 +205,13 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
     """
     if find_spec("ngsolve") is None:
         raise InputError(
-            f"bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not installed; where "
+            f"{scene.origin}bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not installed; where "
             "pip has no wheels of it (Linux on ARM), build it from its sources"
         )
     mechanism = mechanism_of(scene)
     parts = {}
     for name, table in scene.bodies.items():
-        with error_prefix(f"bodies.{name}: "):
+        with error_prefix(f"{scene.origin}bodies.{name}: "):
             if table.sn_stress is not None:
                 require_rainflow()
             loads = {

@@ -4,6 +4,7 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+from exu_press.errors import error_prefix
 from exu_press.model import build
 from exu_press.model.state import State, go_on_from
 from exu_press.result.record import record
@@ -45,7 +46,8 @@ def run_once(
     if scene.output is not None and not isinstance(scene.output.channels, str):
         turned = max(SHORT, 2.0 * SHORTEST_RUN * scene.speed_rpm / 60.0)
         short = run_once(scene.replace({"output": None, "revolutions": turned, "settle": 0.0}))
-        scene.output.kept_channels(short.channels)
+        with error_prefix(scene.origin):
+            scene.output.kept_channels(short.channels)
     model = build(scene, quiet=quiet)
     provenance = provenance_of(scene)
     if start is not None:

@@ -86,6 +86,7 @@ class Scene(Table):
     Attributes:
         asked: dotted names of the keys that the user gave, be it with their defaults.
         files: sha256 of the files that were read for it, by name.
+        origin: begins messages about it: the file that it was loaded from, or nothing.
         guides: name -> guide, of those that are not ideal; [guide.NAME] has its keys over [guide].
         wearing: "joints" and "guides" -> name -> law of wear, of those whose wear is asked for:
             revolute joints whose surfaces touch, guides with clearance, and slots with clearance
@@ -99,6 +100,7 @@ class Scene(Table):
     table: ClassVar[str] = ""
     asked: ClassVar[frozenset[str]]
     files: ClassVar[Mapping[str, str]]
+    origin: ClassVar[str] = ""
     guides: ClassVar[Mapping[str, "ElasticGuide"]]
     wearing: ClassVar[Mapping[str, Mapping[str, "WearAt"]]]
     mechanism: str | Mechanism = key(
@@ -527,7 +529,7 @@ class Scene(Table):
         while True:
             try:
                 scene = Scene.from_dict(data, asked, resolve=not self.has_unresolved_kinds)
-                return _with_files(scene, self.files)
+                return _from_files(scene, self.files, self.origin)
             except MissingKeysError as error:
                 needs = [(by_group(path, groups, changes), text) for path, text in error.needs]
                 raise MissingKeysError(needs) from None
@@ -664,16 +666,17 @@ def _load(path: str | Path, assignments: Iterable[str] = (), *, allow_code: bool
     with error_prefix(f"{path}: "):
         if allow_code:
             import_kinds(data)
-        scene = _with_files(Scene.from_dict(data, given_names(data)), files)
+        scene = _from_files(Scene.from_dict(data, given_names(data)), files, f"{path}: ")
     with error_prefix(f"{path.name} with --set: "):
         if allow_code:
             import_kinds(changes)
         return scene.replace(changes) if changes else scene
 
 
-def _with_files(scene: Scene, files: Mapping[str, str]) -> Scene:
+def _from_files(scene: Scene, files: Mapping[str, str], origin: str) -> Scene:
     """Return a scene for which further files were read."""
     object.__setattr__(scene, "files", {**files, **scene.files})
+    object.__setattr__(scene, "origin", origin)
     return scene
 
 

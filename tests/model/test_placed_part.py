@@ -125,8 +125,13 @@ def test_what_does_not_fit_is_refused_in_one_line(rod, solid, keys, message):
 
 def test_a_step_file_that_is_not_there_is_refused(tmp_path):
     body = {"flexible": str(tmp_path / "rod.step"), **PLACED}
-    with pytest.raises(InputError, match=r"bodies\.rod: STEP file .*cannot be read \(No such file"):
-        placed(Scene(mechanism="six_bar", bodies={"rod": body}))
+    scene = Scene(mechanism="six_bar", bodies={"rod": body})
+    scene.save(tmp_path / "scene.toml")
+    changed = Scene.load(tmp_path / "scene.toml", ["revolutions=0.5"])
+    for asked, beginning in ((scene, ""), (changed, r".*scene\.toml: ")):
+        message = rf"^{beginning}bodies\.rod: STEP file .*cannot be read \(No such file"
+        with pytest.raises(InputError, match=message):
+            placed(asked)
 
 
 @pytest.mark.parametrize(

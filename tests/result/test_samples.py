@@ -154,7 +154,9 @@ def test_what_was_not_kept_is_said_with_its_cure(tmp_path, capsys):
     assert "Traceback" not in capsys.readouterr().err
 
 
-def test_an_unknown_channel_is_refused_before_the_run():
+def test_an_unknown_channel_is_refused_before_the_run(tmp_path):
     scene = CRANK.replace({"output": {"channels": ["slider_positon"]}, "revolutions": 1e6})
-    with pytest.raises(InputError, match="is no channel of this scene"):
-        simulate(scene)
+    scene.save(tmp_path / "scene.toml")
+    for asked, file in ((scene, ""), (Scene.load(tmp_path / "scene.toml"), r".*scene\.toml: ")):
+        with pytest.raises(InputError, match=f"^{file}output.channels: .* is no channel of this"):
+            simulate(asked)

@@ -205,8 +205,8 @@ def placed_parts(scene: Scene, *, quiet: bool = True) -> dict[str, PlacedPart]:
     """
     if find_spec("ngsolve") is None:
         raise InputError(
-            f"{scene.origin}bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not installed; where "
-            "pip has no wheels of it (Linux on ARM), build it from its sources"
+            f"{scene.origin}bodies.{next(iter(scene.bodies))}: needs NGSolve, which is not "
+            "installed; where pip has no wheels of it (Linux on ARM), build it from its sources"
         )
     mechanism = mechanism_of(scene)
     parts = {}

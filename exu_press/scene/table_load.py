@@ -46,7 +46,8 @@ class TableLoad(Load):
         if len(columns) != 1 or self.force is None:
             names = ", ".join([*columns, *(["force"] if self.force is not None else [])])
             raise InputError(
-                f"{f'{names} given' if names else 'force: missing'}: allowed is file, a CSV, or one of {', '.join(COLUMNS)} with force"
+                f"{f'{names} given' if names else 'force: missing'}: allowed is file, a CSV, or "
+                f"one of {', '.join(COLUMNS)} with force"
             )
         positions = getattr(self, columns[0])
         check_columns((columns[0], "force"), positions, self.force)

@@ -116,7 +116,7 @@ def _marks_strip(shared: Range1d) -> Any:
     strip = _figure("marks", shared, Range1d(start=-0.7, end=1.7, name="marks-y"), 64)
     strip.add_tools(TapTool())
     strip.yaxis.ticker = FixedTicker(ticks=[0, 1])
-    strip.yaxis.major_label_overrides = {0: "impacts", 1: "TDC, BDC"}
+    strip.yaxis.major_label_overrides = {0: "impacts", 1: "dead centres"}
     strip.ygrid.visible = False
     for name, marker, colour, level in (
         ("impacts", "triangle", "#D55E00", 0.0),

@@ -154,6 +154,10 @@ class Animation:
         crank_angle_axis(panels, *ends, dead_centres({"": result}))
 
 
+HALO: dict[str, Any] = {"stroke_width": 2, "stroke_fill": "white"}
+"""Of a text with a box, which may lie on a body."""
+
+
 @dataclass
 class Painter:
     """Draws the frames of an animation into memory, each on the same background.
@@ -189,9 +193,10 @@ class Painter:
         for text, font in zip(self._texts, self._fonts, strict=True):
             x, y = text.get_transform().transform(text.get_position())
             anchor = {"left": "l", "right": "r"}[text.get_horizontalalignment()]
-            anchor += {"top": "a", "center": "m"}[text.get_verticalalignment()]
+            anchor += {"top": "a", "center": "m", "bottom": "d"}[text.get_verticalalignment()]
             colour = to_hex(text.get_color())
-            on_it.text((x, image.height - y), text.get_text(), colour, font, anchor)
+            halo = {} if text.get_bbox_patch() is None else HALO
+            on_it.text((x, image.height - y), text.get_text(), colour, font, anchor, **halo)
         return image
 
 

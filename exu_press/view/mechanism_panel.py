@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
@@ -52,7 +53,7 @@ class MechanismPanel:
         ends = front.dead_centres()
         self._shapes, unit, low, high = front.shapes, front.unit, front.low, front.high
         _draw_frame(axes, mechanism, front)
-        _draw_dead_centres(axes, ends, unit)
+        dead_centres = _draw_dead_centres(axes, ends, unit)
         lowest_x = float(low[0])
         if ends:
             outline = front.swept[mechanism.slider]
@@ -113,7 +114,7 @@ class MechanismPanel:
         ]
         lines = [line for line, _ in self._leaders.values()]
         lines += [line for *_, line in self._springs]
-        self.artists = mark_animated(*patches, pins, marked, *lines)
+        self.artists = mark_animated(*patches, pins, marked, *lines, *dead_centres)
 
     def show(self, frame: int) -> None:
         """Bring every body to its pose."""
@@ -169,14 +170,18 @@ def _draw_frame(axes: Axes, mechanism: Mechanism, front: FrontView) -> None:
             axes.add_patch(Circle(joint.at, 0.026 * front.unit, **FIXED))
 
 
-def _draw_dead_centres(axes: Axes, ends: Sequence[Mark], unit: float) -> None:
-    """Mark the slider's leading edge with ideal joints in both dead centres."""
+def _draw_dead_centres(axes: Axes, ends: Sequence[Mark], unit: float) -> list[Artist]:
+    """Mark the slider's leading edge with ideal joints in both dead centres; return the marks."""
+    artists: list[Artist] = []
     for mark in ends:
         line = mark.position + np.outer([0.01 * unit, 0.035 * unit], mark.direction)
-        axes.plot(*line.T, color=GREY, linewidth=0.9)
+        artists += axes.plot(*line.T, color=GREY, linewidth=0.9)
         x, y = line[1] + 0.006 * unit * mark.direction
         side = "bottom" if mark.is_above else "top"
-        axes.text(x, y, mark.label, fontsize=7.5, color=GREY, va=side, ha="right")
+        label = axes.text(x, y, mark.label, fontsize=7.5, color=GREY, va=side, ha="right")
+        label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.5})
+        artists.append(label)
+    return artists
 
 
 def _draw_labels(

@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 from drawings import four_bar, slider_crank, stephenson
 
-from exu_press.mechanism import shipped_mechanism
+from exu_press.mechanism import (
+    change_mechanism,
+    mechanism_from_dict,
+    mechanism_to_dict,
+    shipped_mechanism,
+)
 from exu_press.mechanism.stroke import stroke_of
 from exu_press.mechanism.transmission import (
     group_equal_angles,
@@ -74,3 +79,11 @@ def test_equal_transmission_angles_are_named_together_smallest_first():
     values = np.array([1.0, 0.5])
     found = group_equal_angles({"a": values + 0.1, "left": values, "right": values.copy()})
     assert [name for name, _ in found] == ["left, right", "a"]
+
+
+@pytest.mark.parametrize("slope", [0.0, 30.0, -50.0])
+def test_transmission_angle_of_a_slot_is_between_its_normal_and_that_of_the_guide(slope):
+    yoke, along = mechanism_to_dict(shipped_mechanism("scotch_yoke")), np.radians(90.0 + slope)
+    yoke = change_mechanism(yoke, {"slots.yoke_slot.direction": [np.cos(along), np.sin(along)]})
+    values = transmission_angles(mechanism_from_dict(yoke), ANGLES)["yoke_slot"]
+    assert np.degrees(values) == pytest.approx(90.0 - abs(slope))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 
 from exu_press.errors import InputError
 from exu_press.mechanism import GROUND
@@ -10,7 +11,7 @@ from exu_press.scene import mechanism_of
 from exu_press.view import Look, instants, moment
 from exu_press.view.flexible_panel import TIMES_SIGN, FlexiblePanel
 from exu_press.view.joint_panel import CLEARANCE, JointPanel
-from exu_press.view.mechanism_panel import poses
+from exu_press.view.mechanism_panel import MechanismPanel, poses
 
 
 def panels(animation, kind):
@@ -35,6 +36,12 @@ def test_links_are_drawn_joined(runs, name):
                 apart = [np.interp(now, result.time, path[:, k]) for k in (0, 1)]
             allowed = 2e-4 if name == "flexible" else 4e-6  # deflection; between steps
             assert journal - bearing == pytest.approx(apart, abs=allowed), joint.name
+
+
+def test_dead_centres_are_drawn_in_front_of_bodies_on_which_they_may_lie(runs, animation):
+    (panel,) = panels(animation(runs["press"], instants(runs["press"], frames=2)), MechanismPanel)
+    in_front = [text.get_text() for text in panel.artists[-4:] if isinstance(text, Text)]
+    assert in_front == ["TDC", "BDC"]
 
 
 def test_the_journal_stands_at_its_eccentricity(runs, animation):

@@ -72,8 +72,6 @@ def put_to_use(mechanism, table, directory):
     ("table", "value"),
     [
         ("guide", {"lateral_stiffness": 1e9}),
-        ("drive", {"rated_torque": 400.0, "inertia": 50.0}),
-        ("load.blanking", {"kind": "blanking", "force": 1e4}),
         (
             "load.forming",
             {"kind": "table", "crank_angle_deg": [120, 175, 180], "force": [0, 1e4, 0]},

@@ -13,6 +13,8 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from exu_press.cli import main
+from exu_press.studies.registry import STUDIES, study_command
+from exu_press.studies.sweep import Sweep
 
 ROOT = Path(__file__).parents[2]
 BIN = Path(sys.executable).parent
@@ -32,7 +34,11 @@ NOT_RUN = ("python3 -m venv", "pip install", ".venv/bin/", "pytest", "ruff", "sp
 
 @dataclass(frozen=True)
 class Block:
-    """One fenced block; notes are the HTML comments above it, as in <!-- long -->."""
+    """One fenced block; notes are the HTML comments above it, as in <!-- long -->.
+
+    Others are `file`, the file that a reader saves it as; `added to`, the mechanism file that he
+    may add it to; `printed by` and `part of what this prints`, the command that did.
+    """
 
     language: str
     text: str
@@ -47,26 +53,6 @@ class Block:
     def long(self) -> bool:
         """Whether it takes minutes."""
         return "<!-- long -->" in self.notes
-
-    @property
-    def file(self) -> str | None:
-        """The file that a reader saves it as."""
-        return self.note("file")
-
-    @property
-    def added_to(self) -> str | None:
-        """The mechanism file that a reader may add it to."""
-        return self.note("added to")
-
-    @property
-    def printed_by(self) -> str | None:
-        """The command that printed it."""
-        return self.note("printed by")
-
-    @property
-    def partly_printed_by(self) -> str | None:
-        """The command that printed it and more."""
-        return self.note("part of what this prints")
 
     @property
     def shortened(self) -> list[str]:
@@ -98,8 +84,8 @@ def blocks_of(page: Path) -> list[Block]:
 
 def run_block(block: Block, place: Path, *, short: bool = False) -> None:
     """Do what the block says, in a directory; what goes wrong is an AssertionError."""
-    if block.file:
-        (place / block.file).write_text(block.text, encoding="utf-8")
+    if block.note("file"):
+        (place / block.note("file")).write_text(block.text, encoding="utf-8")
     if block.language == "python":
         run_python(block.text, place, short=short)
     elif block.language == "toml":
@@ -188,10 +174,10 @@ def read(block: Block, place: Path) -> None:
     from exu_press.mechanism import load_mechanism
     from exu_press.studies.base import load_study
 
-    path = place / (block.file or "block.toml")
-    above = (place / block.added_to).read_text("utf-8") if block.added_to else ""
+    path = place / (block.note("file") or "block.toml")
+    above = (place / block.note("added to")).read_text("utf-8") if block.note("added to") else ""
     path.write_text(above + block.text, encoding="utf-8")
-    if block.added_to or {"bodies", "crank"} <= set(tomllib.loads(block.text)):
+    if block.note("added to") or {"bodies", "crank"} <= set(tomllib.loads(block.text)):
         load_mechanism(path)
     elif "scene" in tomllib.loads(block.text):
         load_study(path, kind_of(tomllib.loads(block.text)))
@@ -201,27 +187,16 @@ def read(block: Block, place: Path) -> None:
 
 def kind_of(tables: dict[str, object]) -> type:
     """Return the kind of a study, which its own tables tell."""
-    from exu_press.studies.bifurcation import Bifurcation
-    from exu_press.studies.fit import Fit
-    from exu_press.studies.optimise import Optimise
-    from exu_press.studies.sensitivity import Sensitivity
-    from exu_press.studies.sweep import Sweep
-    from exu_press.studies.wear import WearStudy
-
-    own = {
-        "bifurcation": Bifurcation,
-        "sensitivity": Sensitivity,
-        "measured": Fit,
-        "curve": Fit,
-        "objective": Optimise,
-        "wear": WearStudy,
-    }
-    return next((kind for name, kind in own.items() if name in tables), Sweep)
+    kinds = [study_command(name).study for name in STUDIES]
+    own = [kind for kind in kinds if tables.keys() & getattr(kind, "tables", {}).keys()]
+    return own[0] if own else Sweep
 
 
 def printed_blocks() -> list[tuple[Path, Block]]:
     """Return the blocks of docs/ that say what printed them; README shows parts of what is."""
-    return [(page, block) for page in PAGES[1:] for block in blocks_of(page) if block.printed_by]
+    return [
+        (page, block) for page in PAGES[1:] for block in blocks_of(page) if block.note("printed by")
+    ]
 
 
 def partly_printed_blocks() -> list[tuple[Path, Block]]:
@@ -233,16 +208,16 @@ def partly_printed_blocks() -> list[tuple[Path, Block]]:
         (page, block)
         for page in PAGES[1:]
         for block in blocks_of(page)
-        if (block.partly_printed_by or "").startswith("exu-press attractor")
+        if (block.note("part of what this prints") or "").startswith("exu-press attractor")
     ]
 
 
 def printed_again(page: Path, block: Block, place: Path) -> str:
     """Run what printed a block or a part of it, with the files that the page saves before it."""
     for before in blocks_of(page):
-        if before.file:
-            (place / before.file).write_text(before.text, encoding="utf-8")
-    words = shlex.split(block.printed_by or block.partly_printed_by or "")
+        if before.note("file"):
+            (place / before.note("file")).write_text(before.text, encoding="utf-8")
+    words = shlex.split(block.note("printed by") or block.note("part of what this prints") or "")
     if words[0] == "exu-press":
         return run([str(BIN / words[0]), *words[1:]], place)
     return run([sys.executable, str(ROOT / words[1]), *words[2:]], place)

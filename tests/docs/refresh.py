@@ -19,8 +19,8 @@ for page, block in pages.printed_blocks():
     with tempfile.TemporaryDirectory() as place:
         printed = pages.printed_again(page, block, Path(place))
     text = page.read_text(encoding="utf-8")
-    old = f"<!-- printed by: {block.printed_by} -->\n```{block.language}\n{block.text}```"
-    assert text.count(old) == 1, (page, block.printed_by)
+    old = f"<!-- printed by: {block.note('printed by')} -->\n```{block.language}\n{block.text}```"
+    assert text.count(old) == 1, (page, block.note("printed by"))
     new = old.removesuffix(f"{block.text}```") + f"{printed}```"
     page.write_text(text.replace(old, new), encoding="utf-8")
     print(page.relative_to(pages.ROOT), "same" if old == new else "CHANGED", file=sys.stderr)

@@ -63,7 +63,7 @@ def test_a_command_that_nothing_runs_is_noticed(tmp_path):
 @pytest.mark.parametrize(("page", "block"), pages.printed_blocks(), ids=name)
 def test_what_printed_a_block_can_be_run_again(page, block):
     """Blocks that only a reader can print anew, in his own way, have other notes."""
-    words = shlex.split(block.printed_by)
+    words = shlex.split(block.note("printed by"))
     assert not any(word.endswith(",") or word.startswith("(") or word.isupper() for word in words)
 
 

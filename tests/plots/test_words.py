@@ -9,23 +9,9 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from exu_press import Scene
 from exu_press.plots import force_figure
 from exu_press.plots.style import look
 from exu_press.plots.typesetting import plain, typeset
-from exu_press.plots.words import describe
-
-
-def test_scenes_share_what_they_have_in_common():
-    words = describe(
-        [Scene(joints={"crank_pin": kind, "balls": kind}) for kind in ("ideal", "dry")]
-    )
-    assert "crank pin radial clearance 0.1 mm" in words
-    assert "dry" not in words and "ideal" not in words
-    assert "rpm" not in describe([Scene(), Scene(speed_rpm=300)])
-    elastic = {"guide": {"lateral_stiffness": 1e9}}
-    assert "guides elastic" in describe([Scene().replace(elastic)] * 2)
-    assert "guides" not in describe([Scene(), Scene().replace(elastic)])
 
 
 @pytest.mark.parametrize("text", [r"$\frac{$", "5 $", r"a\$b$c$", "$$"])

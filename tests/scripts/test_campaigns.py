@@ -1,6 +1,5 @@
 """Campaigns: a few attacks of each kind, the stiff and extreme cases, fits of synthetic data."""
 
-import json
 import random
 import re
 
@@ -8,9 +7,7 @@ import pytest
 
 import attack_files
 import attack_scenes
-from exu_press.studies.stability.cases import PAIRS
 from fit_recovers import main
-from stability.cases import cases, quick_cases
 
 
 def options(counts):
@@ -48,23 +45,3 @@ def test_nine_measurements_of_three_scenes(tmp_path, capsys):
     held = re.search(r"(\d+) of 21 intervals hold the true key", capsys.readouterr().out)
     assert held is not None
     assert int(held[1]) >= 18
-
-
-@pytest.fixture(scope="module")
-def table():
-    return cases()
-
-
-@pytest.mark.long
-def test_at_least_200_cases_with_names_of_their_own(table):
-    assert len(table) >= 200
-    assert len({case.name for case in table}) == len(table)
-    assert len({json.dumps(case.scene.to_dict()) for case in table}) > 0.9 * len(table)
-
-
-@pytest.mark.long
-def test_the_quick_sample_holds_every_axis(table):
-    sample = quick_cases()
-    assert {case.axis for case in sample} == {case.axis for case in table}
-    assert set(sample) <= set(table)
-    assert sum(case.axis == PAIRS for case in sample) >= 15

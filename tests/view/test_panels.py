@@ -84,15 +84,12 @@ def test_the_arrow_points_along_the_force(runs, animation):
             assert along == pytest.approx(largest / np.linalg.norm(largest), abs=1e-6)
 
 
-def test_a_revolution_takes_five_seconds(runs):
+def test_every_step_is_seen_exactly_once(runs):
+    """An impact between two frames is not lost; unless asked, a revolution takes five seconds."""
     shown = instants(runs["press"])
     assert len(shown) == 1 + round(0.3 * 5 * 25)
     assert shown.slow == pytest.approx(20.0, rel=1.0 / len(shown))  # a whole number of frames
     assert np.ptp(np.diff(shown.time)) < 1e-12
-
-
-def test_every_step_is_seen_exactly_once(runs):
-    """An impact between two frames is not lost."""
     time = runs["press"].time
     shown = instants(runs["press"], frames=7)
     steps = [s for f in range(len(shown)) for s in range(len(time))[shown.steps_since_last(f)]]

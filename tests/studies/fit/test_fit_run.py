@@ -159,26 +159,3 @@ def test_a_curve_s_file(tmp_path, text, said):
             load_study(tmp_path / "fit.toml", Fit)
     else:
         assert load_study(tmp_path / "fit.toml", Fit).curve[0].read.values.tolist() == [1, 2, 3, 4]
-
-
-@pytest.mark.parametrize(
-    ("head", "last", "said"),
-    [
-        ("time (s),slider_velocity (kg)", 0.1, "slider_velocity in kg: allowed is m/s"),
-        pytest.param(
-            "time (s),slider_speed (m/s)",
-            0.1,
-            "column 'slider_speed'.*allowed are channels",
-            marks=pytest.mark.long,
-        ),
-        pytest.param(
-            "time (s),slider_velocity (m/s)", 9.0, "and beyond the run", marks=pytest.mark.long
-        ),
-    ],
-)
-def test_a_curve_that_is_not_of_this_scene(tmp_path, head, last, said):
-    rows = [f"{t},0" for t in np.linspace(0.01, last, 5)]
-    (tmp_path / "c.csv").write_text("\n".join([head, *rows]))
-    curve = {"file": str(tmp_path / "c.csv"), "uncertainty": 0.1}
-    with pytest.raises(InputError, match=said):
-        fit(study(measured=[], curve=[curve]), tmp_path / "o", workers=1)

@@ -116,10 +116,3 @@ def test_the_stroke_is_twice_the_crank(tmp_path):
 def test_bad_input(changes, said):
     with pytest.raises(InputError, match=said):
         study(**changes)
-
-
-def test_values_have_no_distribution():
-    with pytest.raises(InputError, match=r"keys\.speed_rpm = \[100\.0\]: allowed in a file for"):
-        Sensitivity(
-            scene=SCENE, keys={"speed_rpm": [100.0]}, sensitivity={"quantities": ["stroke"]}
-        )

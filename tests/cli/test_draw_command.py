@@ -52,10 +52,7 @@ def test_single_keys_are_changed(drawn, tmp_path, capsys):
             "film.viscosity=0.1",
             ("press with --set: film.viscosity", "not drawn", "speed_rpm"),
         ),
-        ("press", "press.crank_radus=0.1", ("crank_radus", "crank_radius")),
-        ("press", "press.crank_radius=-1", ("crank_radius", "> 0")),
         ("four_bar", "joints.crank_pn.at=[0, 1]", ("joints.crank_pn", "crank_pin")),
-        ("four_bar", "joints.crank_pin.att=[0, 1]", ("att",)),
         ("press", "speed_rpm", ("key=value",)),
     ],
 )

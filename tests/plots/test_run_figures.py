@@ -64,16 +64,6 @@ def test_a_circle_is_round_a_large_path_is_whole_and_a_small_one_magnified_besid
     assert inset.get_xlim()[1] > 100.0
 
 
-def test_shaking_force_is_drawn_as_its_mean_over_a_millisecond(results):
-    """Without impacts that is the force itself, in kN."""
-    result = results["ideal"]
-    line = titled(press_figure(result))["Shaking force"].lines[0]
-    angle = np.degrees(result["crank_angle"])
-    force = np.interp(line.get_xdata(), angle, result["shaking_force"][:, 1])
-    middle = slice(20, -20)
-    assert line.get_ydata()[middle] == pytest.approx(1e-3 * force[middle], abs=0.1)
-
-
 def test_elastic_guides_show_tilt_and_the_stroke(results):
     result = results["elastic"]
     panels = titled(press_figure(result))

@@ -34,20 +34,6 @@ def ideal():
     )
 
 
-def test_orders_of_an_ideal_slider_are_those_of_its_closed_form(ideal):
-    one = spectra(ideal, ["slider_position"])[0]
-    assert one.revolutions == 2
-    # the travel over an even grid of angles, as the mechanism has it
-    angle, travel = ideal["crank_angle"], ideal["slider_position"]
-    even = angle[-1] - 2.0 * np.pi + 2.0 * np.pi * np.arange(256) / 256
-    series = 2.0 * np.abs(np.fft.rfft(np.interp(even, angle, travel))) / 256
-    for order in (1, 2):
-        place = int(np.argmin(np.abs(one.over_angle.frequency - order)))
-        assert one.over_angle.amplitude[place] == pytest.approx(series[order], rel=1e-3)
-    half = int(np.argmin(np.abs(one.over_angle.frequency - 0.5)))
-    assert one.over_angle.amplitude[half] < 1e-4 * series[1]
-
-
 def test_at_constant_speed_lines_over_frequency_are_those_over_orders(ideal):
     """Two harmonics of an ideal slider's acceleration, and nothing that is below the error."""
     one = spectra(ideal)[0]

@@ -17,20 +17,6 @@ from exu_press.verification.estimate import ORDERS
 NAME = "peak_acceleration.resolved"
 
 
-@pytest.mark.long
-def test_distribution_of_revolutions(monkeypatch):
-    """The dry slider-crank's peaks scatter from revolution to revolution; what adds up has none."""
-    scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, solver={"tolerance": 2e-2})
-    names = [NAME, "peak_velocity", "energy.dissipated", "strokes.range"]
-    monkeypatch.setattr("exu_press.verification.distribution.AT_A_TIME", 3)
-    found = distributions(scene, names, tolerance=1e-9, minimum=2, maximum=4)
-    assert found.keys() == {NAME, "peak_velocity"}
-    assert found[NAME].revolutions == 4
-    (low, *_), (median, *bounds), (high, *_) = found[NAME].percentiles.values()
-    assert low <= median <= high
-    assert bounds[0] <= median <= bounds[1]
-
-
 @pytest.mark.parametrize("count", [LEAST_REVOLUTIONS, 100])
 @pytest.mark.parametrize("draw", ["normal", "exponential"])
 def test_bounds_of_percentiles_have_their_confidence(count, draw):

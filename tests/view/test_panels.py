@@ -44,44 +44,30 @@ def test_dead_centres_are_drawn_in_front_of_bodies_on_which_they_may_lie(runs, a
     assert in_front == ["TDC", "BDC"]
 
 
-def test_the_journal_stands_at_its_eccentricity(runs, animation):
+def test_journals_and_arrows_are_those_of_the_run_and_no_impact_is_lost(runs, animation):
+    """The arrow is the largest force since the last frame, however few the frames are."""
     result, shown = runs["press"], instants(runs["press"], frames=6)
     picture = animation(result, shown)
-    for panel, name in zip(panels(picture, JointPanel), ("crank_pin", "ball_left"), strict=True):
-        for frame in range(6):
-            picture.show(frame)
+    texts, lengths = [], []
+    for frame in range(6):
+        picture.show(frame)
+        for panel, name in zip(
+            panels(picture, JointPanel), ("crank_pin", "ball_left"), strict=True
+        ):
             ratio = result[f"{name}_eccentricity"][shown.step[frame], :2] / 1e-4
             assert panel._journal.center == pytest.approx(CLEARANCE * ratio)
-
-
-def test_no_impact_is_lost_between_frames(runs, animation):
-    """The largest force of the run is shown, however few the frames are."""
-    picture = animation(runs["press"], instants(runs["press"], frames=4))
-    peak = np.linalg.norm(runs["press"]["ball_left_force"], axis=1).max()
-    ball = panels(picture, JointPanel)[1]
-    texts, lengths = [], []
-    for frame in range(4):
-        picture.show(frame)
-        texts.append(ball._words.get_text())
-        tail, tip = ball._arrow._posA_posB
-        lengths.append(float(np.linalg.norm(np.subtract(tip, tail))))
+            forces = result[f"{name}_force"][shown.steps_since_last(frame)][:, :2]
+            largest = forces[np.argmax(np.linalg.norm(forces, axis=1))]
+            tail, tip = (np.array(end) for end in panel._arrow._posA_posB)
+            length = float(np.linalg.norm(tip - tail))
+            if frame and panel._arrow.get_visible():
+                along = largest / np.linalg.norm(largest)
+                assert (tip - tail) / length == pytest.approx(along, abs=1e-6)
+        texts.append(panel._words.get_text())
+        lengths.append(length)
+    peak = np.linalg.norm(result["ball_left_force"], axis=1).max()
     assert any(f"F = {peak / 1e3:.3g} kN" in text for text in texts)
     assert max(lengths) == pytest.approx(0.9, rel=1e-6)
-
-
-def test_the_arrow_points_along_the_force(runs, animation):
-    result, shown = runs["slider_crank"], instants(runs["slider_crank"], frames=9)
-    picture = animation(result, shown)
-    (panel,) = panels(picture, JointPanel)
-    for frame in range(1, 9):
-        picture.show(frame)
-        since = shown.steps_since_last(frame)
-        forces = result["crank_pin_force"][since]
-        largest = forces[np.argmax(np.linalg.norm(forces, axis=1))]
-        tail, tip = (np.array(end) for end in panel._arrow._posA_posB)
-        if panel._arrow.get_visible():
-            along = (tip - tail) / np.linalg.norm(tip - tail)
-            assert along == pytest.approx(largest / np.linalg.norm(largest), abs=1e-6)
 
 
 def test_every_step_is_seen_exactly_once(runs):

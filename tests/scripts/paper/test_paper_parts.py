@@ -1,11 +1,12 @@
-"""Parts of scripts/paper: figures between bounds, verdicts, and the published results as data."""
+"""Parts of scripts/paper: readings, figures between bounds, verdicts, and the published results."""
 
 import math
 
+import numpy as np
 import pytest
 
 from paper.published import published
-from paper.readings import MODELS
+from paper.readings import MODELS, permanent_contact
 from paper.runs import DAMPINGS, paper_runs
 from paper.table import UNITS
 from paper.value import Value, distance, product
@@ -96,3 +97,10 @@ def test_every_number_and_trend_has_its_runs():
     assert {trend.stated for trend in paper.trends} <= TRENDS.keys()
     measures = {entry.measure for entry in (*paper.numbers, *paper.trends)}
     assert measures <= UNITS.keys() and MODELS[1] == "mean_1ms"
+
+
+@pytest.mark.parametrize(("length", "lasting"), [(0.9e-3, False), (1.1e-3, True)])
+def test_a_touch_of_more_than_a_millisecond_is_permanent_contact(length, lasting):
+    time = np.linspace(0.0, 0.1, 10001)
+    depth = np.where((time > 0.05) & (time < 0.05 + length), 1e-6, -1e-6)
+    assert permanent_contact(time, depth) == pytest.approx(length / 0.1 * lasting, rel=0.05)

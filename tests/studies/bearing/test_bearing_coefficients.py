@@ -48,22 +48,6 @@ def test_ocvirks_bearing(eps):
 
 
 @pytest.mark.parametrize(
-    ("ratio", "sommerfeld", "eps", "attitude", "flow"),
-    [(1.0, 0.121, 0.6, 50.58, 4.33 * 0.680), (0.5, 0.319, 0.6, 48.14, 4.85 * 0.730)],
-)
-def test_raimondi_and_boyd_1958(ratio, sommerfeld, eps, attitude, flow):
-    """S and side flow Q_s / (R c N L) of bearings without grooves."""
-    length = 2.0 * RADIUS * ratio
-    per_second = SPEED / 60.0
-    pressure = VISCOSITY * per_second * (RADIUS / CLEARANCE) ** 2 / sommerfeld
-    bearing = coefficients("finite", (0.0, -2.0 * RADIUS * length * pressure), length=length)
-    assert bearing.eccentricity_ratio == pytest.approx(eps, abs=0.004)
-    assert math.degrees(bearing.attitude_angle) == pytest.approx(attitude, abs=0.6)
-    size = RADIUS * CLEARANCE * per_second * length
-    assert bearing.side_flow == pytest.approx(flow * size, rel=0.015)
-
-
-@pytest.mark.parametrize(
     ("law", "film"),
     [
         ("pinkus", {}),

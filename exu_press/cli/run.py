@@ -4,7 +4,7 @@ import argparse
 import sys
 import textwrap
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, nullcontext
 from dataclasses import replace
 from functools import partial
 from itertools import chain
@@ -21,7 +21,6 @@ from exu_press.errors import InputError
 from exu_press.files.digests import file_digest
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import (
-    PICTURES,
     output_directory,
     remove_partial,
     remove_pictures,
@@ -49,6 +48,8 @@ from exu_press.verification.within import accuracy_lines, find_tolerance
 from fe_models.processes import performed_beside
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
+
+BeginToDraw = Callable[[Result | Scene, Path], Callable[[], list[Path]]]
 
 RESULT = "run.nc"
 
@@ -152,14 +153,13 @@ def _shared_keys(scene: Scene, previous: Scene) -> Iterator[tuple[str, object, o
 
 def execute(options: argparse.Namespace) -> int:
     """Run the scene; return 0, or 3 if it stopped early or was not resolved."""
-    scene = scene_of(options)
-    start = _start_of(options, scene)
-    if options.figure is not None and options.within is None:
-        raise InputError(f"--figure {options.figure}: only together with --within")
-    with lock_directory(output_directory(directory_of(options, options.scene))) as directory:
-        if options.no_pictures:
-            return _run(scene, start, directory, options, lambda _: list)
-        with _drawing(scene, directory) as begin_to_draw:
+    with nullcontext(lambda *_: list) if options.no_pictures else _drawing() as begin_to_draw:
+        scene = scene_of(options)
+        start = _start_of(options, scene)
+        if options.figure is not None and options.within is None:
+            raise InputError(f"--figure {options.figure}: only together with --within")
+        with lock_directory(output_directory(directory_of(options, options.scene))) as directory:
+            begin_to_draw(scene, directory)
             return _run(scene, start, directory, options, begin_to_draw)
 
 
@@ -219,40 +219,39 @@ def _run_refined(
     return result, interrupted, remark
 
 
-def _draw(scene: Scene, directory: Path, result: Result | None) -> list[Path]:
-    """Draw a run's pictures; without one, load what draws them, and find what all of them show."""
+def _draw(run: Result | Scene | None, directory: Path) -> list[Path]:
+    """Draw a run; of its scene, find what all pictures show; of nothing, load what draws them."""
     from exu_press.plots import save_pictures
 
-    if result is not None:
-        return save_pictures(result, directory)
-    _ = mechanism_of(scene).dead_centres  # kept
+    if isinstance(run, Result):
+        return save_pictures(run, directory)
+    _ = run and mechanism_of(run).dead_centres  # kept
     return []
 
 
 @contextmanager
-def _drawing(
-    scene: Scene, directory: Path
-) -> Iterator[Callable[[Result], Callable[[], list[Path]]]]:
-    """Yield what begins to draw a run's pictures, and returns what returns their files.
+def _drawing() -> Iterator[BeginToDraw]:
+    """Yield what begins to draw a run, or its scene, and returns what returns all files so far.
 
-    A process beside the run loads what draws them meanwhile. A run on the disk is drawn here, as in
-    another process it would be in memory. No half picture is left of a process that is killed.
+    A process beside this one draws, which loads what draws from now on. A run on the disk is drawn
+    here, as elsewhere it would be in memory. No half picture is left of a process that is killed.
     """
-    draw = partial(_draw, scene, directory)
+    directories: set[Path] = set()
     try:
-        with performed_beside(draw) as begin:
-            loaded = begin(None)
+        with performed_beside(_draw) as begin:
+            begun = [begin(None, Path())]
 
-            def begin_to_draw(result: Result) -> Callable[[], list[Path]]:
-                if is_on_disk(result.channels):
-                    return partial(draw, result)
-                written = begin(result)
-                return lambda: loaded() + written()
+            def begin_to_draw(run: Result | Scene, directory: Path) -> Callable[[], list[Path]]:
+                directories.add(directory)
+                if isinstance(run, Result) and is_on_disk(run.channels):
+                    return partial(_draw, run, directory)
+                begun.append(begin(run, directory))
+                return lambda: [path for written in begun for path in written()]
 
             yield begin_to_draw
     finally:
-        for name in PICTURES["run"]:
-            remove_partial(directory / f"{name}{picture_format().ending}")
+        for directory in directories:
+            remove_partial(directory / f"*{picture_format().ending}")
 
 
 def _run(
@@ -260,7 +259,7 @@ def _run(
     start: State | None,
     directory: Path,
     options: argparse.Namespace,
-    begin_to_draw: Callable[[Result], Callable[[], list[Path]]],
+    begin_to_draw: BeginToDraw,
 ) -> int:
     remarks: list[str] = []
     interrupted = False
@@ -287,7 +286,7 @@ def _run(
         with postponed_interrupt():
             summary = result.summary()
             remove_pictures(directory, "run")
-            drawn = begin_to_draw(result)
+            drawn = begin_to_draw(result, directory)
             result.save(written[0])
             stack.callback(remove, unfinished)
             write_json(written[1], summary)

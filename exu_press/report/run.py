@@ -28,11 +28,12 @@ from exu_press.quantities.value import values_of
 from exu_press.report.html import details, page, paragraph, stills, table, warnings
 from exu_press.report.page_file import ALL, Span
 from exu_press.result import Result
+from exu_press.result.channels import is_on_disk
 from exu_press.result.windows import interval
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import engineering_values, keys_of, used_assumptions
 from exu_press.scene.provenance import Provenance, rows_of
-from fe_models.processes import computed_beside
+from fe_models.processes import computed_beside, performed_beside
 
 __all__ = [
     "changed_keys",
@@ -89,23 +90,27 @@ def run_report(result: Result, source: str) -> str:
 def file_report(file: Path, span: Span = ALL) -> str:
     """Return the page of a stored run, with the pictures beside it if these are the run's.
 
-    What draws pictures is loaded, and draws, beside the rest. It reads the run once more: kinds of
-    the user's own cannot be passed between two processes.
+    What draws them is loaded beside the reading, and draws beside the rest. It reads the run again
+    that would be in memory twice, or has kinds whose code is not loaded: these are not passed on.
 
     Args:
         span: begin and end of its curves, s; None: those of the record.
     """
-    with computed_beside(partial(_pictures, file)) as pictures:
+    with performed_beside(_pictures) as begin:
+        loaded = begin(None)
+        result = Result.load(file)
+        reads = is_on_disk(result.channels) or any(kind.module for _, kind in result.scene.kinds())
+        drawn = begin(file if reads else result, file.parent)
         name = f"{file.resolve().parent.name}/{file.name}"
-        return _page(Result.load(file), name, span, pictures)
+        return _page(result, name, span, lambda: loaded() + drawn())
 
 
-def _pictures(run: Result | Path) -> str:
-    from exu_press.report.pictures import run_pictures  # loads matplotlib
+def _pictures(run: Result | Path | None, directory: Path | None = None) -> str:
+    """Return the pictures of a run or its file; of nothing, load what draws them."""
+    from exu_press.report.pictures import run_pictures
 
-    if isinstance(run, Result):
-        return run_pictures(run)
-    return run_pictures(Result.load(run), run.parent)
+    run = Result.load(run) if isinstance(run, Path) else run
+    return "" if run is None else run_pictures(run, directory)
 
 
 def _page(result: Result, source: str, span: Span, pictures: Callable[[], str]) -> str:

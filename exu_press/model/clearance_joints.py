@@ -9,10 +9,9 @@ from exu_press.laws.friction import no_friction
 from exu_press.mechanism import Joint
 from exu_press.model.system import System
 from exu_press.scene import LubricatedJoint, Scene
-from exu_press.scene.custom import CustomJoint
 from exu_press.scene.film import BallFilm
+from exu_press.scene.joint import CustomJoint, TouchingJoint, unworn
 from exu_press.scene.joint import Joint as SceneJoint
-from exu_press.scene.joint import TouchingJoint, unworn
 
 if TYPE_CHECKING:
     from exu_press.joints.worn import WornSurfaces

@@ -9,12 +9,11 @@ if TYPE_CHECKING:
     from exu_press.scene.blanking_load import BlankingLoad
     from exu_press.scene.bodies import Face, Flexible, flexible_press
     from exu_press.scene.contact import ContactDamping
-    from exu_press.scene.custom import CustomJoint
     from exu_press.scene.file import parse_assignment
     from exu_press.scene.film import FilmLaw
     from exu_press.scene.friction import FrictionLaw
     from exu_press.scene.guide import ElasticGuide
-    from exu_press.scene.joint import DryJoint, IdealJoint, LubricatedJoint
+    from exu_press.scene.joint import CustomJoint, DryJoint, IdealJoint, LubricatedJoint
     from exu_press.scene.joints import Joints
     from exu_press.scene.load import CustomLoad
     from exu_press.scene.motor import Motor

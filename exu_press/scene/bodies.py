@@ -293,12 +293,7 @@ def faces_given(table: Any) -> dict[str, tuple[Face, ...]]:
     """
     if not isinstance(table, Mapping):
         raise InputError(f"faces = {table!r}: allowed is a table of joints' names")
-    faces = {
-        name: patch_given(f"faces.{name}", value)
-        if name == GUIDE_FACE
-        else _faces(f"faces.{name}", value, OF_ANY)
-        for name, value in table.items()
-    }
+    faces = {name: _faces(f"faces.{name}", value, OF_ANY) for name, value in table.items()}
     driven = faces.get(DRIVE_FACE)
     if driven is not None and (len(driven) != 1 or not driven[0].name):
         raise InputError(f"faces.{DRIVE_FACE} = {table[DRIVE_FACE]!r}: allowed is a face's name")

@@ -1,7 +1,8 @@
-"""The kind of one joint, ideal, dry or lubricated, with its laws."""
+"""The kind of one joint, ideal, dry, lubricated or a user's own, with its laws."""
 
 import dataclasses
-from collections.abc import Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, cast
 
@@ -12,6 +13,7 @@ from exu_press.schema.registry import Registry
 from exu_press.schema.table import Table, key_values, missing_keys, plain
 
 if TYPE_CHECKING:
+    from exu_press.joints.interface import InterfaceLaw
     from exu_press.laws.contact.damping import NormalContact
     from exu_press.laws.film.contract import FilmLaw
     from exu_press.scene.contact import BallContact, JournalContact
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = [
     "JOINT_KINDS",
     "SIZES",
+    "CustomJoint",
     "DryJoint",
     "IdealJoint",
     "Joint",
@@ -41,7 +44,7 @@ JOINT_KINDS = Registry(
         "dry": "scene.joint:DryJoint",
         "lubricated": "scene.joint:LubricatedJoint",
     },
-    base="scene.custom:CustomJoint",
+    base="scene.joint:CustomJoint",
 )
 
 
@@ -201,6 +204,35 @@ class LubricatedJoint(TouchingJoint):
     def film_scale(self) -> float:
         """Scale P of its film's force, N s."""
         return self.film.scale(self.radius, self.clearance)
+
+
+@dataclass(frozen=True)
+class CustomJoint(Joint, ABC):
+    """Base of a joint kind of your own; `kind = "my_module:MyClass"` names it in a scene.
+
+    The derived dataclass declares its keys by `exu_press.schema.checks.key`. A key whose default is
+    None has to be given.
+    """
+
+    clearance: float = key(None, "eccentricity that others are compared with", "m", above=0)
+
+    @abstractmethod
+    def interfaces(self) -> Sequence["InterfaceLaw"]:
+        """Return the interface laws that act in parallel; the first has the joint's clearance."""
+
+    def missing_keys(self, path: str) -> list[Need]:
+        """Return which of its keys without default are missing."""
+        keys = [field.name for field in dataclasses.fields(self) if self.resolved]
+        return missing_keys(path, self, keys, "", "[{path}]")
+
+    def check_laws(self) -> None:
+        """Raise InputError unless it has interface laws."""
+        laws = self.interfaces()
+        if not isinstance(laws, list | tuple) or not laws:
+            raise InputError(
+                f"{self.kind}.interfaces() returns {laws!r:.80}: allowed is a list of one "
+                "interface law or more"
+            )
 
 
 Round = TypeVar("Round", bound=Joint)

@@ -13,8 +13,7 @@ from exu_press.errors import (
     error_prefix,
 )
 from exu_press.mechanism import Mechanism
-from exu_press.scene.custom import CustomJoint
-from exu_press.scene.joint import JOINT_KINDS, SIZES, IdealJoint, Joint
+from exu_press.scene.joint import JOINT_KINDS, SIZES, CustomJoint, IdealJoint, Joint
 from exu_press.scene.usage import LAWS, LawKeys, law_kind
 from exu_press.schema.checks import nearest, refuse_unknown
 from exu_press.schema.table import (

@@ -164,11 +164,8 @@ class Motor(Table):
     @property
     def ends_after(self) -> float | None:
         """For which the run goes on when the press stands after its last stop, s."""
-        return (
-            None
-            if self.clutch is None or self.clutch.stop is None
-            else (self.clutch.stop.ends_after)
-        )
+        stop = None if self.clutch is None else self.clutch.stop
+        return None if stop is None else stop.ends_after
 
     @property
     def stands(self) -> bool:

@@ -9,7 +9,7 @@ from user_kinds import forget
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
-from exu_press.scene.custom import CustomJoint
+from exu_press.scene.joint import CustomJoint
 
 SCENE = """
 mechanism = "slider_crank"
@@ -100,7 +100,7 @@ def test_a_result_whose_scene_is_forged_runs_nothing(mark, monkeypatch):
     """Whatever it names, and in whatever form; no attribute of a module is asked for either."""
     result = simulate(Scene(mechanism="slider_crank", joints={}, revolutions=0.01))
     honest = result.scene.to_dict()
-    ours = ("exu_press.scene.custom:CustomJoint", "exu_press.scene:CustomJoint")
+    ours = ("exu_press.scene.joint:CustomJoint", "exu_press.scene:CustomJoint")
     for kind in ("own_kinds:Bushing", "this:x", "os:system", "exu_press:cell", "own_kinds", *ours):
         for joints in ({"crank_pin": kind}, {"crank_pin": {"kind": kind, "clearance": "x"}}):
             with pytest.raises(InputError):

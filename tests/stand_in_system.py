@@ -70,10 +70,29 @@ def settings(end=1.0, steps=100, period=None, **changes):
     return chosen
 
 
-def oscillator(*, stiffness=100.0, damping=0.0, start=1.0, force=None, kind=PLACE, **sensor):
+def planar_body(mbs, mass, inertia, place=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0), **node):
+    """Add a body at x, y and angle; return its number and its node's."""
+    node = items.NodeRigidBody2D(referenceCoordinates=place, initialVelocities=velocity, **node)
+    number = int(mbs.AddNode(node))
+    body = items.ObjectRigidBody2D(nodeNumber=number, mass=mass, inertia=inertia)
+    return mbs.AddObject(body), number
+
+
+def recorded(mbs, node, output):
+    """Add a sensor in memory of what exu.OutputVariableType calls `output`."""
+    kind = getattr(exu.OutputVariableType, output)
+    return mbs.AddSensor(
+        items.SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=kind)
+    )
+
+
+def oscillator(
+    *, stiffness=100.0, damping=0.0, start=1.0, speed=0.0, force=None, kind=PLACE, **sensor
+):
     """Return a mass of 1 kg on a spring to the ground, its spring and a sensor of its own."""
     mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], initialCoordinates=[start]))
+    initial = {"initialCoordinates": [start], "initialVelocities": [speed]}
+    node = mbs.AddNode(items.Node1D(referenceCoordinates=[0.0], **initial))
     mbs.AddObject(items.ObjectMass1D(nodeNumber=node, mass=1.0))
     ends = [
         mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=number, coordinate=0))
@@ -104,12 +123,8 @@ def pendulum(bearing, torque=None, speed=0.0):
     """
     mbs = exu.SystemContainer().AddSystem()
     ground = mbs.AddObject(items.ObjectGround())
-    node = mbs.AddNode(
-        items.NodeRigidBody2D(
-            referenceCoordinates=[0.0, -0.5, 0.0], initialVelocities=[0.5 * speed, 0.0, speed]
-        )
-    )
-    body = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=10.0, inertia=10.0 / 12.0))
+    place, velocity = [0.0, -0.5, 0.0], [0.5 * speed, 0.0, speed]
+    body, node = planar_body(mbs, 10.0, 10.0 / 12.0, place, velocity)
     mass = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body))
     mbs.AddLoad(items.LoadMassProportional(markerNumber=mass, loadVector=[0.0, -9.81, 0.0]))
     ends = (body, (0.0, 0.5)), (ground, (0.0, 0.0))

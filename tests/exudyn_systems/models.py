@@ -4,7 +4,7 @@ import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
 import stand_in_system
-from stand_in_system import PLACE
+from stand_in_system import planar_body
 
 exu.config.suppressWarnings = True
 
@@ -12,12 +12,6 @@ exu.config.suppressWarnings = True
 def settings(end, steps, *, period=0.01):
     """Return settings of a run that writes no file."""
     return stand_in_system.settings(end, steps, period)
-
-
-def coordinate_sensor(mbs, node, kind=PLACE):
-    """Add a sensor of a node's coordinates, or of their rates."""
-    sensor = {"outputVariableType": kind, "storeInternal": True}
-    return mbs.AddSensor(items.SensorNode(nodeNumber=node, **sensor))
 
 
 def rotor():
@@ -28,14 +22,9 @@ def rotor():
     mbs = exu.SystemContainer().AddSystem()
     eccentricity, mass, stiffness = 1e-2, 1.6, 4000.0
     critical = np.sqrt(stiffness / mass)
-    node = mbs.AddNode(
-        items.NodeRigidBody2D(
-            referenceCoordinates=[0.0, eccentricity, 0.0],
-            initialVelocities=[0.0, 0.0, 0.5 * critical],
-        )
-    )
-    disc = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=mass, inertia=0.4))
-    ground, _centre = mbs.AddObject(items.ObjectGround()), [0.0, -eccentricity, 0.0]
+    spin = [0.0, 0.0, 0.5 * critical]
+    disc, node = planar_body(mbs, mass, 0.4, [0.0, eccentricity, 0.0], spin)
+    ground = mbs.AddObject(items.ObjectGround())
     markers = [
         mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=ground)),
         mbs.AddMarker(
@@ -56,19 +45,9 @@ def double_pendulum(velocity=0.0):
     mbs = exu.SystemContainer().AddSystem()
     ground = mbs.AddObject(items.ObjectGround())
     before, at = ground, [0.0, 0.0, 0.0]
-    nodes = []
     for number in range(2):
-        nodes.append(
-            mbs.AddNode(
-                items.NodeRigidBody2D(
-                    referenceCoordinates=[0.05, 0.5 + number, 0.5 * np.pi + 0.1 * number],
-                    initialVelocities=[0.0, 0.0, velocity],
-                )
-            )
-        )
-        body = mbs.AddObject(
-            items.ObjectRigidBody2D(nodeNumber=nodes[-1], mass=1.0, inertia=1.0 / 12.0)
-        )
+        pose = [0.05, 0.5 + number, 0.5 * np.pi + 0.1 * number]
+        body, _ = planar_body(mbs, 1.0, 1.0 / 12.0, pose, [0.0, 0.0, velocity])
         mass = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body))
         mbs.AddLoad(items.LoadMassProportional(markerNumber=mass, loadVector=[0.0, -9.81, 0.0]))
         markers = [

@@ -4,8 +4,8 @@ import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
 import pytest
-from exudyn_systems.models import coordinate_sensor, rotor, settings
-from stand_in_system import VELOCITY, oscillator
+from exudyn_systems.models import rotor, settings
+from stand_in_system import oscillator, recorded
 
 from exu_press import SolverStatus
 from exu_press.exudyn_systems import solve_dynamic
@@ -45,12 +45,12 @@ def test_a_rotor_whose_steps_span_periods_does_not_deceive():
     Its centre answers the force of its unbalance and of its own vibration, each with a closed form.
     """
     mbs, node = rotor()
-    sensor = coordinate_sensor(mbs, node)
+    sensor = recorded(mbs, node, "Coordinates")
     mbs.Assemble()
     outcome = solve_dynamic(mbs, settings(5.0, 50))
     assert outcome.status is SolverStatus.COMPLETED
     finer, node = rotor()
-    sensor = coordinate_sensor(finer, node)
+    sensor = recorded(finer, node, "Coordinates")
     finer.Assemble()
     finer.SolveDynamic(settings(5.0, 4 * outcome.steps))
     both = [rows_of(one, sensor) for one in (mbs, finer)]
@@ -82,7 +82,7 @@ def test_what_rounding_alone_moves_counts_for_nothing():
         return [5000.0 * (u[1] - u[0] - q[0]) / 180.0 + 1e-9 * np.sin(1e7 * t)]
 
     mbs.AddObject(items.ObjectGenericODE1(nodeNumbers=[inner], rhsUserFunction=rate))
-    sensor = coordinate_sensor(mbs, nodes[0])
+    sensor = recorded(mbs, nodes[0], "Coordinates")
     mbs.Assemble()
     for tolerance in (1e-2, 1e-3):
         outcome = solve_dynamic(mbs, settings(0.4, 100), tolerance=tolerance)
@@ -102,7 +102,7 @@ def reference(time):
 
 def servo(steps):
     mbs, spring, _ = oscillator(stiffness=4e3, damping=120.0, start=0.0)
-    sensor = coordinate_sensor(mbs, 0, VELOCITY)
+    sensor = recorded(mbs, 0, "Coordinates_t")
     mbs.Assemble()
 
     def sample(mbs, time):

@@ -2,9 +2,9 @@
 
 import exudyn as exu
 import pytest
-from exudyn.itemInterface import NodeRigidBody2D, ObjectGround, ObjectRigidBody2D
+from exudyn.itemInterface import ObjectGround
 from exudyn_systems.models import settings
-from stand_in_system import oscillator
+from stand_in_system import oscillator, planar_body
 
 from exu_press import InputError, SolverStatus, add_dry_revolute, solve_dynamic
 from exu_press.exudyn_systems.solve import RefinedOutcome
@@ -16,8 +16,7 @@ def pendulum_with_clearance():
     """Return a bar on a dry pin, at rest in its bearing's middle."""
     mbs = exu.SystemContainer().AddSystem()
     ground = mbs.AddObject(ObjectGround())
-    node = mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[0.5, 0.0, 0.0]))
-    body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=1.0, inertia=0.1))
+    body, _ = planar_body(mbs, 1.0, 0.1, [0.5, 0.0, 0.0])
     add_dry_revolute(
         mbs,
         (ground, (0.0, 0.0)),

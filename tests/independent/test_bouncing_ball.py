@@ -9,19 +9,10 @@ period.
 
 import math
 
-import exudyn as exu
 import numpy as np
 import pytest
-from exudyn.itemInterface import (
-    MarkerNodeCoordinate,
-    Node1D,
-    NodePointGround,
-    ObjectConnectorCoordinateSpringDamper,
-    ObjectMass1D,
-    SensorNode,
-)
 from scipy.optimize import brentq
-from stand_in_system import settings
+from stand_in_system import oscillator, recorded, settings
 
 from exu_press import solve_dynamic
 from exu_press.studies.attractor import period_of
@@ -63,30 +54,9 @@ def section(gamma, e, periods):
         push = CONTACT**2 * depth + 2.0 * ratio * CONTACT * (rate - speed)
         return GRAVITY - (push if depth > 0.0 and push > 0.0 else 0.0)
 
-    system = exu.SystemContainer()
-    mbs = system.AddSystem()
-    height, _ = table(0.0)
-    ball = mbs.AddNode(
-        Node1D(
-            referenceCoordinates=[0.0],
-            initialCoordinates=[height],
-            initialVelocities=[0.5 * GRAVITY * PERIOD],
-        )
-    )
-    mbs.AddObject(ObjectMass1D(mass=1.0, nodeNumber=ball))
-    ground = mbs.AddNode(NodePointGround())
-    markers = [
-        mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=n, coordinate=0)) for n in (ground, ball)
-    ]
-    mbs.AddObject(
-        ObjectConnectorCoordinateSpringDamper(
-            markerNumbers=markers, springForceUserFunction=contact
-        )
-    )
-    sensors = [
-        mbs.AddSensor(SensorNode(nodeNumber=ball, outputVariableType=kind, storeInternal=True))
-        for kind in (exu.OutputVariableType.Coordinates, exu.OutputVariableType.Coordinates_t)
-    ]
+    height, rise = table(0.0)[0], 0.5 * GRAVITY * PERIOD
+    mbs, _, place = oscillator(start=height, speed=rise, force=contact)
+    speed = recorded(mbs, 0, "Coordinates_t")
     mbs.Assemble()
     chosen = settings(periods * PERIOD, 20 * periods, period=0.0, minimumStepSize=1e-10)
 
@@ -95,12 +65,11 @@ def section(gamma, e, periods):
         return (number + 0.5) * PERIOD
 
     solve_dynamic(mbs, chosen, tolerance=1e-4, method="adaptive", next_corner=middle).check()
-    time, places = mbs.GetSensorStoredData(sensors[0]).T
-    _, speeds = mbs.GetSensorStoredData(sensors[1]).T
+    time, places = mbs.GetSensorStoredData(place).T
+    _, speeds = mbs.GetSensorStoredData(speed).T
     wanted = (np.arange(periods) + 0.5) * PERIOD
     rows = np.searchsorted(time, wanted - 1e-9)
     assert time[rows] == pytest.approx(wanted, abs=1e-9)
-    system.Reset()
     return np.stack([places[rows] / amplitude, speeds[rows] / (amplitude * OMEGA)], axis=1)
 
 

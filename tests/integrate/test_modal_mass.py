@@ -6,7 +6,7 @@ import exudyn as exu
 import exudyn.utilities as items
 import numpy as np
 import pytest
-from stand_in_system import settings
+from stand_in_system import recorded, settings
 
 from exu_press.integrate import SolverStatus, SolverTuning, solve_dynamic
 from exu_press.integrate.modal_mass import follow_modes
@@ -57,13 +57,7 @@ def vibrating(basis, followed=True):
     )
     if followed:
         follow_modes(mbs)
-    sensor = mbs.AddSensor(
-        items.SensorNode(
-            nodeNumber=modes,
-            storeInternal=True,
-            outputVariableType=exu.OutputVariableType.Coordinates,
-        )
-    )
+    sensor = recorded(mbs, modes, "Coordinates")
     mbs.Assemble()
     return mbs, sensor
 

@@ -12,7 +12,7 @@ import exudyn.utilities as items
 import numpy as np
 import pytest
 from patched import PATCHED
-from stand_in_system import mass_on_spring, settings
+from stand_in_system import mass_on_spring, planar_body, settings
 
 from exu_press import (
     InputError,
@@ -33,9 +33,7 @@ def pendulum(length=1.0, mass=1.0, joint="ideal", gravity=9.81, force=1.0):
     """A rod let go while horizontal, its centre of mass a length from the joint."""
     mbs = exu.SystemContainer().AddSystem()
     ground = mbs.AddObject(items.ObjectGround())
-    node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[length, 0.0, 0.0]))
-    inertia = mass * length**2 / 12.0
-    rod = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=mass, inertia=inertia))
+    rod, node = planar_body(mbs, mass, mass * length**2 / 12.0, [length, 0.0, 0.0])
     ends = (rod, (-length, 0.0)), (ground, (0.0, 0.0))
     size = {"radius": 0.02 * length, "clearance": 2e-4 * length}
     if joint == "ideal":
@@ -83,8 +81,7 @@ def test_a_watch_and_a_crane_behave_alike(joint):
 def triangle(mbs):
     """A bar between two pins on the ground, which hold its length twice."""
     ground = mbs.AddObject(items.ObjectGround())
-    node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[0.5, 0.0, 0.0]))
-    rod = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=1.0, inertia=0.1))
+    rod, _ = planar_body(mbs, 1.0, 0.1, [0.5, 0.0, 0.0])
     for side in (0.0, 1.0):
         ends = [
             mbs.AddMarker(items.MarkerBodyPosition(bodyNumber=body, localPosition=[x, 0.0, 0.0]))
@@ -111,8 +108,7 @@ def unassembled():
 def dry_journal(eccentricity):
     mbs = exu.SystemContainer().AddSystem()
     ground = mbs.AddObject(items.ObjectGround())
-    node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[1.0 + eccentricity, 0.0, 0.0]))
-    rod = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=1.0, inertia=0.1))
+    rod, _ = planar_body(mbs, 1.0, 0.1, [1.0 + eccentricity, 0.0, 0.0])
     laws = {"contact": hunt_crossley(hertz(1e10), restitution=0.5), "friction": no_friction()}
     ends = (rod, (-1.0, 0.0)), (ground, (0.0, 0.0))
     add_dry_revolute(mbs, *ends, radius=0.02, clearance=1e-4, **laws)

@@ -1,7 +1,6 @@
-"""Solvers on a system of a test's, without files and without a word; its bodies."""
+"""Solvers on a system of a test's, without files and without a word."""
 
 import exudyn as exu
-from exudyn.itemInterface import NodeRigidBody2D, ObjectRigidBody2D, SensorNode
 from stand_in_system import settings
 
 from exu_press.integrate import SolverStatus, solve_dynamic
@@ -27,17 +26,3 @@ def completed(mbs, end, steps=200, tolerance=1e-4):
     """Solve an assembled system to a tolerance, up to its end."""
     outcome = solve_dynamic(mbs, settings(end, steps, period=0.0), tolerance=tolerance)
     assert outcome.status is SolverStatus.COMPLETED, outcome.reason
-
-
-def planar_body(mbs, mass, inertia, place=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0), **node):
-    """Add a body at x, y and angle; return its number and its node's."""
-    node = NodeRigidBody2D(referenceCoordinates=place, initialVelocities=velocity, **node)
-    number = int(mbs.AddNode(node))
-    body = ObjectRigidBody2D(nodeNumber=number, mass=mass, inertia=inertia)
-    return mbs.AddObject(body), number
-
-
-def recorded(mbs, node, output):
-    """Add a sensor in memory of what exu.OutputVariableType calls `output`."""
-    kind = getattr(exu.OutputVariableType, output)
-    return mbs.AddSensor(SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=kind))

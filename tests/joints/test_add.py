@@ -5,13 +5,11 @@ import re
 import exudyn as exu
 import pytest
 from exudyn.itemInterface import (
-    NodeRigidBody2D,
     NodeRigidBodyRxyz,
     ObjectGround,
     ObjectRigidBody,
-    ObjectRigidBody2D,
 )
-from stand_in_system import settings
+from stand_in_system import planar_body, settings
 
 from exu_press import (
     InputError,
@@ -45,9 +43,8 @@ def system():
     container = exu.SystemContainer()
     mbs = container.AddSystem()
     ground = int(mbs.AddObject(ObjectGround()))
-    node = mbs.AddNode(NodeRigidBody2D())
-    body = int(mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=1.0, inertia=1.0)))
-    return container, mbs, (body, (0.0, 0.0)), (ground, (0.0, 0.0))
+    body, _ = planar_body(mbs, 1.0, 1.0)
+    return container, mbs, (int(body), (0.0, 0.0)), (ground, (0.0, 0.0))
 
 
 @pytest.mark.parametrize(

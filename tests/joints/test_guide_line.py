@@ -13,7 +13,8 @@ from exudyn.itemInterface import (
     NodePointGround,
     ObjectConnectorCoordinateVector,
 )
-from solving import completed, planar_body, recorded
+from solving import completed
+from stand_in_system import planar_body, recorded
 
 from exu_press.joints.ends import BodyEnd
 from exu_press.joints.guide_friction import (

@@ -10,10 +10,9 @@ from exudyn.itemInterface import (
     LoadForceVector,
     LoadTorqueVector,
     MarkerBodyRigid,
-    NodeRigidBody2D,
-    ObjectRigidBody2D,
 )
-from solving import completed, planar_body, recorded
+from solving import completed
+from stand_in_system import planar_body, recorded
 
 from exu_press import InputError
 from exu_press.joints import add_guideway_contact, add_joint_sensor
@@ -169,8 +168,7 @@ def test_the_jacobian_is_that_of_the_forces(side, factors):
 )
 def test_what_is_refused(change, message):
     mbs = exu.SystemContainer().AddSystem()
-    node = mbs.AddNode(NodeRigidBody2D())
-    body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=1.0, inertia=1.0))
+    body, _ = planar_body(mbs, 1.0, 1.0)
     given = {
         "middle": (0.0, 0.0),
         "direction": (0.0, 1.0),

@@ -8,7 +8,8 @@ import pytest
 from exudyn.itemInterface import LoadForceVector, LoadTorqueVector, MarkerBodyRigid
 from independent.pad_pressure import end_forces
 from scipy.integrate import solve_ivp
-from solving import completed, planar_body, recorded
+from solving import completed
+from stand_in_system import planar_body, recorded
 
 from exu_press.joints import add_guideway_contact, add_guideway_film, add_joint_sensor
 from exu_press.laws.contact import hertz, step_damping

@@ -13,8 +13,8 @@ from exudyn.itemInterface import (
     ObjectMass1D,
     ObjectRotationalMass1D,
 )
-from solving import planar_body, recorded, solve
-from stand_in_system import settings
+from solving import solve
+from stand_in_system import planar_body, recorded, settings
 
 from exu_press import InputError, add_dry_revolute
 from exu_press.joints import user_force_of

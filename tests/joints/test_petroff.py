@@ -10,8 +10,7 @@ from exudyn.itemInterface import (
     ObjectGround,
     ObjectRigidBody,
 )
-from solving import planar_body, recorded
-from stand_in_system import settings
+from stand_in_system import planar_body, recorded, settings
 
 from exu_press import add_joint_sensor, add_lubricated_revolute
 from exu_press.laws.contact import hertz, step_damping

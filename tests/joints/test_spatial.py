@@ -13,7 +13,8 @@ from exudyn.itemInterface import (
     ObjectGround,
     ObjectRigidBody,
 )
-from solving import fixed_steps, planar_body, recorded, solve
+from solving import fixed_steps, solve
+from stand_in_system import planar_body, recorded
 
 from exu_press import (
     InputError,

@@ -11,8 +11,8 @@ from exudyn.itemInterface import (
     ObjectGround,
     ObjectMassPoint2D,
 )
-from solving import fixed_steps, planar_body, recorded, solve
-from stand_in_system import settings
+from solving import fixed_steps, solve
+from stand_in_system import planar_body, recorded, settings
 
 from exu_press import InputError, add_dry_revolute, add_dry_spherical, add_lubricated_revolute
 from exu_press.joints import States, user_force_of

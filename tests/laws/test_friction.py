@@ -144,14 +144,6 @@ def test_stateless_derivatives_are_exact_and_the_laws_odd_and_dissipative(name: 
         assert friction(-v) == (-mu, slope)
 
 
-def test_coulomb_limits() -> None:
-    friction = coulomb(0.3, 1e-4)
-    assert friction(0.0) == (0.0, 3000.0)
-    assert friction(3e-4)[0] == pytest.approx(0.3, rel=0.005)
-    assert friction(19e-4) == (pytest.approx(0.3, rel=1e-15), pytest.approx(0.0, abs=1e-12))
-    assert friction(-1.0) == (-0.3, 0.0)
-
-
 def test_stribeck_limits() -> None:
     friction = stribeck(0.3, 0.1, 0.1, 2.0, 1e-5, sigma_2=0.02)
     assert friction(0.0) == (0.0, pytest.approx(0.3 / 1e-5 + 0.02))

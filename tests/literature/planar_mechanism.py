@@ -7,13 +7,10 @@ import numpy as np
 from exudyn.itemInterface import (
     LoadForceVector,
     MarkerBodyPosition,
-    NodeRigidBody2D,
     ObjectGround,
     ObjectJointRevolute2D,
-    ObjectRigidBody2D,
-    SensorNode,
 )
-from stand_in_system import settings
+from stand_in_system import planar_body, recorded, settings
 
 from exu_press import solve_dynamic
 
@@ -32,19 +29,12 @@ class PlanarMechanism:
     def add_body(self, mass, inertia, pose, velocity=(0.0, 0.0, 0.0)):
         """Return a body with its weight, at a pose x, y, angle."""
         mbs = self.mbs
-        start = {"referenceCoordinates": list(pose), "initialVelocities": list(velocity)}
-        node = mbs.AddNode(NodeRigidBody2D(**start))
-        body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=mass, inertia=inertia))
+        body, node = planar_body(mbs, mass, inertia, list(pose), list(velocity))
         marker = mbs.AddMarker(MarkerBodyPosition(bodyNumber=body))
         weight = [0.0, -mass * GRAVITY, 0.0]
         mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVector=weight))
-        kinds = exu.OutputVariableType.Coordinates, exu.OutputVariableType.Coordinates_t
-        self._sensors.append(
-            [
-                mbs.AddSensor(SensorNode(nodeNumber=node, outputVariableType=k, storeInternal=True))
-                for k in kinds
-            ]
-        )
+        kinds = "Coordinates", "Coordinates_t"
+        self._sensors.append([recorded(mbs, node, kind) for kind in kinds])
         self.nodes.append(node)
         return body
 

@@ -6,8 +6,7 @@ import exudyn as exu
 import numpy as np
 import pytest
 from data import columns_of
-from exudyn.itemInterface import NodeRigidBody2D, ObjectRigidBody2D, SensorNode
-from stand_in_system import settings
+from stand_in_system import planar_body, recorded, settings
 
 from exu_press import solve_dynamic
 from exu_press.joints import add_guideway_contact
@@ -29,13 +28,8 @@ def rebound(angle_deg, tolerance):
     mbs = container.AddSystem()
     angle = math.radians(angle_deg)
     along, down = SPEED * math.sin(angle), -SPEED * math.cos(angle)
-    node = mbs.AddNode(
-        NodeRigidBody2D(
-            referenceCoordinates=[0.0, FLIGHT - CLEARANCE, 0.0], initialVelocities=[along, down, 0]
-        )
-    )
-    inertia = 0.4 * MASS * RADIUS**2
-    body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=MASS, inertia=inertia))
+    place, velocity = [0.0, FLIGHT - CLEARANCE, 0.0], [along, down, 0]
+    body, node = planar_body(mbs, MASS, 0.4 * MASS * RADIUS**2, place, velocity)
     add_guideway_contact(
         mbs,
         (body, (0.0, 0.0)),
@@ -46,10 +40,7 @@ def rebound(angle_deg, tolerance):
         friction=coulomb(FRICTION, 1e-4),
         half_width=RADIUS,
     )
-    velocity = exu.OutputVariableType.Coordinates_t
-    sensor = mbs.AddSensor(
-        SensorNode(nodeNumber=node, outputVariableType=velocity, storeInternal=True)
-    )
+    sensor = recorded(mbs, node, "Coordinates_t")
     mbs.Assemble()
     end = 6.0 * FLIGHT / SPEED / math.cos(angle) + 4e-5
     chosen = settings(end, 50, period=0.0, minimumStepSize=1e-14)

@@ -25,7 +25,7 @@ from exudyn.itemInterface import (
     ObjectRotationalMass1D,
 )
 from scipy.integrate import solve_ivp
-from stand_in_system import settings
+from stand_in_system import recorded, settings
 
 from exu_press.model.start import quasi_static_motion
 from fe_models import (
@@ -125,13 +125,7 @@ def beam_theory(speed, times, *, stiffening):
 def spun_up(part, speed, end=TIME):
     """Return times and the tip's deflection across in Exudyn."""
     mbs, _, body, _ = turned(part, lambda t: speed_up(speed, t)[0], damping_ratio=0.0)
-    sensor = mbs.AddSensor(
-        exu.itemInterface.SensorNode(
-            nodeNumber=body.node_modes,
-            storeInternal=True,
-            outputVariableType=exu.OutputVariableType.Coordinates,
-        )
-    )
+    sensor = recorded(mbs, body.node_modes, "Coordinates")
     mbs.Assemble()
     chosen = settings(end, 750, period=end / 150, generalizedAlpha__spectralRadius=0.9)
     chosen.timeIntegration.verboseMode = 0

@@ -7,7 +7,6 @@ from scipy.optimize import fsolve
 
 from exu_press import Scene, simulate
 
-IDEAL = {"joints": {}}
 ECCENTRIC = {"kind": "blanking", "force": 1e4, "offset": [0.1, 0.0], "end_angle_deg": 60.0}
 
 
@@ -89,20 +88,13 @@ def test_ideal_guides_carry_the_eccentric_moment(balls):
     assert np.abs(result["slider_tilt"]).max() < 1e-12
 
 
-VARIANTS = [(pin, balls) for pin in ("ideal", "dry", "lubricated") for balls in ("ideal", "dry")]
-
-
-@pytest.mark.parametrize(
-    ("crank_pin", "balls"),
-    [pytest.param(*v, marks=[pytest.mark.long] * (v != ("lubricated", "dry"))) for v in VARIANTS],
-)
-def test_energy_balance_with_what_guides_store_and_lose(crank_pin, balls):
+def test_energy_balance_with_what_guides_store_and_lose():
     """With the default tolerance; measured 3e-5 ... 2e-4 of the largest work.
 
     With elastic guides a ball's centre moves sideways in its socket, as in figure 18 of the paper.
     """
     result = run(
-        joints={"crank_pin": crank_pin, "balls": balls},
+        joints={"crank_pin": "lubricated", "balls": "dry"},
         revolutions=0.17,
         load={"blanking": ECCENTRIC},
         guide={"lateral_stiffness": 1e9},
@@ -117,5 +109,4 @@ def test_energy_balance_with_what_guides_store_and_lose(crank_pin, balls):
     others = [result[f"{joint}_loss"] for joint in result.clearance_joints]
     total = np.sum([lost, *others], axis=0)
     assert result["energy_dissipated"] == pytest.approx(total, abs=1e-12)
-    if balls == "dry":
-        assert np.abs(result["ball_left_eccentricity"][:, 0]).max() > 1e-6
+    assert np.abs(result["ball_left_eccentricity"][:, 0]).max() > 1e-6

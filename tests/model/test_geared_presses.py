@@ -82,15 +82,6 @@ def test_friction_of_an_undetermined_force_is_refused():
         simulate(two_point(guide={"friction": "coulomb", "mu_kinetic": 0.1}))
 
 
-def test_a_planets_gear_does_no_work():
-    """Virtual power: the drive gives what ram, rod and planet take, and the gear nothing."""
-    scene = Scene(mechanism="cycloidal_press", joints={}, revolutions=0.5, speed_rpm=60.0)
-    result = simulate(scene)
-    assert result.completed
-    assert result.quantity("gears.planet.peak_torque").value > 10.0
-    assert result.quantity("energy.residual").value < 1e-3
-
-
 def test_a_gear_on_a_flexible_body_is_refused():
     with pytest.raises(InputError, match=r"gears\.pair: bodies\.second_crank is flexible"):
         two_point(bodies={"second_crank": {"flexible": "any.step", "density": 7850.0}})

@@ -4,14 +4,12 @@ import functools
 
 import numpy as np
 import pytest
-from coarse_parts import COARSE
 from pressed import by_statics, pressed_slider_crank
 
 from exu_press import Scene, simulate
 from exu_press.model.settings import scales
 from exu_press.scene import mechanism_of
 
-LONG = pytest.mark.long
 MU, FORCE, CLEARANCE = 0.2, 1e5, 2e-5
 SIZES = {"clearance": CLEARANCE, "length": 0.3, "width": 0.1, "friction": "coulomb"}
 OILED = {**SIZES, "viscosity": 0.1, "face_width": 0.08, "contact_gap": 2e-6}
@@ -105,8 +103,6 @@ def test_the_drag_is_that_of_couettes_flow():
     assert lost < result["guide_loss"][-1] < 1.01 * lost
 
 
-JOINTS = {"crank_pin": "lubricated", "balls": "dry"}
-OF_PRESS = {"joints": JOINTS, "revolutions": 0.15}
 IDEAL = {"joints": {}, "revolutions": 0.15}
 OF_CRANK = {"mechanism": "slider_crank", "revolutions": 0.1}
 OF_CRANK |= {"joints": {"crank_pin": "lubricated", "wrist_pin": "dry"}}
@@ -119,13 +115,6 @@ LOOSE = {"clearance": 5e-5, "width": 0.2}
         (IDEAL, {"friction": "lugre"}),
         ({"revolutions": 0.025}, LOOSE | {"friction": "stribeck"}),
         (OF_CRANK, OILED),
-        pytest.param(OF_PRESS, {"friction": "stribeck"}, marks=LONG),
-        *(pytest.param(IDEAL, {"friction": f}, marks=LONG) for f in ("stribeck", "lugre_steady")),
-        *(pytest.param(OF_PRESS, {"friction": f}, marks=LONG) for f in ("lugre", "lugre_steady")),
-        *(
-            pytest.param({"revolutions": 0.025}, LOOSE | {"friction": f}, marks=LONG)
-            for f in ("none", "lugre")
-        ),
     ],
 )
 def test_the_balance_closes(scene, guide):
@@ -151,19 +140,6 @@ def test_the_frame_bears_what_guides_do(guide):
     assert error < 0.2 * result.scene.solver.tolerance * scales(result.scene).force
     friction = np.abs(result["guide_friction"]).max()
     assert friction > 0.01 * np.abs(result["shaking_force"]).max()
-
-
-@pytest.mark.long
-def test_oil_of_flexible_bodies_drags_as_that_of_rigid_ones():
-    pytest.importorskip("ngsolve")
-    scene = {"joints": {}, "revolutions": 0.01, "guide": OILED}
-    rigid, soft = (
-        simulate(Scene.from_dict({**scene, **more})) for more in ({}, {"bodies": COARSE})
-    )
-    assert soft.completed
-    assert soft.quantity("energy.residual").value < 1e-3
-    for name in ("slide_guide_friction", "plunger_left_guide_friction"):
-        assert soft[name][-1] == pytest.approx(rigid[name][-1], rel=0.02)
 
 
 def test_lugre_in_guides_follows_the_scenes_bristles():

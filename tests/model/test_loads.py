@@ -11,7 +11,6 @@ from pressed import FORMING
 from exu_press import Scene, simulate
 from exu_press.scene import mechanism_of
 
-CUSHION = {"kind": "table", "height": [0.0, 0.02], "force": [4e4, 0], "acts": "both"}
 IDEAL = {"joints": {}, "revolutions": 0.5, "solver": {"tolerance": 1e-5}}
 LOADS = {
     "over time": {"kind": "table", "time": [0.02, 0.05, 0.1], "force": [0.0, 2e4, -1e4]},

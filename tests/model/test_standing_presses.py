@@ -62,14 +62,6 @@ def test_a_cam_stops_at_its_angle_and_the_run_ends_when_the_press_stands():
     assert result.quantity("energy.residual").value < 1e-3
 
 
-@pytest.mark.long
-def test_errors_of_a_run_that_ends_when_the_press_stands():
-    result = simulate(press(0.5, ends_after=0.02), errors=True)
-    for name in ("stopping_time", "stopping_angle_deg", "starting_time", "brake_energy"):
-        value = result.quantity(f"drive.{name}")
-        assert value.determined and 0.0 < value.error < 0.02 * value.value
-
-
 def test_a_run_goes_on_behind_its_stop():
     whole = simulate(press(0.4))
     first = simulate(press(0.22))

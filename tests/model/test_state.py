@@ -62,19 +62,6 @@ def test_two_pieces_are_one_run(name):
     assert difference(whole, second, "slider_velocity") < 1e-4
 
 
-@pytest.mark.long
-def test_after_ten_revolutions_two_pieces_are_the_longer_run_to_the_last_digit():
-    """A longer run goes on from such a state itself, in each tenth revolution."""
-    scene = DRY.replace({"revolutions": 10.0})
-    state = json.loads(json.dumps(simulate(scene).info["state"]))
-    second = simulate(scene, start=state)
-    whole = simulate(scene.replace({"revolutions": 20.0}))
-    last = len(second.time) - 1  # the first instant is the last one of the first piece
-    for name in ("slider_position", "slider_velocity", "crank_pin_force"):
-        assert np.array_equal(whole[name][-last:], second[name][1:])
-    assert np.array_equal(whole.time[-last:], second.time[1:])
-
-
 def test_loads_and_samples_are_where_the_crank_is():
     """At another speed, and whatever the start angle, which moves no state."""
     force = {"kind": "table", "crank_angle_deg": [90, 135, 180], "force": [0, 1e3, 0]}
@@ -122,3 +109,16 @@ def test_the_command(tmp_path, capsys):
         assert main(went_on) == 2
         assert message in capsys.readouterr().err
     assert not (tmp_path / "three").exists()
+
+
+@pytest.mark.long
+def test_after_ten_revolutions_two_pieces_are_the_longer_run_to_the_last_digit():
+    """A longer run goes on from such a state itself, in each tenth revolution."""
+    scene = DRY.replace({"revolutions": 10.0})
+    state = json.loads(json.dumps(simulate(scene).info["state"]))
+    second = simulate(scene, start=state)
+    whole = simulate(scene.replace({"revolutions": 20.0}))
+    last = len(second.time) - 1  # the first instant is the last one of the first piece
+    for name in ("slider_position", "slider_velocity", "crank_pin_force"):
+        assert np.array_equal(whole[name][-last:], second[name][1:])
+    assert np.array_equal(whole.time[-last:], second.time[1:])

@@ -51,10 +51,6 @@ DRY = {
     "friction": {"regularisation_velocity": 1e-4},
     "solver": {"min_step": 1e-8},
 }
-SHAFT = DRY | {
-    "joints": {"shaft": {"kind": "dry", "clearance": 3e-5, "radius": 0.01}},
-    "gravity": 0.0,
-}
 OILED = {
     "mechanism": "slider_crank",
     "speed_rpm": 120.0,
@@ -123,8 +119,7 @@ def figures(keys, scales):
     [
         pytest.param(DRY, WATCH, id="dry watch"),
         pytest.param(OILED, WATCH, id="oiled watch"),
-        pytest.param(SHAFT, WATCH, marks=pytest.mark.long, id="watch without gravity"),
-        *(pytest.param(keys, SHIP, marks=pytest.mark.long) for keys in (DRY, SHAFT, OILED)),
+        *(pytest.param(keys, SHIP, marks=pytest.mark.long) for keys in (DRY, OILED)),
     ],
 )
 def test_a_scaled_machine_has_scaled_figures(keys, scales):

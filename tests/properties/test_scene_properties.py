@@ -2,7 +2,6 @@
 
 import json
 
-import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -126,11 +125,4 @@ RUNS = {"deadline": None, "suppress_health_check": list(HealthCheck)}
 @settings(max_examples=12, **RUNS)
 @given(data=likely_scenes())
 def test_an_accepted_scene_runs_or_stops_with_a_status(data):
-    run_or_be_refused(data)
-
-
-@pytest.mark.long
-@settings(max_examples=1500, derandomize=False, **RUNS)
-@given(data=likely_scenes())
-def test_many_accepted_scenes_run_or_stop_with_a_status(data):
     run_or_be_refused(data)

@@ -103,10 +103,3 @@ def test_a_run_keeps_its_energy_and_the_film_its_heat(pressure):
     else:
         assert bearing.pump_power == 0.0
         assert simulate(warm).summary()["status"] == "completed"
-
-
-@pytest.mark.long
-def test_the_least_pressure_has_a_pump_too():
-    faint = simulate(scene([{**RING[0], "pressure": 1e-30}], revolutions=0.02))
-    assert faint.summary()["status"] == "completed"
-    assert np.abs(faint["crank_pin_pump_power"]).max() < 1e-9

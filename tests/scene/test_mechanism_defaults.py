@@ -1,4 +1,4 @@
-"""The paper's numbers rule the paper's press alone; other mechanisms have engineering values."""
+"""The paper's numbers rule its press alone; others have engineering values: what is assumed."""
 
 import dataclasses
 import math
@@ -9,7 +9,7 @@ from exu_press import InputError, Scene
 from exu_press.laws.contact import hertz_stiffness
 from exu_press.mechanism import mechanism_from_dict, mechanism_lines, shipped_mechanism
 from exu_press.mechanism.press import TABLE_2
-from exu_press.scene.assumptions import assumed_values
+from exu_press.scene.assumptions import assumed_line, assumed_values, used_assumptions
 from exu_press.studies.compare import variants
 
 FOUR_BAR = shipped_mechanism("four_bar")
@@ -130,3 +130,43 @@ def test_variants_of_a_film_are_dry_in_bearings_of_its_length():
     assert made["dry"].joints["pivot"].contact.shape.length == OIL["length"]
     made, left_out = variants(scene())
     assert made.keys() == {"ideal", "dry"} and "no film" in left_out[-1]
+
+
+def numbers(scene):
+    return {assumption.number for assumption in used_assumptions(scene)}
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"film": {"viscosity": 0.4}},
+        {"joints": {"crank_pin": {"kind": "lubricated", "film": {"viscosity": 0.4}}}},
+    ],
+)
+def test_a_default_that_is_given_is_not_assumed(given, tmp_path):
+    scene = Scene(**given, revolutions=0.002)
+    assert "A-11" not in assumed_line(scene)
+    assert "A-11" in assumed_line(Scene.from_dict(scene.to_dict())), "complete, not asked"
+    assert "A-11" not in assumed_line(scene.replace({"speed_rpm": 100.0}))
+    (tmp_path / "scene.toml").write_text("film.viscosity = 0.4\n")
+    loaded = Scene.load(tmp_path / "scene.toml", ["film.length=0.1"])
+    assert not numbers(loaded) & {11, 12}
+    assert numbers(loaded.replace({"film": None})) & {11, 12} == {11, 12}
+
+
+@pytest.mark.parametrize(
+    ("scene", "unused"),
+    [
+        ({"mechanism": "slider_crank"}, {1, 2, 3, 4, 5, 6, 7, 8, 10, 11, 12}),
+        ({"joints": {"crank_pin": "dry"}}, {11, 12, 13}),
+        ({"joints": {}}, {10, 11, 12, 13}),
+        ({"guide": {"lateral_stiffness": 1e9}}, {9}),
+        ({"press": {"counterweight": False}}, {3}),
+        ({"film": {"at_contact": "mixed"}}, {13}),
+        ({"film": {"viscosity": 0.1}}, {11}),
+    ],
+)
+def test_a_scene_rests_on_what_it_uses_alone(scene, unused):
+    everything = set(range(1, 14))
+    assert everything - numbers(Scene(**scene)) == unused
+    assert 14 in numbers(Scene(**scene, load={"blanking": {"kind": "blanking", "force": 1e4}}))

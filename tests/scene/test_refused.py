@@ -30,28 +30,21 @@ NEEDED = {
 
 CASES = """
 =
-speed_rpm = 0 -> speed_rpm = 0.0: allowed is a number > 0
 film.grooves = [{width_deg = 9}] -> film.grooves = [{'angle_deg': 0.0, 'width_deg': 9.0}]: not used
 film = {at_contact = 'mixed', roughness = 4e-5} -> film.roughness * film.asperity_onset = 0.00012
 friction.velocity = 1.0 -> allowed are law, mu_kinetic, regularisation_velocity, mu_static, strib
 revolutions = 2e-4; speed_rpm = 2.4e5 -> revolutions = 0.0002 at speed_rpm = 240000 is a run of
 mechanism = 'crank_slider' -> mechanism = 'crank_slider': allowed is one of 'press', 'slider_crank'
-mechanism = 3 -> mechanism = 3: allowed is one of
 solver = {step = 1e-5, tolerance = 1e-3} -> solver.tolerance = 0.001: not used .. (solver.step is
 solver = {step = 1e-5, max_step_deg = 1.5} -> solver.max_step_deg = 1.5: not used .. solver.step
 friction.mu_static = 0.005 -> friction.mu_static = 0.005: allowed is a number >= friction.mu_kin
 slider_crank = {} -> [slider_crank]: not used .. mechanism is 'press'
 press.linkage_length = 0.02 -> press: linkage and slide lock .. deg
-press.counter_linkage_length = 0.01 -> counter_linkage and counterweight lock .. deg
 press.link_5_length = 0.1655 -> press.link_5_length .. deg
 press.link_7_length = 0.005 -> press.link_7_length .. deg
 press = {counterweight = false, counterweight_mass = 9} -> press.counterweight_mass = 9: not used
 crank_pin = 'dry' -> crank_pin = 'dry': is joints.crank_pin now
-clearance.crank_pin = 1e-4 -> clearance = {'crank_pin': 0.0001}: is joints.NAME.clearance now
 flexible.modes = 4 -> flexible = {'modes': 4}: is bodies.NAME now
-blanking.force = 1 -> blanking = {'force': 1}: is load.NAME with kind = 'blanking' now
-contact.radius = 0.1 -> contact.radius = 0.1: is joints.NAME.radius now
-mechanism = 'four_bra' -> mechanism = 'four_bra': allowed is one of .. the path of a mechanism file
 = mechanism = 'four_bar'
 press = {} -> [press]: not used by this scene
 joints.crankpin = 'dry' -> joints.crankpin = 'dry': four_bar has no such joint .. mean 'crank_pin'
@@ -60,23 +53,16 @@ joints.yoke_slot = 'dry' -> yoke_slot is a guide or slot of scotch_yoke; allowed
 = mechanism = 'slider_crank'
 press = {} -> [press]: not used .. mechanism is 'slider_crank'
 contact = {} -> [contact]: not used .. no joint is 'dry'
-slider_crank.crank_radius = 0.5 -> slider_crank: rod and slider lock .. deg
 = joints = {}
 film = {} -> [film]: not used .. no joint is 'lubricated'
-friction = {} -> [friction]: not used .. no joint is 'dry'
 = joints.balls = 'dry'
 film.viscosity = 0.1 -> [film]: not used .. no joint is 'lubricated'
 
 # joints
 =
-joints = 3 -> joints = 3: allowed is a table
 joints.crank_pn = 'dry' -> joints.crank_pn = 'dry': press has no such joint or group (did you
 joints.crank_pin = 'wet' -> joints.crank_pin.kind = 'wet': allowed is one of 'ideal', 'dry',
-joints.crank_pin.kind = ['dry'] -> joints.crank_pin.kind = ['dry']: allowed is one of
-joints.crank_pin = ['dry'] -> joints.crank_pin = ['dry']: allowed is a table of keys, or one of
 joints.crank_pin = {} -> joints.crank_pin needs kind, one of 'ideal', 'dry', 'lubricated'
-joints.pivots = {kind = 'dry', clearance = '1'} -> joints.pivots.clearance = '1': allowed is a num
-joints.pivots = {kind = 'dry', gap = 1} -> joints.pivots.gap = 1: unknown key
 joints.pivots = {kind = 'dry', clearance = 2, radius = 1} -> clearance = 2.0: allowed is .. < radius
 joints.pivots = {kind = 'ideal', clearance = 1} -> joints.pivots.clearance: not used .. is 'ideal'
 joints.pivots = {kind = 'dry', film = {}} -> joints.pivots.film: not used .. is 'dry'
@@ -88,7 +74,6 @@ joints.balls.film.socket_angle_deg = 30.0 -> socket_angle_deg = 30.0: allowed is
 = joints.crank_pin.kind = 'lubricated'
 joints.crank_pin.film.socket_angle_deg = 60.0 -> film.socket_angle_deg = 60.0: not used
 joints.crank_pin.friction.law = 'none' -> crank_pin.friction: not used .. film.at_contact is 'stop'
-joints.crank_pin.film.viscocity = 1 -> film.viscocity = 1: unknown key (did you mean 'viscosity'?)
 joints.crank_pin.film = {at_contact = 'mixed', roughness = 1e-4} -> = 0.0003: allowed is .. < clear
 = joints.crank_pin.kind = 'dry'; bodies.linkage = 'linkage'
 joints.crank_pin.worn.bearing_depth = [0, 1e-6, 0] -> flexible
@@ -100,8 +85,6 @@ joints.crank_pin.worn = {bearing_depth = [0, 1e-6, 0], journal_depth = [0, 0, 0,
 joints.crank_pin.worn = {bearing_depth = [0, 1e-6, 0], angle_deg = [0, 90, 80]} -> increasing
 joints.crank_pin.worn = {bearing_depth = [0, 1e-6, 0], angle_deg = [0, 90, 400]} -> one turn
 joints.crank_pin.worn.bearing_depth = [0, 0, 0, 0, 0, 0, 5e-4, 0, 0, 0, 0, 0] -> fast
-joints.crank_pin.worn.bearing_depht = [0, 1e-6, 0] -> did you mean 'bearing_depth'
-joints.crank_pin.worn = 3 -> worn
 
 # keys of laws that another choice has
 = mechanism = 'slider_crank'; joints.crank_pin = {kind = 'dry', clearance = 5e-5, radius = 0.03}
@@ -109,7 +92,6 @@ contact = {damping = 'hu_guo', damping_max = 1} -> contact.damping_max = 1 .. be
 contact = {shape = 'point', length = 0.1} -> contact.length = 0.1: not used .. shape is 'point'
 contact = {length = 0.1, stiffness = 1e9} -> contact.stiffness = 1 .. to 'point'
 contact = {shape = 'point', stiffness = 1, modulus = 1} -> contact.modulus = 1 .. stiffness is given
-friction = {law = 'none', mu_static = 0.1} -> friction.mu_static = 0.1: not used .. law is 'none'
 friction = {law = 'coulomb', mu_static = 0.1} -> friction.mu_static = 0.1: not used .. 'coulomb'
 friction.sigma_0 = 1e5 -> friction.sigma_0 = 100000.0: not used .. friction.law is 'coulomb'
 joints.crank_pin.friction.mu_static = 0.2 -> crank_pin.friction.mu_static = .. (friction.law is 'cou
@@ -122,24 +104,19 @@ guide = {friction = 'coulomb', width = 0} -> guide.width = 0 .. guide.clearance 
 # output and wear
 =
 output.channels = 'some' -> output.channels = 'some': allowed is one of 'all', or a list
-output.channels = [1] -> output.channels = (1,): allowed is a list of texts
 output.samples = [] -> output.samples: allowed is at least one crank angle
 output.samples = [360.0] -> output.samples = 360.0: allowed are numbers from 0 to < 360
 output.samples = [90.0, 90.0] -> output.samples = 90.0 after 90.0: allowed is increasing
-output.samples = 90.0 -> output.samples = 90.0: allowed is a list of numbers
 output.samples = [0.0]; solver.step = 1e-5 -> output.samples: allowed with solver.tolerance
 = mechanism = 'slider_crank'; joints.crank_pin = 'dry'; wear = {coefficient = 1e-4, hardness = 2e9}
 speed_rpm = 200 -> length
 wear = {length = 0.1, joints.crank_pim.length = 0.1} -> no such place
 wear = {length = 0.1, joints.shaft.length = 0.1} -> do not touch
-wear = {length = 0.1, joints.crank_pin.lenght = 0.1} -> did you mean 'length'
 wear = {length = 0.1, guides.slider.length = 0.1} -> (guides.slider has no clearance)
 
 # guides
 = mechanism = 'slider_crank'; joints = {}
 wear = {coefficient = 1e-4, hardness = 2e9, length = 0.1} -> no revolute joint is dry
-guide = {} -> [guide]: not used by this scene (it has neither lateral_stiffness nor clearance
-guide = {friction = 'none', length = 0.3} -> guide.length = 0.3: not used by this scene
 guide = {friction = 'coulomb', length = 0.3} -> guide.length = 0.3: not used .. lateral_stiffness is
 guide.slide_inertia = 1.0 -> guide.slide_inertia = 1.0: is press.slide_inertia now
 guide.friction = 'lugre'; friction.mu_kinetic = 0.2 -> friction.mu_kinetic = 0.2: not used .. guides
@@ -148,25 +125,19 @@ guide.clearance = 2e-5; contact.modulus = 1e11 -> contact.modulus = 1
 guide.clearance = 2e-5; contact.damping = 'step' -> guide.clearance needs contact.damping_max
 guide = {friction = 'coulomb', viscosity = 0.1} -> guide.viscosity = 0.1: not used .. clearance is
 = mechanism = 'slider_crank'; joints = {}; guide = {clearance = 2e-5, length = 0.3, width = 0.1}
-guide.foo = 1 -> guide.foo = 1: unknown key; allowed are lateral_stiffness, length, clearance,
 guide.damping_ratio = 0.1 -> guide.damping_ratio = 0.1: not used .. [contact] has
 guide.slider.length = 0.2 -> guide.length = 0.3: not used by this scene (every guide has its own
 guide.damping_depth = 1e-6 -> guide.damping_depth = 1e-06: is contact.damping_depth
 guide.tilting_stiffness = 1e6 -> guide.tilting_stiffness = 1000000.0: not used
 guide = {friction = 'stribeck', mu_static = 0.05} -> guide.mu_static = 0.05: allowed is .. >= guide
-guide.mu_kinetic = 0.05 -> guide.mu_kinetic = 0.05: not used .. friction is
 guide.viscosity = 0.1 -> guide.viscosity needs guide.face_width .. no default
 guide.slider.oil.viscosity = 0.1 -> guide.slider.oil: unknown key; allowed are kind
 guide = {viscosity = 0.1, face_width = 0.1} -> guide.viscosity needs guide.contact_gap
-guide.face_width = 0.1 -> guide.face_width = 0.1: not used .. viscosity is not
 guide = {viscosity = 0.1, face_width = 0.1, contact_gap = 3e-5} -> gap = 3e-05: allowed is .. < guid
 guide = {viscosity = 0.1, face_width = 1e-3, contact_gap = 2e-6} -> face_width = 0.001: allowed are
 =
-guide = {} -> [guide]: not used by this scene (it has neither lateral_stiffness nor clearance
 guide.ram.clearance = 1e-5 -> guide.ram: press has no such guide; allowed are slide,
 guide.length.clearance = 1e-5 -> guide.length: is a key of [guide], so that
-guide.slide.clearance = -1 -> guide.slide.clearance = -1.0: allowed is a number > 0
-guide.slide.clearence = 1 -> guide.slide.clearence = 1: unknown key (did you mean
 guide.slide.kind = 'soft' -> guide.slide.kind = 'soft': unknown; allowed are ideal,
 guide.slide.kind = 'dry' -> guide.slide.kind = 'dry': allowed is a guide with clearance
 guide.slide.width = 0.1 -> guide.slide.width = 0.1: not used by this scene (guide.slide.
@@ -181,7 +152,6 @@ lot.width = 0: slots.yoke_slot holds a pin
 
 # motors
 = drive.inertia = 50.0
-drive.foo = 1 -> allowed are begins, clutch_torque, table_speed_rpm, table_torque, rated_torque,
 drive = {} -> [drive] needs drive.rated_torque (at rated speed
 drive = {rated_torque = 4.0, clutch_torque = 9.0, stop_time = []} -> (an empty list is as good as
 drive = {rated_torque = 400.0, breakdown_torque = 300.0} -> drive.breakdown_torque = 300.0: allowed
@@ -189,10 +159,7 @@ drive.table_torque = [1.0, 0.0] -> table_speed_rpm, drive.table_torque: 0 and 2 
 drive = {table_torque = [1, 0], table_speed_rpm = [2, 1]} -> = 1.0 after 2.0: allowed is increasing
 drive = {table_torque = [1, 0], table_speed_rpm = [-2, -1]} -> drive.table_speed_rpm = -1.0 at the e
 =
-drive.rated_torque = 400.0 -> [drive] needs drive.inertia (of flywheel, gear and
-drive.flywheel = 1.0 -> drive.flywheel = 1.0: unknown key
 joints = {}; start = 'loaded' -> start = 'loaded': not used .. every joint is ideal
-start = 'middle' -> start = 'middle': allowed is one of 'loaded', 'centred'
 
 # films and their oil
 = mechanism = 'slider_crank'; joints.crank_pin = 'lubricated'; film.oil = {viscosity_cst = [68, 8],\
@@ -201,10 +168,8 @@ film.viscosity = 0.1 -> film.viscosity and film.oil: allowed is one
 film.oil.viscosity_cst = [8, 68] -> the larger one first, as oil thins
 film.oil.at_celsius = [100, 40] -> the lower one first
 film.oil.viscosity_cst = [5.0, 1.5] -> ASTM D341
-film.oil.densty = 1.0 -> film.oil.densty = 1.0: .. did you mean 'density'
 film.oil.conductance = 0; film.oil.frame_celsius = 20.0 -> frame_celsius .. not used
 film.oil.conductance = 0; film.law = 'pi_film' -> a long bearing has no side flow
-film.oil = 3.0 -> film.oil = 3.0: allowed is a table
 mechanism = 'press'; joints.balls = 'lubricated' -> the film of a ball does not warm .. joints.balls
 
 = mechanism = 'slider_crank'; joints.crank_pin = 'lubricated'
@@ -219,20 +184,13 @@ film.grooves = [{}] -> film.grooves.0 needs width_deg (around the .. in [[film.g
 joints.crank_pin.film.grooves = [{}] -> joints.crank_pin.film.grooves.0 needs width_deg (around \
 .. give it in [[joints.crank_pin.film.grooves]]
 film.grooves = [{}, {width_deg = 9}, {}] -> film.grooves.0, film.grooves.2 need width_deg (around
-film.grooves = [{width_deg = 1e-20}] -> film.grooves.width_deg = 1e-20
-film.grooves = [{width_deg = 5.0, angle_deg = 1e30}] -> film.grooves.angle_deg = 1e
 film.grooves = [{width_deg = 9, angle_deg = 90}, {width_deg = 9, angle_deg = 90}] -> at 90 and 90 de
 film.grooves = [{width_deg = 9, angle_deg = 90}, {width_deg = 9, angle_deg = 98}] -> at 90 and 98
 film.grooves = [{width_deg = 359.9999}] -> <= 359, which leaves 1 deg of bearing
-film.grooves = [{width_deg = 361.0}] -> film.grooves.width_deg = 361.0
 film.grooves = [{width_deg = 10.0, length = 0.051}] -> film.grooves.0.length = 0.051
-film.grooves = [{width_deg = 360, length = 5e-3, pressure = -1}] -> film.grooves.pressure = -1.0
 film.grooves = [{width_deg = 9, pressure = 1e5}] -> film.grooves.0.pressure = 100000.0: .. length <
 film.grooves = [{width_deg = 360.0}] -> film.grooves: .. shorter than the bearing
-film.grooves = [{width_deg = 10.0, angel = 1.0}] -> film.grooves.0.angel = 1.0: unknown key
-film.tilt = -1e-3 -> film.tilt = -0.001: allowed
 film.tilt = 4e-3 -> film.tilt = 0.004: allowed is a number < 2 * clearance .. = 0.004
-film = {tilt = 1e-3, tilt_direction_deg = 361} -> film.tilt_direction_deg = 361
 film = {tilt = 1e-3, at_contact = 'mixed'} -> 'mixed' with film.tilt: allowed is 'stop'
 film.grooves = [{width_deg = 360, length = 5e-3, pressure = 1e5}]; film.tilt = 1e-3 -> with pressure
 film = {tilt = 1e-3, law = 'finite'} -> film.law is 'finite'; it belongs to 'grooved'
@@ -242,34 +200,22 @@ film = {tilt = 1e-3, law = 'finite'} -> film.law is 'finite'; it belongs to 'gro
 bodies = 'flexible' -> bodies = 'flexible': allowed is a table for each flexible body
 bodies.linkige = 'linkage' -> bodies.linkige = 'linkage': press has no such body (did you
 bodies.linkage.modes = 4 -> bodies.linkage.flexible: missing
-bodies.linkage = 3 -> bodies.linkage = 3: allowed is a shipped part, a STEP file's path, or
 = mechanism = 'six_bar'; bodies.rod.matrices = 'rod.toml'
 bodies.rod.mesh_size = 0.1 -> bodies.rod.mesh_size = 0.1: not used .. matrices in place of a solid
 bodies.rod.flexible = 'rod.step' -> allowed is one of the two
 bodies.rod.matrices = 'rod.mtx' -> matrices = 'rod.mtx': allowed is the path of a description
 = bodies.crank.flexible = 'crank'
-bodies.crank.modes = 2.5 -> bodies.crank.modes = 2.5: allowed is a whole number >= 0
-bodies.crank.mode = 2 -> bodies.crank.mode = 2: unknown key (did you mean 'modes'?)
-bodies.crank.poissons_ratio = 0.5 -> bodies.crank.poissons_ratio = 0.5: allowed is a
 bodies.crank = {flexible = 'crank', modes = 4, flexibility_error = 0.1} -> modes and flexibility_err
-bodies.crank.origin = [1] -> crank.origin = [1]: allowed is a list of 2 numbers
-bodies.crank.faces = 'pin' -> bodies.crank.faces = 'pin': allowed is a table
 bodies.crank.faces.pins = 'pin' -> crank.faces.pins: crank has no such joint
 bodies.crank.faces.guide = 'pin' -> crank.faces.guide: crank has no such joint .. allowed are
-bodies.crank.faces.crank_pin = 3 -> crank.faces.crank_pin = 3: allowed is a face's
 bodies.crank.faces.drive.z = [0, 1] -> drive = {'z' .. allowed is a face's name
 bodies.crank.faces.drive = ['pin', 'web'] -> faces.drive = ['pin', 'web']: allowed
-bodies.crank.faces.crank_pin.r = 3 -> faces.crank_pin.r = 3: unknown key
-bodies.crank.faces.crank_pin.radius = -1 -> pin.radius = -1.0: allowed
 bodies.crank.faces.crank_pin.z = [1, 0] -> pin.z = [1.0, 0.0]: allowed
 
 # loads
 =
-load = 5 -> load = 5: allowed is a table of loads
 load.'a b'.kind = 'blanking' -> load: 'a b' is no name
-load.a = 3 -> load.a = 3: allowed is a table of keys
 load.a.force = 1.0 -> load.a needs kind, one of 'blanking', 'table'
-load.a.kind = [] -> load.a.kind = []: allowed is one of
 load.a.kind = 'blank' -> load.a.kind = 'blank': allowed is one of
 load.a.kind = 'blanking' -> load.a needs force (peak force; in N) .. give it in [load.a]
 load.a.kind = 'spring' -> load.a needs height (of .. in m), travel (of .. give them in [load.a]
@@ -291,11 +237,9 @@ needs kind, one of 'ideal' .. load.a needs kind
 = load.a = {kind = 'blanking', force = 1e4}
 load.a = {start_angle_deg = 9, end_angle_deg = 10} -> start_angle_deg and end_angle_deg: allowed is
 load.a.time = [0, 1] -> load.a.time = [0, 1]: not used by this scene
-load.a.rize = 1.0 -> load.a.rize = 1.0: unknown key of kind 'blanking' (did you mean 'rise'?)
 load.a.peak = 1.0 -> load.a.peak = 1.0: unknown key of kind 'blanking'; allowed are kind, body,
 load.a.body = 'slidr' -> press has no such body (did you mean 'slider'?)
 load.a.body = 'frame' -> load.a.body = 'frame': press has no such body
-load.a.offset = [0, 'x'] -> allowed is a list of 2 numbers
 load.a.direction = [0, 0] -> load.a.direction = [0, 0]: allowed is a direc
 load.a = {rise = 0.2, fall = 0.06} -> load.a.rise + fall = 0.26: allowed is at
 load.a.acts = 'both' -> load.a.acts = 'both': not used by this scene
@@ -305,8 +249,6 @@ load.a.face = 'a' -> load.a.face: slider is rigid; allowed are joint and offset,
 speed_rpm = 10 -> load.a: acts on the flexible linkage, which .. one of crank_pin, slide_pin, or
 load.a.joint = 'slide_pins' -> linkage has no such joint (did you mean 'slide_pin'?)
 load.a.face = {} -> load.a.face = {}: allowed is a face's name, or ranges
-load.a.face = 3 -> load.a.face = 3: allowed is a face's name, or a table
-load.a.face.radius = 1 -> load.a.face.radius = 1: unknown key
 load.a.face.x = [1, 0] -> load.a.face.x = [1.0, 0.0]: allowed
 = load.a.kind = 'table'
 speed_rpm = 10 -> load.a.force: missing: allowed is file, a CSV, or one of time
@@ -314,9 +256,6 @@ load.a = {time = [0, 1], crank_angle_deg = [0, 1], force = [0, 1]} -> time, cran
 load.a = {file = 'a.csv', force = [0, 1]} -> load.a.file and force: allowed is one of the two
 load.a = {time = [0, 1], force = [1]} -> load.a.time, force: 2 and 1 values
 load.a = {time = [0.1, 0.1], force = [0, 1]} -> load.a.time = 0.1 after 0.1: allowed is inc
-load.a = {time = [0, true], force = [0, 1]} -> allowed is a list of numbers
-load.a = {height = [0, 1], force = [0, 1], acts = 'up'} -> load.a.acts = 'up': allowed is one of 'cl
-load.a.file = 3 -> load.a.file = 3: allowed is the path of a CSV
 load.a.file = 'no.csv' -> load.a.file: no.csv: cannot be read
 load.a = {crank_angle_deg = [0, 400], force = [0, 1]} -> from 0.0 to 400.0: allowed is less than a r
 load.a = {crank_angle_deg = [0, 360], force = [0, 1]} -> whole one that ends with the force with whi

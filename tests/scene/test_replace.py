@@ -1,10 +1,16 @@
-"""scene.replace: the same scene with other values."""
+"""scene.replace: the same scene with other values, of its drawing and flexible bodies too."""
 
+import math
 import re
 
 import pytest
+from refused import refused
 
 from exu_press import InputError, Scene
+from exu_press.scene import Flexible, flexible_press
+from exu_press.scene.scene import mechanism_of
+from exu_press.scene.solver import Solver
+from exu_press.schema.table import table_from
 
 PRESS = Scene()
 TABLE_LOAD = {"kind": "table", "time": [0.0, 1.0], "force": [0.0, 1.0]}
@@ -156,3 +162,61 @@ def test_an_entry_of_a_list_is_changed_by_its_number():
     ):
         with pytest.raises(InputError, match=rf"^{name} = 1.0: allowed behind .* number below 2"):
             scene.replace({name: 1.0})
+
+
+def test_tables_may_be_dataclasses_or_mappings():
+    by_mapping = Scene.from_dict({"film": {"viscosity": 0.1}, "solver": {"step": 1e-4}})
+    solver = table_from(Solver, "solver", {"step": 1e-4})
+    assert Scene(film={"viscosity": 0.1}, solver=solver) == by_mapping
+
+
+def test_derived_quantities():
+    scene = Scene.from_dict({"speed_rpm": 120, "revolutions": 3, "start_angle_deg": 90})
+    assert scene.angular_speed == pytest.approx(4 * math.pi)
+    assert scene.duration == pytest.approx(1.5)
+    assert scene.start_angle == pytest.approx(math.pi / 2)
+
+
+def test_one_key_a_part_or_all_bodies_are_replaced():
+    scene = Scene().replace({"bodies.linkage": "linkage"}).replace({"bodies.linkage.modes": 6})
+    assert scene.bodies == {"linkage": Flexible("linkage", modes=6)}
+    assert scene.replace({"bodies.linkage": "linkage_2"}).bodies["linkage"].modes == 20
+    assert scene.replace({"bodies": {}}).bodies == {}
+    assert scene.replace({"mechanism": "slider_crank"}).bodies == {}
+    both = scene.replace({"bodies.linkage": "linkage_2", "bodies.linkage.modes": 3})
+    assert both.bodies["linkage"] == Flexible("linkage_2", modes=3)
+
+
+def test_a_flexibility_error_takes_the_place_of_the_modes_and_back():
+    scene = Scene(bodies=flexible_press()).replace({"bodies.crank.flexibility_error": 0.01})
+    assert (scene.bodies["crank"].modes, scene.bodies["linkage"].modes) == (None, 20)
+    back = scene.replace({"bodies.crank.modes": 6}).bodies["crank"]
+    assert (back.modes, back.flexibility_error) == (6, None)
+
+
+def test_a_uniform_rod_stays_one():
+    """Its inertia is m l^2 / 12 of the new mass and length; others keep what they were given."""
+    drawn = Scene(mechanism="eccentric_press")
+    pin = next(joint.at for joint in mechanism_of(drawn).joints if joint.name == "crank_pin")
+    place = {"mechanism.joints.wrist_pin.at.y": pin[1] - 0.6}
+    changed = drawn.replace({"mechanism.bodies.rod.mass": 12.0, **place})
+    rod, ram = (mechanism_of(changed).body(name) for name in ("rod", "ram"))
+    assert rod.inertia == pytest.approx(12.0 * 0.6**2 / 12, rel=1e-12)
+    assert ram.inertia == mechanism_of(drawn).body("ram").inertia
+    assert Scene.from_dict(changed.to_dict()) == changed
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "key", "told"),
+    [
+        ("six_bar", "bodies.rood.mass", "no table bodies.rood (did you mean 'rod'?)"),
+        ("six_bar", "bodies.rod.mas", "unknown key (did you mean 'mass'?)"),
+        ("six_bar", "joints.wrist_pin.at.z", "no table joints.wrist_pin.at"),
+        ("six_bar", "joints.wrist_pin.at.left.x", "no table joints.wrist_pin.at"),
+        ("six_bar", "defaults.radius", "allowed are keys of bodies, joints, guides, output"),
+        ("press", "bodies.ram.mass", "are keys of [press]"),
+    ],
+)
+def test_other_keys_of_a_drawing_are_refused(mechanism, key, told):
+    message = refused(Scene(mechanism=mechanism).replace, {f"mechanism.{key}": 3.0})
+    assert message.startswith(f"mechanism.{key}") and told in message

@@ -1,14 +1,17 @@
 """A scene file: what is read, what is refused, and that the message names the file."""
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pytest
 from refused import refused
 
 import exu_press
-from exu_press import InputError, Scene
-from exu_press.scene import parse_assignment
+from exu_press import InputError, Result, Scene, simulate
+from exu_press.mechanism import mechanism_lines, shipped_mechanism
+from exu_press.scene import mechanism_of, parse_assignment
 
 SHIPPED = sorted((Path(exu_press.__file__).parent / "scenes").glob("*.toml"))
 
@@ -82,3 +85,39 @@ def test_assignment_values(text, value):
 def test_assignment_without_key_or_value(text):
     with pytest.raises(InputError, match=r"--set .*allowed is key=value"):
         parse_assignment(text)
+
+
+FOUR_BAR = shipped_mechanism("four_bar")
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A scene file beside a mechanism file."""
+    (tmp_path / "my_press.toml").write_text("\n".join(mechanism_lines(FOUR_BAR)))
+    lines = ['mechanism = "my_press.toml"', "revolutions = 0.01", "[solver]", "step = 1e-5"]
+    lines += ["[joints.knuckle]", 'kind = "dry"', "radius = 0.02", "clearance = 2e-5"]
+    lines += ["contact = {length = 0.02}"]
+    (tmp_path / "scene.toml").write_text("\n".join(lines))
+    return tmp_path
+
+
+def test_a_saved_scene_and_a_result_are_complete_without_the_mechanism_file(folder):
+    scene = Scene.load(folder / "scene.toml")  # beside which the mechanism's file lies
+    assert scene.mechanism == FOUR_BAR and scene.joints["knuckle"].kind == "dry"
+    assert scene.replace({"speed_rpm": 300.0}).mechanism == FOUR_BAR
+    scene.save(folder / "saved.toml", comments=True)
+    result = simulate(scene)
+    result.save(folder / "run.nc")
+    (folder / "my_press.toml").unlink()
+    assert Scene.load(folder / "saved.toml") == scene
+    again = Result.load(folder / "run.nc")
+    assert mechanism_of(again.scene) == FOUR_BAR
+    assert np.array_equal(again["slider_position"], result["slider_position"])
+
+
+def test_a_crank_that_locks_is_refused_with_the_scene():
+    joints = {joint.name: joint for joint in FOUR_BAR.joints}
+    joints["crank_pin"] = replace(joints["crank_pin"], at=(0.0, 0.3))  # as long as the rocker
+    locking = replace(FOUR_BAR, joints=tuple(joints.values()))
+    shown = refused(Scene, mechanism=locking)
+    assert "rocker" in shown and "lock" in shown and "at crank angle" in shown

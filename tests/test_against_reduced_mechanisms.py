@@ -162,13 +162,6 @@ def test_press_through_its_first_impacts(pin):
     assert expected[0] > 600.0  # there were impacts
 
 
-@pytest.mark.long
-def test_reference_of_the_press_is_converged():
-    _, _, coarse = press("pinkus", 1e-4, 240, 0.2, 1e-9)
-    _, _, fine = press("pinkus", 1e-4, 240, 0.2, 1e-11)
-    assert coarse == pytest.approx(fine, rel=5e-4)  # each at its own steps
-
-
 PEAKS = ("peak acceleration, m/s^2", "peak force of the crank pin, N", "peak force of a ball, N")
 PAPERS_PRESS = reduced(
     "the paper's press over its first revolution, 10 and 100 um, 240 and 500 rpm"

@@ -67,12 +67,6 @@ def exudyn(pin: str, step: float, friction: tuple[tuple[str, float], ...] = ()) 
     return result["slider_position"][at]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("pin", FILMS)
-def test_reference_is_converged_where_lubricated(pin):
-    assert radau(pin, 1e-10) == pytest.approx(radau(pin, 1e-9), abs=1e-9)
-
-
 REDUCED = pytest.mark.validation(
     "independent",
     "slider-crank with a clearance of 0.1 mm in its crank pin",

@@ -59,13 +59,6 @@ def test_a_key_without_use_that_an_earlier_version_took_is_left_out(tmp_path):
         Result.load(earlier)
 
 
-def test_a_number_in_the_place_of_a_text_is_refused(tmp_path):
-    damaged = tmp_path / "run.nc"
-    damaged.write_bytes(rewritten((STORED / "0.9" / "run.nc").read_bytes(), {"asked": 5}))
-    with pytest.raises(InputError, match=r"run\.nc: not a result of exu_press, or damaged: asked"):
-        Result.load(damaged)
-
-
 def test_a_run_of_a_later_version_is_refused_as_such(tmp_path, capsys):
     content = (STORED / "0.9" / "run.nc").read_bytes()
     later = tmp_path / "run.nc"

@@ -1,6 +1,5 @@
 """kill -9 of parents and of workers, Ctrl-C, two parents: nothing finished is lost."""
 
-import os
 import signal
 import subprocess
 import sys
@@ -83,28 +82,6 @@ def children(process):
     """Return the numbers of a process's children, whichever of its threads started them."""
     files = Path(f"/proc/{process}/task").glob("*/children")
     return [int(word) for file in files for word in file.read_text().split()]
-
-
-def last_call(directory):
-    return batch_functions.marks(directory / "marks")[-1]
-
-
-@pytest.mark.long
-def test_killed_workers_are_replaced(arguments, undisturbed, tmp_path):
-    process = parent("slow_digits", arguments, tmp_path)
-    tried = set()
-    for enough in (3, 8):
-        until(lambda enough=enough: lines(tmp_path) >= enough)
-        until(lambda: last_call(tmp_path)[0] not in tried)  # a task killed twice has failed
-        argument, worker = last_call(tmp_path)
-        os.kill(worker, signal.SIGKILL)
-        tried.add(argument)
-    _, errors = process.communicate(timeout=30)
-    assert process.returncode == 0, errors
-    assert len({worker for _, worker in batch_functions.marks(tmp_path / "marks")}) == 4
-    rows = go_on(arguments, tmp_path)
-    assert rows == undisturbed
-    assert lines(tmp_path) == RUNS  # going on found nothing to do
 
 
 def test_ctrl_c_ends_the_workers_and_keeps_rows(arguments, undisturbed, tmp_path):

@@ -140,8 +140,6 @@ def test_matrices_of_no_free_body_are_refused(bar_files, bar_model, damage, mess
         ("[units]", "[interfaces.units]", r"has no units; allowed are all three, as units = {len"),
         ('"kg"', '"stone"', "units.mass = 'stone': allowed is one of kg, t, g, lb"),
         ("nodes = [", "nodes = []  # [", r"interfaces.left: no node is in it; allowed is a set"),
-        ("nodes = [", "nodes = [1, 1]  # [", "interfaces.left: a node is in it twice"),
-        ("nodes = [", "nodes = [0]  # [", "interfaces.left: allowed are nodes, a list of numbers"),
         ("nodes = [", "nodes = [9999]  # [", "interfaces.left.weights: allowed are numbers"),
         ("nodes = [", f"nodes = [{10**30}]  # [", "interfaces.left: allowed are nodes, a list"),
         ("weights = [", f"weights = [{10**400},", "left.weights: allowed are numbers from 0 to"),

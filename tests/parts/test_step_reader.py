@@ -45,15 +45,12 @@ def test_a_file_is_read_however_its_name_ends(tmp_path):
     ("damage", "named"),
     [
         (lambda text: text[: len(text) // 2], "netgen cannot read it|may be damaged"),
-        pytest.param(
-            lambda text: text.replace("CARTESIAN_POINT", "CARTESIAN_PINT"), "rod", marks=LONG
-        ),
         pytest.param(lambda text: text.replace("DATA;", "DATA"), "rod", marks=LONG),
         (lambda text: text.replace(*CRASH), r"may be damaged \(killed by SIG.*: #594 = DEFINITION"),
         (lambda _: "", "is not one"),
         (lambda _: "ISO-10303-21;\n", "cannot (be )?read|holds 0 solids"),
     ],
-    ids=["half", "misspelt", "no section", "crash", "empty", "head"],
+    ids=["half", "no section", "crash", "empty", "head"],
 )
 def test_a_damaged_one_is_refused(damage, named, tmp_path):
     path = tmp_path / "rod.step"
@@ -106,10 +103,9 @@ def test_this_process_loads_no_kernel_of_solids(cache, tmp_path):
         (lambda text: text.replace("#595 = ", "#99595 = "), "refers to #595, which is not there"),
         (lambda text: text.replace("#595 = ", "#596 = "), "#596 = .* is there twice"),
         (lambda text: text.replace("(15.,232.,30.)", "(1.#QNAN,2.,3.)"), "a number that is none"),
-        (lambda text: text.replace("(15.,232.,30.)", "(1.E99999,2.,3.)"), "a number that is none"),
         (lambda text: text.replace("(15.,232.,30.))", "(15.,232.,30."), "#595 = .* is cut off"),
     ],
-    ids=["sound", "type", "reference", "twice", "nan", "infinite", "cut"],
+    ids=["sound", "type", "reference", "twice", "nan", "cut"],
 )
 def test_the_entity_at_fault_is_named(damage, named, tmp_path):
     path = tmp_path / "rod.step"

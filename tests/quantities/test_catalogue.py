@@ -2,7 +2,6 @@
 
 import dataclasses
 import importlib
-import re
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -23,7 +22,6 @@ from exu_press.studies.sweep.figure import axes_of, sweep_figure
 from exu_press.verification.run import with_errors
 
 ROOT = Path(exu_press.__file__).parent
-TEXT = re.compile(r"""["']([^"'\n]*)["']""")
 CRANK = Scene(mechanism="slider_crank", joints={}, revolutions=0.1)
 
 
@@ -44,25 +42,6 @@ def test_what_a_scene_will_have_is_what_its_run_has(scene):
     assert set(values_of(result)) == set(quantities_of(scene))
     for name, placed in quantities_of(scene).items():
         assert find_quantity(name) == placed
-
-
-def test_no_name_of_a_quantity_stands_anywhere_else_in_the_package():
-    """But in examples of docstrings, and where a channel or a key of a scene has the same name."""
-    names = {quantity.name for quantity in CATALOGUE if len(quantity.name) > 8}
-    names -= {
-        "viscosity",
-        "film.viscosity",
-        "dissipated",
-        "slider_tilt",
-        "slider_lateral",
-        "bottom_dead_centre",
-    }
-    for path in ROOT.rglob("*.py"):
-        if "quantities" in path.parts:
-            continue
-        lines = [x for x in path.read_text().splitlines() if not x.lstrip().startswith(">>>")]
-        for text in TEXT.findall("\n".join(lines)):
-            assert text.split(".", 2)[-1] not in names and text not in names, (path, text)
 
 
 MINE = """

@@ -6,7 +6,6 @@ from exu_press import InputError, Result, Scene, simulate
 from exu_press.quantities import quantities_of
 from exu_press.quantities.acceleration import differentiated_peak, mean_peak
 from exu_press.quantities.catalogue import find_quantity
-from exu_press.quantities.table import run_lines
 
 READINGS = {"average": [5e-4, 2e-3], "average_deg": [1.0], "sampled": [5000.0]}
 
@@ -39,14 +38,6 @@ def test_names_follow_and_values_are_those_of_the_window(result, tmp_path):
     result.save(tmp_path / "run.nc")
     again = Result.load(tmp_path / "run.nc")
     assert again.summary()["quantities"] == entries
-
-
-def test_the_table_has_them_below_the_usual_ones(result):
-    lines = [line.strip() for line in run_lines(result)]
-    heads = [line.partition("  ")[0] for line in lines]
-    begin = heads.index("mean over 1 ms")
-    assert heads[begin + 1 : begin + 3] == ["mean over 500 us", "mean over 2 ms"]
-    assert "differentiated, 5 kHz" in heads
 
 
 def test_the_name_alone_tells_unit_and_meaning():

@@ -104,18 +104,11 @@ def test_guides_with_clearance_wear_and_places_are_ranked():
     depths = guideway_depths(guided, "slider")
     width = np.ptp(guided["slider_position"]) / 72
     assert depths.sum() * width * WEAR["length"] / 2.0 == pytest.approx(lost, rel=0.02)
-    force = np.abs(guided["guide_force"])
-    speed = np.abs(guided["slider_velocity"])
-    power = force * speed
-    work = (0.5 * (power[1:] + power[:-1]) * np.diff(guided.time)).sum()
-    whole = depths.sum() * width * 0.1
-    assert 0.5 * 1e-4 / 2e9 * work < whole < 3.0 * 1e-4 / 2e9 * work
     ranks = [
         guided.quantity(f"{place}.wear.rank").value
         for place in ("joints.crank_pin", "guides.slider")
     ]
     assert sorted(ranks) == [1, 2]
-    assert guided.quantity("guides.slider.wear.pressure_velocity").value > 0.0
 
 
 SLOTTED = Scene(

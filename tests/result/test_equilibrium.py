@@ -1,4 +1,4 @@
-"""Guides and pivots: their forces from equilibrium are those of constraints in their place."""
+"""Forces of guides and pivots are those of constraints in their place; work and dissipation."""
 
 from dataclasses import replace
 
@@ -9,6 +9,7 @@ from coarse_parts import COARSE
 from exu_press import Scene, simulate
 from exu_press.mechanism import mechanism_to_dict, shipped_mechanism
 from exu_press.mechanism.independent_constraints import independent_constraints
+from exu_press.result.energy import work
 from exu_press.scene import mechanism_of
 
 PULSE = {
@@ -91,3 +92,43 @@ def test_the_force_on_the_frame_is_weight_and_shaking_whichever_side_the_frame_i
     expected = result["shaking_force"] - [0.0, weight]
     size = np.abs(expected).max()
     assert result["frame_force"][5:] == pytest.approx(expected[5:], abs=0.02 * size)
+
+
+TIME = np.array([0.0, 0.1, 0.4, 1.0])
+
+
+@pytest.mark.parametrize(
+    ("load", "rate", "done"),
+    [
+        (lambda t: 3.0 + 0.0 * t, lambda t: 2.0 * t, lambda t: 3.0 * t**2),
+        (lambda t: 4.0 * t, lambda t: 2.0 + 0.0 * t, lambda t: 4.0 * t**2),
+        (lambda t: 2.0 - 3.0 * t, lambda t: -1.0 + 0.0 * t, lambda t: 1.5 * t**2 - 2.0 * t),
+    ],
+)
+def test_it_is_exact_where_load_or_rate_is_even(load, rate, done):
+    assert work(TIME, load(TIME), rate(TIME)) == pytest.approx(done(TIME), abs=1e-14)
+
+
+def test_a_spring_that_is_pressed_in_by_an_even_acceleration_has_its_energy():
+    """F = -k x, x = t^2 / 2: in steps of any length, h mean(F) mean(v) misses O(h^2)."""
+    fine = np.linspace(0.0, 1.0, 1001) ** 1.5
+    assert work(fine, -8.0 * 0.5 * fine**2, fine)[-1] == pytest.approx(-0.5 * 8.0 * 0.25, rel=1e-5)
+
+
+def test_dissipation_never_falls():
+    """As work less stored energy it fell in 357 of 811 steps, and was 1.7 times too large."""
+    scene = Scene.from_dict(
+        {
+            "mechanism": "slider_crank",
+            "speed_rpm": 150.0,
+            "revolutions": 0.1,
+            "joints": {"crank_pin": {"kind": "dry", "clearance": 1e-4}},
+            "contact": {"damping": "flores", "restitution": 0.95},
+            "friction": {"law": "lugre"},
+        }
+    )
+    result = simulate(scene)
+    lost = result["crank_pin_loss"]
+    assert lost[-1] > 0.0
+    assert np.diff(lost).min() >= -1e-12 * lost[-1]
+    assert result.quantity("energy.residual").value < 1e-4

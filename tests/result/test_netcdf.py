@@ -1,7 +1,6 @@
 """A result as a file: complete, readable by others, never half written."""
 
 import errno
-import sys
 
 import numpy as np
 import pytest
@@ -85,14 +84,6 @@ def test_files_that_are_not_there_are_refused(result, tmp_path):
         Result.load(tmp_path)
 
 
-def test_netcdf_of_others_is_refused(path):
-    with netcdf_file(path, "w") as file:
-        file.createDimension("time", 3)
-        file.createVariable("time", "d", ("time",))[:] = 0.0
-    with pytest.raises(InputError, match=r"run\.nc: not a result of exu_press"):
-        Result.load(path)
-
-
 def test_the_dataset_in_memory_is_that_of_the_file(result, path):
     xarray = pytest.importorskip("xarray")
     result.save(path)
@@ -110,9 +101,3 @@ def test_the_dataset_in_memory_is_that_of_the_file(result, path):
     slider = made["body_position"].sel(body="slider", pose="y")
     index = result.bodies.index("slider")
     assert np.array_equal(slider.values, result["body_position"][:, index, 1])
-
-
-def test_without_xarray_it_says_so(result, monkeypatch):
-    monkeypatch.setitem(sys.modules, "xarray", None)
-    with pytest.raises(InputError, match="needs the package xarray"):
-        result.to_xarray()

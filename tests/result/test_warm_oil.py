@@ -171,14 +171,6 @@ def test_a_film_that_keeps_its_heat_ends_the_run():
     assert run.time[-1] == pytest.approx(60.0 / run.scene.speed_rpm)
 
 
-def test_a_short_run_says_that_it_still_warms():
-    run = simulate(scene_of({"supply_celsius": 10.0, "conductance": 0.0}, revolutions=1.0))
-    (told,) = [words for words in run.summary()["warnings"] if "it warms" in words]
-    assert "crank pin" in told
-    (told,) = [words for words in run.summary()["warnings"] if "extrapolated" in words]
-    assert "40 and 100 deg C" in told
-
-
 def test_an_orbit_has_one_viscosity():
     with pytest.raises(InputError, match=r"film\.oil: .*film\.viscosity"):
         Orbit(scene_of())

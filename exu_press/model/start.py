@@ -49,9 +49,8 @@ def deformed_start(
 ) -> tuple[dict[str, Motion], dict[str, "FrameStart"]]:
     """Return the motion of the rigid bodies and the frames of the flexible ones at the start.
 
-    Args:
-        ideal: assembled, in the start of undeformed bodies; all joints are ideal.
-        speed: of the crank, rad/s.
+    The system is assembled, in the start of undeformed bodies, and its joints are ideal; the speed
+    is the crank's, rad/s.
 
     Raises:
         InputError: a body is so compliant that its deformation is not small.

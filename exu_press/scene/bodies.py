@@ -305,7 +305,7 @@ def patch_given(where: str, value: Any) -> tuple[Face, ...]:
 
     Args:
         where: beginning of messages.
-        given: one or a list of them, each a name or a table of name or ranges.
+        value: one or a list of them, each a name or a table of name or ranges.
 
     Raises:
         InputError: a face is none, or has neither a name nor a range.

@@ -30,11 +30,7 @@ def loads_of(
 ) -> dict[str, Load]:
     """Return the loads of a scene, by name, in the order in which it gives them.
 
-    Args:
-        given: name -> mapping of keys with its kind, or one of the dataclasses; or None.
-        mechanism: on whose bodies they act.
-        flexible: names of its flexible bodies, on which a load needs a joint or a face.
-        speed_rpm: of the crank.
+    On the flexible bodies, by their names, a load needs a joint or a face.
 
     Raises:
         InputError: a load has no kind, a key that its kind does not have, a value that is not

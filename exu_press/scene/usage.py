@@ -65,12 +65,9 @@ class LawKeys:
         defaults: Mapping[str, Any],
         tables: Iterable[tuple[str, Mapping[str, Any]]] = (),
     ) -> None:
-        """Check the scene's keys.
+        """Check the scene's keys; its mechanism has the defaults.
 
-        Args:
-            scene_keys: law -> the scene's keys, or None.
-            defaults: of its mechanism, likewise.
-            tables: law and keys of joints and guides, which may name laws of their own.
+        Tables are law and keys of joints and guides, which may name laws of their own.
 
         Raises:
             InputError: a key is not allowed.

@@ -324,11 +324,7 @@ def check_keys(
 ) -> dict[str, Any]:
     """Return the keys of a table which some of several kinds of tables may use, checked.
 
-    Args:
-        kinds: of tables.
-        name: dotted, of the table.
-        data: key -> value.
-        more_names: keys that are known beside those, and not checked.
+    Keys of more names are known beside those, and not checked.
 
     Raises:
         InputError: a key is none of theirs, or its value is not allowed.

@@ -148,7 +148,7 @@ def test_press_work_precision(tmp_path):
 
 @pytest.mark.long
 def test_a_test_hands_its_numbers_to_the_page(tmp_path):
-    printed = run("validation.py", tmp_path, "tests/laws/test_contact_stiffness.py", quick=False)
+    printed = run("validation.py", tmp_path, "tests/laws/test_contact.py", quick=False)
     (row,) = [line for line in printed.splitlines() if line.startswith("| stiffness of a pin")]
     assert "stiffness, kN/um (3 values)" in row and "exact" in row
-    assert "`tests/laws/test_contact_stiffness.py::test_cylindrical_slope" in printed
+    assert "`tests/laws/test_contact.py::test_cylindrical_slope" in printed

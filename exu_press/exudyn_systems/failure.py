@@ -58,13 +58,13 @@ def why_not_converged(refinement: Refinement) -> str:
 def _cause(refinement: Refinement) -> str:
     """Return why differences are above the tolerance, and what would do."""
     finest, judgement = refinement.levels[-1], refinement.judgement
-    too_long = refinement.excess(finest)
+    orders = refinement.orders[-2:]  # of levels between which one alone may be low by chance
     if refinement.remembers:
         return (
             "a user function gives other results in each run, as it remembers earlier ones or "
             "draws numbers; pass a function that builds the system"
         )
-    if judgement is not None and not judgement.decided and judgement.order < PLAUSIBLE[0]:
+    if judgement is not None and not judgement.decided and max(orders) < PLAUSIBLE[0]:
         times, apart = _distance(refinement)
         rate = growth(times, apart, APART).rate or 0.0
         logs = np.log(np.maximum.accumulate(np.clip(apart, SMALL, APART)))
@@ -79,11 +79,11 @@ def _cause(refinement: Refinement) -> str:
             "differences do not fall: a right-hand side jumps (a switch, dry friction, a contact, "
             "a random number) and steps do not resolve it; smooth it, or end the run before it"
         )
-    steps = math.ceil(finest.steps * too_long)
+    steps = math.ceil(finest.steps * refinement.excess(finest))
     phase = 2.0 * math.pi / STEPS_IN_PERIOD * steps  # is off by its third power / (12 steps^2)
     by_phase = phase * math.sqrt(phase / (12.0 * refinement.tolerance))
-    need, budget = LEVELS, math.ceil(max(by_phase, 4.0 * steps))
-    if too_long > 1.0:
+    need, budget = LEVELS, math.ceil(max(by_phase, 4.0 * max(steps, finest.steps)))
+    if steps > finest.steps:
         need = f"the shortest period or the fastest turn, in steps of which {steps} make the run"
     elif judgement is not None and judgement.decided:
         order = np.clip(judgement.order, PLAUSIBLE[0], ORDER)

@@ -73,6 +73,18 @@ def test_a_small_budget_says_which_one_would_do():
     assert sum(steps for steps, _ in outcome.levels) <= 2000
 
 
+def test_levels_that_scatter_at_a_hard_wall_are_not_called_chaos():
+    """The error of a bounce depends on where its first step begins; a larger budget resolves it."""
+
+    def force(mbs, t, item, u, v, k, d, offset):
+        return 100.0 * u + (1e7 * (u + 0.05) if u < -0.05 else 0.0)
+
+    mbs = oscillator(force=force, start=0.1)[0]
+    outcome = refused_result(mbs, settings(2.0, 400), tolerance=1e-4)
+    needed = int(re.search(r"order is plausible; max_steps = (\d+) would do", outcome.reason)[1])
+    assert 4e6 < needed < 1e7  # some 5e6: completed, with an error of 4e-7
+
+
 def test_periods_that_no_level_resolves_are_told():
     outcome = refused_result(oscillator(stiffness=1e8)[0], settings(1.0, 16), max_steps=1000)
     needed = int(re.search(r"in steps of which (\d+) make the run", outcome.reason)[1])

@@ -8,6 +8,7 @@ from exu_press.mechanism.press import PAPER_LAWS
 from exu_press.quantities import Quantity, QuantityAt
 from exu_press.quantities.kind import DIFFERENCE, RESULTANT
 from exu_press.scene import flexible_press
+from exu_press.verification.estimate import ORDERS
 from exu_press.verification.refinement import RefinementRuns
 from exu_press.verification.run import errors_of
 from exu_press.verification.stated_errors import compare_errors
@@ -189,3 +190,59 @@ def test_the_vibration_behind_a_slow_cut_is_within_its_error():
     told = simulate(scene, errors=True, beside=False).quantity("joints.wrist_pin.peak_force")
     assert told.low < 168368.54 < told.high
     assert told.error < 0.02 * told.value
+
+
+def test_energies_that_agree_at_the_end_by_chance_are_not_known_so_well(result):
+    """Those of a run with clearance swing, and so do their differences."""
+    swing = np.cos(6.5 * np.pi * result.time / result.time[-1])  # nothing at the end
+    away = result["crank_pin_eccentricity"] * (1.0 + 1e-3 * swing[:, None])
+    found = []
+    for joules in (0.0, 0.2):
+        energy = {"energy_stored": result["energy_stored"] + joules * swing}
+        other = result.with_values({"crank_pin_eccentricity": away, **energy})
+        told = errors_of(result, [(0.5, other), (8.0, other)])
+        assert told["horizon"] is None
+        found.append(told["errors"]["energy.stored"]["error"])
+    assert found[0] < 1e-3
+    expected = 0.2 / (1.0 - 0.5 ** ORDERS["tolerance"])
+    assert expected <= 1.1 * found[1] <= 1.2 * expected
+
+
+def test_what_energies_differ_by_while_a_run_settles_is_no_error():
+    run = simulate(Scene(**DRY, revolutions=0.1, settle=0.04))
+    early = np.where(run.time > 0.2 * run.time[-1], 5.0, 0.0)
+    away = run["crank_pin_eccentricity"] * (1.0 + 1e-3 * np.sin(run.time))[:, None]
+    energy = {"energy_stored": run["energy_stored"] + early}
+    other = run.with_values({"crank_pin_eccentricity": away, **energy})
+    told = errors_of(run, [(0.5, other), (8.0, other)])
+    assert told["errors"]["energy.stored"]["error"] < 1e-3
+
+
+def test_a_force_that_symmetry_makes_nothing_is_known():
+    """Its error is what Newton's method leaves of large forces that cancel."""
+    run = simulate(Scene(mechanism="press", joints={}, revolutions=0.04), errors=True)
+    known = run.info["errors"]["shaking.horizontal"]
+    assert known["determined"]
+    lifting = run.with_values({"shaking_force": 1e-12 * run["shaking_force"]})
+    told = errors_of(lifting, [(4.0, lifting), (8.0, lifting)])["errors"]["shaking.horizontal"]
+    assert told["error"] > 1e-12 * known["high"]
+    assert told["determined"]
+
+
+def test_samples_are_not_expected_above_means(result):
+    """Their second difference is the mean over 1 ms of means over 1 ms."""
+    late = result.time > 0.5 * result.time[-1]
+    beside = {
+        "crank_pin_eccentricity": np.where(late[:, None], [2e-4, 0.0], 0.0),
+        "slider_position": np.where(late, 1e-3 * np.sin(1e3 * result.time), 0.0),
+    }
+    other = result.with_values({name: result[name] + more for name, more in beside.items()})
+    errors = errors_of(result, [(4.0, other), (8.0, other)])["errors"]
+    samples, means = (
+        errors[f"peak_acceleration.{name}"] for name in ("differentiated_1khz", "mean_1ms")
+    )
+    assert samples["high"] == means["high"]
+    assert (
+        samples["error"]
+        >= samples["high"] - result.quantity("peak_acceleration.differentiated_1khz").value
+    )

@@ -2,6 +2,7 @@
 
 import dataclasses
 
+import numpy as np
 import pytest
 
 from exu_press import Scene, simulate
@@ -45,3 +46,17 @@ def test_a_stated_error_covers_what_is_within_it(run, part):
     assert not of_stroke(run, reference, 0.009).is_covered
     nothing = of_stroke(run, longer(run, 0.5 * NOTHING), 0.0)
     assert nothing.is_covered and nothing.ratio is None
+
+
+def test_what_alternates_in_the_reference_is_open(run):
+    """Of a peak that alternates by 4 % from step to step, nobody knows more than that."""
+    name = "joints.shaft.peak_force"
+    value = run.quantity(name).value
+    signs = np.where(np.arange(len(run.time)) % 2, 1.0, -1.0)[:, None]
+    reference = run.with_values({"shaft_force": run["shaft_force"] * (1.0 + 0.04 * signs)})
+    told = {"error": 0.0, "determined": True, "low": value, "high": value}
+    stating = dataclasses.replace(run, info={**run.info, "errors": {name: told}})
+    (found,) = compare_errors(stating, reference)
+    assert found.reading_error == pytest.approx(0.04 * value, rel=0.3)
+    assert found.is_covered
+    assert found.ratio is None

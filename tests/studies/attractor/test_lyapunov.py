@@ -141,3 +141,14 @@ def test_a_motion_that_stops_leaves_what_it_reached(tmp_path, monkeypatch, capsy
         assert 3 <= told["revolutions"] < 20 and "a step is too short" in told["stopped"]
         assert told["lyapunov_exponent"]["high"] is None
         assert list(told["figures"]) == ["joints.crank_pin.peak_force"]
+
+
+def test_an_interval_that_has_not_aligned_holds_the_exponent_that_it_tends_to():
+    """Two contractions, by 0.3 and 0.238 a revolution; a neighbour begins in the faster one."""
+    turn = np.arange(1, 41)
+    growths = [
+        np.diff(np.log(np.hypot(np.exp(-0.30 * turn), part * np.exp(-0.238 * turn))))
+        for part in (0.02, 0.5)
+    ]
+    found = combine_exponents(growths, (1e-2, 1e-3), 1e-9, (0.0, 0.0))
+    assert found.low < -0.3 and found.high > -0.245

@@ -188,3 +188,12 @@ def test_the_picture_has_a_line_for_each_speed():
     lines = [line.get_xdata() for line in stiffness.lines if len(line.get_xdata())]
     assert [list(line) for line in lines] == [list(loads)] * 8
     assert {"60 rpm", "200 rpm"} <= {t.get_text() for t in stiffness.get_legend().texts}
+
+
+def test_the_other_sense_of_rotation_is_the_mirror_image():
+    load, flipped = (3000.0, -4000.0), np.diag([-1.0, 1.0])
+    scene = scene_with("finite")
+    left = bearing_coefficients(scene, "crank_pin", load=load, speed_rpm=SPEED)
+    right = bearing_coefficients(scene, "crank_pin", load=(-3000.0, -4000.0), speed_rpm=-SPEED)
+    assert right.attitude_angle == pytest.approx(left.attitude_angle)
+    assert right.stiffness == pytest.approx(flipped @ left.stiffness @ flipped)

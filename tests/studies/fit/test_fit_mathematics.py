@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press.studies.fit.identifiability import identifiability
-from exu_press.studies.fit.jacobian import STEP, jacobian
+from exu_press.studies.fit.jacobian import LARGEST, STEP, jacobian, steps
 from exu_press.studies.fit.minimum import Minimum, evolve, search_minima, select_starts
 from exu_press.studies.fit.profile import BRACKET, NOT_CONVERGED, OPEN, End, profile
 
@@ -122,3 +122,23 @@ def test_differential_evolution_finds_the_least_of_many_minima():
     least = (evaluate(grid) ** 2).sum(axis=1).min()
     assert best.chi_square == pytest.approx(least, abs=0.02)
     assert evolve(lambda points: np.full((len(points), 2), np.nan), 1, 2, 0) is None
+
+
+def test_steps_grow_until_they_are_seen_beyond_the_errors():
+    evaluate = against(decay(TRUE))
+    x = TRUE
+    small = steps(evaluate, x, evaluate(x[None])[0], np.full(len(AT), 1e-6))
+    assert small == pytest.approx([STEP, STEP])
+    large = steps(evaluate, x, evaluate(x[None])[0], np.full(len(AT), 0.5))
+    assert (large > STEP).all()
+    assert (large <= LARGEST).all()
+
+
+def test_a_point_that_is_better_than_the_minimum_is_reported():
+    evaluate = against(decay(TRUE))
+    off = np.array([0.72, 0.3])
+    start = Minimum(off, evaluate(off[None])[0])
+    derivative = jacobian(evaluate, off, start.residuals, np.full(2, STEP))
+    one = profile(evaluate, start, derivative, 1, 0.95)
+    assert one.better is not None
+    assert one.better.chi_square < start.chi_square

@@ -14,6 +14,7 @@ from exu_press.studies.precision.errors import (
     Errors,
     Trajectory,
     errors_of,
+    peaks_error,
 )
 from exu_press.studies.precision.references import divergence
 from exu_press.studies.precision.rows import order_of, row_of
@@ -121,3 +122,21 @@ def test_long_runs_and_failed_ones_are_not_repeated():
     assert len(time_runs(attempt(100.0), 3).wall_times) == 1
     assert len(time_runs(attempt(100.0), 3, longest=math.inf).wall_times) == 3
     assert len(time_runs(attempt(1.0, "failed"), 3).wall_times) == 1
+
+
+def test_peaks_of_a_whole_run_are_a_distribution_over_its_starts():
+    """Accelerations of a run are a tenth larger, those of its other start a tenth less."""
+    truth, large, small = (wave(amplitude=amplitude) for amplitude in (1.0, 1.1, 0.9))
+    assert peaks_error(large, truth) == pytest.approx(0.1)
+    assert peaks_error(large, truth, [small]) == pytest.approx(0.0, abs=1e-12)
+    assert peaks_error(large, truth, [], [large]) == pytest.approx(0.1 / 2.1)
+
+
+def test_errors_below_the_floor_are_raised_to_it_and_marked():
+    low = row(1e-3, 1e-9, floor=Errors(1e-8, 1e-10, None))
+    assert (low.error_position, low.error_velocity) == (1e-8, 1e-9)
+    assert low.at_most == ("error_position",)
+    assert (
+        low.resolved_error("error_position") is None
+        and low.resolved_error("error_velocity") == 1e-9
+    )

@@ -10,9 +10,11 @@ import os
 import subprocess
 import sys
 
+import pytest
+
 from exu_press import simulate
 from exu_press.cli import main
-from exu_press.errors import DiskFullError
+from exu_press.errors import DiskFullError, error_prefix
 from exu_press.verification import run as with_errors
 
 LIMITED = """
@@ -100,6 +102,11 @@ def test_refinements_without_room_leave_the_run_without_errors(tmp_path, monkeyp
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert summary["status"] == "completed" and "/small/x" in summary["reason"]
     assert {told["error"] for told in summary["quantities"].values()} == {None}
+
+
+def test_a_full_disk_stays_one_below_a_prefix():
+    with pytest.raises(DiskFullError, match=r"^bodies\.rod: no room"), error_prefix("bodies.rod: "):
+        raise DiskFullError("no room")
 
 
 def test_a_child_says_that_its_disk_is_full(tmp_path):

@@ -74,11 +74,13 @@ def test_each_step_of_the_way_to_a_run_imports_what_it_uses(tmp_path):
     assert not tops(scene) & {"exudyn", "matplotlib", *FLEXIBLE}  # bad input is refused before
     assert {"exudyn", "numpy"} <= first  # SciPy takes twice as long to load as those two
     assert not tops(first) & {"scipy", "tqdm", "matplotlib", *FLEXIBLE}
-    ideal, rigid, of_command = imported_after(
+    ideal, rigid, of_command, of_page = imported_after(
         IDEAL_RUN,
         RIGID_RUN % (tmp_path / "run.nc"),
         "from exu_press.cli import main\n" + COMMAND % place,
+        "import exu_press.report.run",
     )
+    assert "matplotlib" not in of_page
     ours = [name for name in ideal if tops([name]) <= {"exu_press", "fe_models"}]
     assert 50 < len(ours) <= 125
     assert not [name for name in ours if any(word in name for word in NOT_OF_AN_IDEAL_RUN)]

@@ -29,7 +29,6 @@ __all__ = [
     "Child",
     "ChildError",
     "TimeLimitError",
-    "computed_beside",
     "may_copy",
     "performed_beside",
     "why_not_copied",
@@ -228,13 +227,6 @@ def performed_beside(
             return child.answer
 
         yield begin
-
-
-@contextmanager
-def computed_beside(function: Callable[[], Value]) -> Iterator[Callable[[], Value]]:
-    """Yield what returns a function's value, as `performed_beside` has begun to compute it."""
-    with performed_beside(function) as begin:
-        yield begin()
 
 
 def may_copy() -> bool:

@@ -4,7 +4,6 @@ import json
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from datetime import datetime
-from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -21,7 +20,7 @@ from exu_press.files.output_directory import FORMATS, remove_partial, replacing
 from exu_press.plots.format import picture_format
 from exu_press.plots.style import DPI, look
 from exu_press.scene.provenance import Provenance, provenance_of
-from fe_models.processes import computed_beside
+from fe_models.processes import performed_beside
 
 __all__ = [
     "check_picture",
@@ -149,5 +148,5 @@ def draw_figures(
     with ExitStack() as stack:
         for name in remaining:  # when its process has ended, which an error or Ctrl-C kills
             stack.callback(remove_partial, Path(directory) / f"{name}{picture_format().ending}")
-        beside = [stack.enter_context(computed_beside(partial(write, name))) for name in remaining]
+        beside = [stack.enter_context(performed_beside(write))(name) for name in remaining]
         return [write(first), *(written() for written in beside)]

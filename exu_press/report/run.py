@@ -1,7 +1,6 @@
 """The report of one run."""
 
 from collections.abc import Callable, Iterable, Mapping
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +32,7 @@ from exu_press.result.windows import interval
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import engineering_values, keys_of, used_assumptions
 from exu_press.scene.provenance import Provenance, rows_of
-from fe_models.processes import computed_beside, performed_beside
+from fe_models.processes import performed_beside
 
 __all__ = [
     "changed_keys",
@@ -83,8 +82,8 @@ MOST_NUMBERS = 4
 
 def run_report(result: Result, source: str) -> str:
     """Return the page of a run; `source` is shown, as the name of its file."""
-    with computed_beside(partial(_pictures, result)) as pictures:
-        return _page(result, source, ALL, pictures)
+    with performed_beside(_pictures) as begin:
+        return _page(result, source, ALL, begin(result))
 
 
 def file_report(file: Path, span: Span = ALL) -> str:

@@ -12,7 +12,7 @@ import pytest
 from waiting import alive, until
 
 from fe_models.errors import DiskFullError, InputError
-from fe_models.processes import Child, ChildError, computed_beside, may_copy
+from fe_models.processes import Child, ChildError, may_copy, performed_beside
 
 HERE = str(Path(__file__).parent)
 
@@ -43,8 +43,11 @@ def test_requests_are_answered_in_their_order(copied, capfd):
 def test_a_value_is_computed_beside_or_when_it_is_asked_for(copied, monkeypatch):
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     monkeypatch.setattr("fe_models.processes.may_copy", lambda: copied)
-    with computed_beside(os.getpid) as number:
-        assert (number() == os.getpid()) == (not copied)
+    with performed_beside(lambda x: (x, os.getpid())) as begin:
+        answers = [begin(x) for x in range(2)]
+        for x, answer in enumerate(answers):
+            value, process = answer()
+            assert value == x and (process == os.getpid()) == (not copied)
 
 
 @way
@@ -78,7 +81,7 @@ def test_what_goes_wrong_is_told(copied, name, kind, text):
 
 
 ASKS = """
-from fe_models.processes import Child
+from fe_models.processes import Child, ChildError, may_copy, performed_beside
 print("the script runs")
 with Child("process_functions:folder_of_json") as child:
     child.request()
@@ -118,7 +121,7 @@ def test_a_child_runs_no_script_and_nothing_of_the_working_folder(way, tmp_path)
 PARENT = """
 import sys; sys.path[:] = {path!r}
 import os, process_functions
-from fe_models.processes import Child
+from fe_models.processes import Child, ChildError, may_copy, performed_beside
 function = process_functions.deaf if {copied} else "process_functions:deaf"
 with Child(function) as child:
     child.request({mark!r})

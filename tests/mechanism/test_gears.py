@@ -62,10 +62,8 @@ def test_two_points_descend_alike(compare):
         ({"body": "crank"}, r"gears\.planet: gears 'crank' to itself"),
         ({"body": "crank", "to": "rod"}, r"gears\.planet\.body = 'crank': is the crank"),
         ({"body": "frame"}, r"gears\.planet\.body = 'frame': unknown"),
-        ({"to": "plane"}, r"gears\.planet\.to = 'plane': unknown.*planet"),
         ({"ratio": 0}, r"gears\.planet\.ratio = 0: allowed is an integer, not 0"),
         ({"ratio": -1e20}, r"ratio = -1e\+20: allowed is an integer, not 0, of at most 1000"),
-        ({"ratio": 1.5}, r"gears\.planet\.ratio = 1\.5: allowed is an integer"),
     ],
 )
 def test_refused(changes, text):

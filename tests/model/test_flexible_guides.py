@@ -2,9 +2,6 @@
 
 import numpy as np
 import pytest
-import scipy.sparse as sp
-from independent.solid import displaced
-from pressed import static_modes
 
 from exu_press import InputError, Scene, simulate
 from exu_press.joints.history import history
@@ -18,9 +15,6 @@ from exu_press.scene import mechanism_of
 pytest.importorskip("ngsolve")
 
 from netgen.occ import Box, Cylinder, Pnt, Sphere, Z
-
-from fe_models import CRANK_STEEL, Axis, Interface, Part, Patch, Sides, StepFile
-from fe_models.elasticity import full_model
 
 pytestmark = pytest.mark.usefixtures("sound_files")
 
@@ -186,43 +180,3 @@ def test_the_damping_of_a_guide_is_that_of_the_solids_mass(slider):
     assert guide.lateral.damping == 2.0 * ratio * np.sqrt(2e8 * part.reduced.mass)
     stiffness = guide.tilting.stiffness
     assert guide.tilting.damping == 2.0 * ratio * np.sqrt(stiffness * part.inertia)
-
-
-def pressed(asked, mean):
-    """Return how far a face moves against the pin under a force of 1 N at slow speed, m."""
-    model = build(asked)
-    modes = static_modes(model, "slider")
-    interface = model.parts["slider"].reduced.interface
-    moved = interface(mean).translation @ modes - interface("wrist_pin").translation @ modes
-    model.SC.Reset()
-    return moved[1]
-
-
-def load_of(force):
-    values = {"kind": "table", "time": [0.0, 1.0], "force": [force, force]}
-    return {"push": {**values, "face": BOTTOM}}
-
-
-STILL = {"gravity": 0.0, "speed_rpm": 1e-3, "start_angle_deg": 1.0}
-
-
-@pytest.mark.long
-def test_a_force_compresses_it_as_all_finite_elements(slider):
-    """With the pin's mean motion held upright and the guide's across and about z."""
-    asked = slider(load=load_of(1e4), **STILL)
-    moved = pressed(asked, "load push")
-    low = WRIST - LENGTH
-    box = ((-np.inf, low - 1e-3, -np.inf), (np.inf, low + 1e-3, np.inf))
-    solid = StepFile(
-        asked.bodies["slider"].path,
-        1e-3,
-        axes={"pin": Axis((0.0, WRIST))},
-        patches={"guide": Sides((1.0, 0.0)), "bottom": (Patch(box=box),)},
-    )
-    interfaces = tuple(Interface(name) for name in ("pin", "guide", "bottom"))
-    model = full_model(Part("block", solid, CRANK_STEEL, interfaces, MESH))
-    faces = model.faces
-    rows = sp.vstack([faces["pin"].rows[[1, 2, 3, 4]], faces["guide"].rows[[0, 5]]])
-    force = faces["bottom"].rows[1].toarray().ravel() * 1e4
-    found = displaced(model.stiffness, rows, force)
-    assert moved == pytest.approx((faces["bottom"].rows @ found)[1], rel=1e-4)

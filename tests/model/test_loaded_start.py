@@ -9,8 +9,6 @@ from coarse_parts import COARSE
 from exu_press import Scene, simulate
 from exu_press.mechanism import shipped_mechanism
 from exu_press.mechanism.springs import LinearSpring
-from exu_press.model.loaded_start import loaded_start
-from exu_press.model.system import System
 
 PIN = {"radius": 0.02, "clearance": 2e-5, "contact": {"length": 0.02}}
 BALANCE = LinearSpring("balance", ("frame", "ram"), ((0.3, -1.2), (0.1, -0.5)), 1e4, preload=3e3)
@@ -62,26 +60,6 @@ def test_joints_begin_with_the_force_of_the_ideal_motion(name):
         assert np.linalg.norm(force[0, :2] - wanted) < 0.02 * size, joint
         peak = np.linalg.norm(force, axis=1).max()
         assert peak < 1.3 * np.linalg.norm(expected[f"{joint}_force"], axis=1).max(), "no fall"
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_the_start_is_on_the_constraints(name):
-    """Positions and velocities of ideal joints, and the drive's speed."""
-    system = System(at_angle(SCENES[name]), {})
-    start, mechanism = loaded_start(system), system.mechanism
-    speed = system.scene.angular_speed
-    assert start[mechanism.crank].velocity[0, 2] == pytest.approx(speed, rel=1e-9)
-    for joint in mechanism.joints:
-        if joint.name in system.scene.joints.ideal:
-            ends = []
-            for body, point in mechanism.ends(joint):
-                if body == "frame":
-                    ends.append((np.array(point), np.zeros(2)))
-                else:
-                    moved = start[body].point_motion(point)
-                    ends.append((moved.position[0, :2], moved.velocity[0, :2]))
-            assert ends[0][0] == pytest.approx(ends[1][0], abs=1e-12)
-            assert ends[0][1] == pytest.approx(ends[1][1], abs=1e-9)
 
 
 def test_a_journal_lies_at_its_static_penetration():

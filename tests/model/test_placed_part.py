@@ -105,11 +105,6 @@ def test_a_forked_rod_holds_its_pin_by_both_eyes(rod):
             r"joints\.rod_pin and joints\.wrist_pin hold the same face 'bore'",
         ),
         (
-            bar(),
-            {"faces": {"rod_pin": ["bore", "bore"]}},
-            r"rod_pin and joints\.rod_pin hold the same",
-        ),
-        (
             bar() - Cylinder(Pnt(0, 0, 5), Z, r=25, h=20),
             {},
             r"2 round faces lie about rod_pin: radius = 0\.02, z = .*; radius = 0\.025, z = .* Say",

@@ -44,20 +44,8 @@ def test_the_first_30_degrees_are_those_of_the_second_revolution(result, channel
     assert np.abs(first - second).max() < relative * np.abs(result[channel]).max()
 
 
-@pytest.mark.parametrize("singular", [False, True])
-def test_a_body_too_soft_to_stay_in_shape_is_refused(monkeypatch, singular):
-    """A Young's modulus in MPa; what it would be bent by is no number that says anything.
-
-    Kernels of some processors find a matrix singular then, and others do not.
-    """
-    solve = np.linalg.solve
-
-    def solved(matrix, right):
-        if singular and np.abs(right).max() > 1e30:
-            raise np.linalg.LinAlgError("Singular matrix")
-        return solve(matrix, right)
-
-    monkeypatch.setattr(np.linalg, "solve", solved)
+def test_a_body_too_soft_to_stay_in_shape_is_refused():
+    """A Young's modulus in MPa; what it would be bent by is no number that says anything."""
     linkage = {"flexible": "linkage", "modes": 4, "mesh_size": 0.1, "youngs_modulus": 1.69e5}
     scene = Scene(**IDEAL, bodies={"linkage": linkage}, revolutions=0.001)
     message = (

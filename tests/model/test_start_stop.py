@@ -42,19 +42,16 @@ def rotors(**changes):
 
 def test_a_press_that_stands_is_resolved():
     """Its inertia forces are rounding: they jump from step to step, and move nothing."""
-    standing = Scene(
-        mechanism="slider_crank",
-        joints={"crank_pin": {"kind": "dry", "clearance": 5e-5, "radius": 0.03}},
-        contact={"length": 0.05},
-        speed_rpm=60.0,
-        revolutions=0.05,
-        drive={
-            **{name: FREE[name] for name in ("rated_torque", "inertia", "begins", "brake_off")},
-            "clutch_torque": 200.0,
-            "clutch_on": [0.01, 0.02],
-            "brake_torque": 600.0,
-            "start_time": [0.05],
-        },
+    pin = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
+    never = dict.fromkeys(("stop_time", "clutch_off", "brake_on"))
+    standing = rotors(start_time=[0.05], brake_torque=600.0, **never).replace(
+        {
+            "joints": {"crank_pin": pin},
+            "contact": {"length": 0.05},
+            "slider_crank": {},
+            "gravity": 9.81,
+            "revolutions": 0.05,
+        }
     )
     result = simulate(standing)
     assert result.info["status"] == "completed", result.info["reason"]

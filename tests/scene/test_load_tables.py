@@ -53,18 +53,13 @@ def test_keys_on_the_command_line_and_in_sweeps():
     [
         ("", "header ''; allowed are two names"),
         ("t,F\n0,1\n", "header 't,F'; allowed is 'time,force' or 'crank_angle_deg,force' or"),
-        ("force,time\n0,1\n", "header 'force,time'"),
         ("time,force\n", "0 lines of numbers; allowed are at least two"),
-        ("time,force\n0,1\n", "1 lines of numbers"),
         ("time,force\n0,1\n1,x\n", "line 3: '1,x'; allowed are two numbers"),
         ("time,force\n0,1\n1,2,3\n", "line 3: '1,2,3'; allowed are two numbers"),
-        ("time force\n0 1\n", "header 'time force'"),
-        ("time,force,x\n0,1\n", "header 'time,force,x'"),
         ("time;force\n0;0,5\n1;1.5\n", "line 3: '1;1.5'; allowed is a decimal comma, as on"),
         ("time;force\n0;0.5\n1;1.000,5\n", "line 2: '0;0.5'; allowed is a decimal comma, as on"),
         ('time,force\n0,1\n1,"1,5"\n', "line 3: '1,\"1,5\"'; allowed are two numbers"),
         ("time,force\n0,1\n1,1e300\n", "line 3: '1,1e300'; allowed are finite numbers below"),
-        ("time,force\n0,1\n1,nan\n", "line 3: '1,nan'; allowed are finite"),
         ("time,force\n0,1\n1,2\n1,3\n", "line 4: 1 after 1; allowed is inc"),
     ],
 )
@@ -101,7 +96,6 @@ def test_a_force_over_the_height_forms_unless_it_acts_both_ways():
         ({"height": [0.0, 20.0]}, "from 0 to 20 m: the output is between 0 and 0.0"),
         ({"height": [0.0, 20.0]}, "Was 0.02 m (20 mm) meant?"),
         ({"height": [-0.157, -0.150]}, "from -0.157 to -0.15 m: the output is between"),
-        ({"height": [0.2, 0.3]}, "from 0.2 to 0.3 m: the output is between"),
         ({"force": [-2e5, 0.0]}, "load.a acts while the output closes, and pushes the way it goes"),
     ],
 )

@@ -71,10 +71,7 @@ def test_a_law_that_there_is_not_is_refused_where_no_joint_has_it():
     [
         ({"clearanc": 1e-5}, r"defaults.clearanc = 1e-05: unknown key \(did you mean 'clearance'"),
         ({"film": 3}, "defaults.film = 3: allowed is a table"),
-        ({"radius": "wide"}, "defaults.radius = 'wide': allowed is a number"),
-        ({"settle": math.inf}, "defaults.settle = inf: allowed is a number"),
         ({"settle": -1.0}, "defaults.settle = -1.0: allowed is a number >= 0"),
-        ({"clearance": 0.0}, "defaults.clearance = 0.0: allowed is a number > 0"),
         ({"film": {"length": math.nan}}, "defaults.film.length = nan: allowed is a number"),
         (3, "defaults = 3: allowed is a table"),
     ],

@@ -34,33 +34,25 @@ film.grooves = [{width_deg = 9}] -> film.grooves = [{'angle_deg': 0.0, 'width_de
 film = {at_contact = 'mixed', roughness = 4e-5} -> film.roughness * film.asperity_onset = 0.00012
 friction.velocity = 1.0 -> allowed are law, mu_kinetic, regularisation_velocity, mu_static, strib
 revolutions = 2e-4; speed_rpm = 2.4e5 -> revolutions = 0.0002 at speed_rpm = 240000 is a run of
-mechanism = 'crank_slider' -> mechanism = 'crank_slider': allowed is one of 'press', 'slider_crank'
 solver = {step = 1e-5, tolerance = 1e-3} -> solver.tolerance = 0.001: not used .. (solver.step is
 solver = {step = 1e-5, max_step_deg = 1.5} -> solver.max_step_deg = 1.5: not used .. solver.step
 friction.mu_static = 0.005 -> friction.mu_static = 0.005: allowed is a number >= friction.mu_kin
-slider_crank = {} -> [slider_crank]: not used .. mechanism is 'press'
 press.linkage_length = 0.02 -> press: linkage and slide lock .. deg
 press.link_5_length = 0.1655 -> press.link_5_length .. deg
 press.link_7_length = 0.005 -> press.link_7_length .. deg
-press = {counterweight = false, counterweight_mass = 9} -> press.counterweight_mass = 9: not used
 crank_pin = 'dry' -> crank_pin = 'dry': is joints.crank_pin now
-flexible.modes = 4 -> flexible = {'modes': 4}: is bodies.NAME now
 = mechanism = 'four_bar'
-press = {} -> [press]: not used by this scene
 joints.crankpin = 'dry' -> joints.crankpin = 'dry': four_bar has no such joint .. mean 'crank_pin'
 = mechanism = 'scotch_yoke'
 joints.yoke_slot = 'dry' -> yoke_slot is a guide or slot of scotch_yoke; allowed is [guide.
 = mechanism = 'slider_crank'
 press = {} -> [press]: not used .. mechanism is 'slider_crank'
-contact = {} -> [contact]: not used .. no joint is 'dry'
 = joints = {}
-film = {} -> [film]: not used .. no joint is 'lubricated'
 = joints.balls = 'dry'
 film.viscosity = 0.1 -> [film]: not used .. no joint is 'lubricated'
 
 # joints
 =
-joints.crank_pn = 'dry' -> joints.crank_pn = 'dry': press has no such joint or group (did you
 joints.crank_pin = 'wet' -> joints.crank_pin.kind = 'wet': allowed is one of 'ideal', 'dry',
 joints.crank_pin = {} -> joints.crank_pin needs kind, one of 'ideal', 'dry', 'lubricated'
 joints.pivots = {kind = 'dry', clearance = 2, radius = 1} -> clearance = 2.0: allowed is .. < radius
@@ -90,12 +82,9 @@ joints.crank_pin.worn.bearing_depth = [0, 0, 0, 0, 0, 0, 5e-4, 0, 0, 0, 0, 0] ->
 = mechanism = 'slider_crank'; joints.crank_pin = {kind = 'dry', clearance = 5e-5, radius = 0.03}
 contact = {damping = 'hu_guo', damping_max = 1} -> contact.damping_max = 1 .. belongs to 'step')
 contact = {shape = 'point', length = 0.1} -> contact.length = 0.1: not used .. shape is 'point'
-contact = {length = 0.1, stiffness = 1e9} -> contact.stiffness = 1 .. to 'point'
 contact = {shape = 'point', stiffness = 1, modulus = 1} -> contact.modulus = 1 .. stiffness is given
 friction = {law = 'coulomb', mu_static = 0.1} -> friction.mu_static = 0.1: not used .. 'coulomb'
-friction.sigma_0 = 1e5 -> friction.sigma_0 = 100000.0: not used .. friction.law is 'coulomb'
 joints.crank_pin.friction.mu_static = 0.2 -> crank_pin.friction.mu_static = .. (friction.law is 'cou
-joints.crank_pin.friction = {law = 'none', mu_kinetic = 0.2} -> (joints.crank_pin.friction.law is
 joints.crank_pin.friction.law = 'lugre'; friction = {law = 'lugre_steady', \
 regularisation_velocity = 1e-4} -> friction.regularisation_velocity = .. pin.friction.law is 'lugre'
 drive = {table_speed_rpm = [0, 300], table_torque = [9, 0], inertia = 9, slip = 1} -> is given
@@ -110,15 +99,12 @@ output.samples = [90.0, 90.0] -> output.samples = 90.0 after 90.0: allowed is in
 output.samples = [0.0]; solver.step = 1e-5 -> output.samples: allowed with solver.tolerance
 = mechanism = 'slider_crank'; joints.crank_pin = 'dry'; wear = {coefficient = 1e-4, hardness = 2e9}
 speed_rpm = 200 -> length
-wear = {length = 0.1, joints.crank_pim.length = 0.1} -> no such place
 wear = {length = 0.1, joints.shaft.length = 0.1} -> do not touch
 wear = {length = 0.1, guides.slider.length = 0.1} -> (guides.slider has no clearance)
 
 # guides
 = mechanism = 'slider_crank'; joints = {}
 wear = {coefficient = 1e-4, hardness = 2e9, length = 0.1} -> no revolute joint is dry
-guide = {friction = 'coulomb', length = 0.3} -> guide.length = 0.3: not used .. lateral_stiffness is
-guide.slide_inertia = 1.0 -> guide.slide_inertia = 1.0: is press.slide_inertia now
 guide.friction = 'lugre'; friction.mu_kinetic = 0.2 -> friction.mu_kinetic = 0.2: not used .. guides
 guide.friction = 'coulomb'; friction.sigma_0 = 2e4 -> [friction]: not used .. no joint is 'dry'
 guide.clearance = 2e-5; contact.modulus = 1e11 -> contact.modulus = 1
@@ -127,18 +113,14 @@ guide = {friction = 'coulomb', viscosity = 0.1} -> guide.viscosity = 0.1: not us
 = mechanism = 'slider_crank'; joints = {}; guide = {clearance = 2e-5, length = 0.3, width = 0.1}
 guide.damping_ratio = 0.1 -> guide.damping_ratio = 0.1: not used .. [contact] has
 guide.slider.length = 0.2 -> guide.length = 0.3: not used by this scene (every guide has its own
-guide.damping_depth = 1e-6 -> guide.damping_depth = 1e-06: is contact.damping_depth
 guide.tilting_stiffness = 1e6 -> guide.tilting_stiffness = 1000000.0: not used
-guide = {friction = 'stribeck', mu_static = 0.05} -> guide.mu_static = 0.05: allowed is .. >= guide
 guide.viscosity = 0.1 -> guide.viscosity needs guide.face_width .. no default
-guide.slider.oil.viscosity = 0.1 -> guide.slider.oil: unknown key; allowed are kind
 guide = {viscosity = 0.1, face_width = 0.1} -> guide.viscosity needs guide.contact_gap
 guide = {viscosity = 0.1, face_width = 0.1, contact_gap = 3e-5} -> gap = 3e-05: allowed is .. < guid
 guide = {viscosity = 0.1, face_width = 1e-3, contact_gap = 2e-6} -> face_width = 0.001: allowed are
 =
 guide.ram.clearance = 1e-5 -> guide.ram: press has no such guide; allowed are slide,
 guide.length.clearance = 1e-5 -> guide.length: is a key of [guide], so that
-guide.slide.kind = 'soft' -> guide.slide.kind = 'soft': unknown; allowed are ideal,
 guide.slide.kind = 'dry' -> guide.slide.kind = 'dry': allowed is a guide with clearance
 guide.slide.width = 0.1 -> guide.slide.width = 0.1: not used by this scene (guide.slide.
 guide.slide = {clearance = 1e-5, viscosity = 0.1} -> slide.viscosity needs guide.slide.face_width
@@ -184,7 +166,6 @@ film.grooves = [{}] -> film.grooves.0 needs width_deg (around the .. in [[film.g
 joints.crank_pin.film.grooves = [{}] -> joints.crank_pin.film.grooves.0 needs width_deg (around \
 .. give it in [[joints.crank_pin.film.grooves]]
 film.grooves = [{}, {width_deg = 9}, {}] -> film.grooves.0, film.grooves.2 need width_deg (around
-film.grooves = [{width_deg = 9, angle_deg = 90}, {width_deg = 9, angle_deg = 90}] -> at 90 and 90 de
 film.grooves = [{width_deg = 9, angle_deg = 90}, {width_deg = 9, angle_deg = 98}] -> at 90 and 98
 film.grooves = [{width_deg = 359.9999}] -> <= 359, which leaves 1 deg of bearing
 film.grooves = [{width_deg = 10.0, length = 0.051}] -> film.grooves.0.length = 0.051
@@ -198,7 +179,6 @@ film = {tilt = 1e-3, law = 'finite'} -> film.law is 'finite'; it belongs to 'gro
 # flexible bodies
 =
 bodies = 'flexible' -> bodies = 'flexible': allowed is a table for each flexible body
-bodies.linkige = 'linkage' -> bodies.linkige = 'linkage': press has no such body (did you
 bodies.linkage.modes = 4 -> bodies.linkage.flexible: missing
 = mechanism = 'six_bar'; bodies.rod.matrices = 'rod.toml'
 bodies.rod.mesh_size = 0.1 -> bodies.rod.mesh_size = 0.1: not used .. matrices in place of a solid
@@ -207,7 +187,6 @@ bodies.rod.matrices = 'rod.mtx' -> matrices = 'rod.mtx': allowed is the path of 
 = bodies.crank.flexible = 'crank'
 bodies.crank = {flexible = 'crank', modes = 4, flexibility_error = 0.1} -> modes and flexibility_err
 bodies.crank.faces.pins = 'pin' -> crank.faces.pins: crank has no such joint
-bodies.crank.faces.guide = 'pin' -> crank.faces.guide: crank has no such joint .. allowed are
 bodies.crank.faces.drive.z = [0, 1] -> drive = {'z' .. allowed is a face's name
 bodies.crank.faces.drive = ['pin', 'web'] -> faces.drive = ['pin', 'web']: allowed
 bodies.crank.faces.crank_pin.z = [1, 0] -> pin.z = [1.0, 0.0]: allowed
@@ -216,7 +195,6 @@ bodies.crank.faces.crank_pin.z = [1, 0] -> pin.z = [1.0, 0.0]: allowed
 =
 load.'a b'.kind = 'blanking' -> load: 'a b' is no name
 load.a.force = 1.0 -> load.a needs kind, one of 'blanking', 'table'
-load.a.kind = 'blank' -> load.a.kind = 'blank': allowed is one of
 load.a.kind = 'blanking' -> load.a needs force (peak force; in N) .. give it in [load.a]
 load.a.kind = 'spring' -> load.a needs height (of .. in m), travel (of .. give them in [load.a]
 
@@ -237,9 +215,7 @@ needs kind, one of 'ideal' .. load.a needs kind
 = load.a = {kind = 'blanking', force = 1e4}
 load.a = {start_angle_deg = 9, end_angle_deg = 10} -> start_angle_deg and end_angle_deg: allowed is
 load.a.time = [0, 1] -> load.a.time = [0, 1]: not used by this scene
-load.a.peak = 1.0 -> load.a.peak = 1.0: unknown key of kind 'blanking'; allowed are kind, body,
 load.a.body = 'slidr' -> press has no such body (did you mean 'slider'?)
-load.a.body = 'frame' -> load.a.body = 'frame': press has no such body
 load.a.direction = [0, 0] -> load.a.direction = [0, 0]: allowed is a direc
 load.a = {rise = 0.2, fall = 0.06} -> load.a.rise + fall = 0.26: allowed is at
 load.a.acts = 'both' -> load.a.acts = 'both': not used by this scene
@@ -247,7 +223,6 @@ load.a = {joint = 'ball_left', offset = [0, 1]} -> load.a.joint and offset: allo
 load.a.face = 'a' -> load.a.face: slider is rigid; allowed are joint and offset, or [bodies.s
 = load.a = {kind = 'blanking', force = 1, body = 'linkage'}; bodies.linkage = 'linkage'
 speed_rpm = 10 -> load.a: acts on the flexible linkage, which .. one of crank_pin, slide_pin, or
-load.a.joint = 'slide_pins' -> linkage has no such joint (did you mean 'slide_pin'?)
 load.a.face = {} -> load.a.face = {}: allowed is a face's name, or ranges
 load.a.face.x = [1, 0] -> load.a.face.x = [1.0, 0.0]: allowed
 = load.a.kind = 'table'
@@ -255,8 +230,6 @@ speed_rpm = 10 -> load.a.force: missing: allowed is file, a CSV, or one of time
 load.a = {time = [0, 1], crank_angle_deg = [0, 1], force = [0, 1]} -> time, crank_angle_deg, force g
 load.a = {file = 'a.csv', force = [0, 1]} -> load.a.file and force: allowed is one of the two
 load.a = {time = [0, 1], force = [1]} -> load.a.time, force: 2 and 1 values
-load.a = {time = [0.1, 0.1], force = [0, 1]} -> load.a.time = 0.1 after 0.1: allowed is inc
-load.a.file = 'no.csv' -> load.a.file: no.csv: cannot be read
 load.a = {crank_angle_deg = [0, 400], force = [0, 1]} -> from 0.0 to 400.0: allowed is less than a r
 load.a = {crank_angle_deg = [0, 360], force = [0, 1]} -> whole one that ends with the force with whi
 """

@@ -9,14 +9,10 @@ from exu_press import InputError, Scene
 
 PULSE = {"kind": "blanking", "force": 1e4}
 SCENES = {
-    "press": {},
-    "ideal": {"joints": {}},
-    "dry": {
-        "joints": {"crank_pin": "dry", "balls": "dry"},
-        "contact": {"tension": True, "shape": "cylindrical"},
-    },
     "mixed": {
         "film": {"law": "finite", "at_contact": "mixed"},
+        "contact": {"tension": True, "shape": "cylindrical"},
+        "solver": {"step": 1e-5},
         "load": {"blanking": {"kind": "blanking", "force": 1e4}},
     },
     "flexible": {"bodies": {"crank": "crank", "linkage": {"flexible": "linkage", "modes": 4}}},
@@ -29,12 +25,6 @@ SCENES = {
                 "faces": {"crank_pin": {"radius": 0.02, "z": [-0.1, 0.1]}, "knuckle": "bore"},
             }
         },
-    },
-    "fixed step": {"solver": {"step": 1e-5}},
-    "slider_crank": {
-        "mechanism": "slider_crank",
-        "joints": {"crank_pin": "dry"},
-        "start_angle_deg": -70.0,
     },
     "groups": {
         "joints": {

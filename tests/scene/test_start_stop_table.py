@@ -17,15 +17,11 @@ def scene(**changes):
     [
         ({"clutch_on": [0.02, 0.06]}, r"clutch_on = \[0\.02, 0\.06\] overlaps drive\.brake_off"),
         ({"brake_on": [0.01, 0.05]}, r"brake_on = .* overlaps drive\.clutch_off .*at once"),
-        ({"stop_time": [0.1]}, r"stop_time = 0\.1 overlaps drive\.start_time = 0\.05"),
         ({"stop_time": [0.6, 0.7]}, r"stop_time = 0\.7 after 0\.6: allowed is a start in between"),
         ({"start_time": [0.05, 0.62], "stop_time": [0.6]}, r"start_time = 0\.62 overlaps"),
         ({"start_time": None, "clutch_on": None, "brake_off": None}, "needs drive.start_time"),
         ({"clutch_on": None}, r"needs drive\.clutch_on \(.* which decides the result"),
-        ({"brake_on": None}, r"needs drive\.brake_on \(.*, which decides"),
         ({"clutch_on": None, "clutch_off": None}, r"clutch_on \(.*, drive\.clutch_off \(.* decide"),
-        ({"clutch_on": [0.06, 0.03]}, r"drive\.clutch_on = 0\.03 after 0\.06: allowed is increas"),
-        ({"clutch_off": [-0.1, 0.02]}, r"drive\.clutch_off = -0\.1: allowed is a number >= 0"),
         ({"stop_angle_deg": 200.0}, "stop_time and drive.stop_angle_deg: allowed is one"),
         ({"brake_on_deg": [1.0, 3.0]}, r"brake_on and drive\.brake_on_deg: allowed is one"),
         (
@@ -43,7 +39,6 @@ def scene(**changes):
             {"stop_time": None, "brake_on": None},
             r"clutch_off = .*not used .*neither drive\.stop_time",
         ),
-        ({"begins": "jogging"}, r"drive\.begins = 'jogging': allowed is one of"),
     ],
     ids=str,
 )

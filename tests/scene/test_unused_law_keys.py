@@ -5,21 +5,9 @@ import pytest
 from refused import refused
 
 from exu_press import InputError, Scene
-from exu_press.schema.table import plain
 
 PIN = {"kind": "dry", "clearance": 5e-5, "radius": 0.03}
 BASE = {"mechanism": "slider_crank", "joints": {"crank_pin": PIN}, "contact": {"length": 0.05}}
-
-
-def test_a_key_that_one_joint_uses_is_not_refused():
-    joints = {
-        "crank_pin": {**PIN, "friction": {"law": "lugre"}},
-        "wrist_pin": {**PIN, "friction": {"law": "none"}},
-    }
-    scene = Scene.from_dict({**BASE, "joints": joints, "friction": {"sigma_0": 2e5}})
-    assert scene.joints["crank_pin"].friction.law.sigma_0 == 2e5
-    assert plain(scene.joints["wrist_pin"].friction) == {"law": "none"}
-    assert Scene.from_dict(scene.to_dict()) == scene
 
 
 def test_a_change_drops_what_is_no_longer_used_but_not_what_it_names():

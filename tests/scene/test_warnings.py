@@ -32,7 +32,6 @@ def pins(film=FINITE, **joints):
 
 SLIPS = [
     ({"film": {"law": "pinkus"}}, ["'pinkus' is meant for L/D of at least 2. ", "'finite' says"]),
-    ({"film": {"law": "pi_film", "length": 0.0139}}, ["L/D of at least 2. ", "'short' says"]),
     ({"film": {"law": "short"}}, ["'short' is meant for L/D of 0 to 0.5. ", "'finite' says"]),
     ({"film": {"law": "short", "length": 0.6}}, ["L/D of 0 to 0.5. ", "'pi_film' says"]),
     (
@@ -40,12 +39,7 @@ SLIPS = [
         ["joints.crank_pin.clearance = 0.05 m is 0.71 times the radius of 0.07 m.",
          "Was 5e-05 m (0.05 mm) meant?"],
     ),
-    (
-        {"joints": {"balls": {"kind": "dry", "clearance": 1e-3}}},
-        ["joints.balls.clearance = 0.001 m"],  # no slip of units
-    ),
     ({"film": {**FINITE, "viscosity": 400.0}}, ["above 2 Pa s. ", "Was 0.4 Pa s (400 mPa s)"]),
-    ({"film": {**FINITE, "viscosity": 1e-5}}, ["below water's 0.001 Pa s. "]),
     (
         pins(
             crank_pin={"kind": "lubricated", "radius": 0.02, "film": {"viscosity": 1e-4}},
@@ -122,33 +116,6 @@ def test_a_centre_of_mass_far_outside():
     drawn["bodies"][name]["centre_of_mass"] = [18.0, 0.0]
     found = scene_warnings(Scene(mechanism=drawn, joints={}))
     assert any(f"bodies.{name}.centre_of_mass lies" in w for w in found)
-
-
-def test_a_stroke_of_millimetres():
-    """The ram hangs on a pin 2 mm off the shaft, a counterweight on one 0.11 m off."""
-    rod = {"mass": 5.0}
-    drawn = {
-        "name": "short stroke",
-        "crank": "crank",
-        "output": {"body": "ram", "direction": [0, 1]},
-        "bodies": {
-            "crank": {"centre_of_mass": [0.0, 0.0], "mass": 20.0, "inertia": 0.1},
-            "rod": {**rod, "centre_of_mass": [0.0, -0.15]},
-            "ram": {"centre_of_mass": [0.0, -0.3], "mass": 50.0, "inertia": 1.0},
-            "upper_rod": {**rod, "centre_of_mass": [0.0, 0.35]},
-            "weight": {"centre_of_mass": [0.0, 0.6], "mass": 30.0, "inertia": 0.5},
-        },
-        "joints": {
-            "shaft": {"at": [0.0, 0.0], "journal": "crank", "bearing": "frame"},
-            "pin": {"at": [0.0, 0.002], "journal": "crank", "bearing": "rod"},
-            "wrist": {"at": [0.0, -0.3], "journal": "ram", "bearing": "rod"},
-            "upper_pin": {"at": [0.0, 0.11], "journal": "crank", "bearing": "upper_rod"},
-            "upper_wrist": {"at": [0.0, 0.6], "journal": "weight", "bearing": "upper_rod"},
-        },
-        "guides": {"ram": {"direction": [0, 1]}, "weight": {"direction": [0, 1]}},
-    }
-    warnings = scene_warnings(Scene(mechanism=drawn, joints={}))
-    assert any("moves 4 mm only" in warning for warning in warnings)
 
 
 def test_a_mechanism_file_is_called_one(tmp_path):

@@ -128,7 +128,7 @@ def test_the_error_is_kept_under_every_load_in_the_plane(bar, bar_model, exact_w
     reduction = Reduction(flexibility_error=wanted, loads=PLANE)
     reduced = reduce_model(bar, bar_model, reduction)
     assert reduced.meta["flexibility_error"] <= wanted
-    assert reduced.mode_count <= (6 if wanted > 1e-3 else 9)  # the mesh is not symmetric
+    assert reduced.mode_count <= (6 if wanted > 1e-3 else 12)  # the mesh is not symmetric
     for name, parts in LOADS.items():
         left = 1.0 - by_modes(reduced, parts) / exact_work[name]
         assert -1e-6 < left <= wanted + 1e-6, name

@@ -62,7 +62,7 @@ def test_ideal_joints_follow_the_ideal_motion(name):
     assert result["slider_velocity"] == pytest.approx(velocity, abs=1e-4 * scale)
 
 
-@pytest.mark.parametrize(("name", "kind"), zip(SHIPPED, cycle(("dry", "lubricated"))))
+@pytest.mark.parametrize(("name", "kind"), [*zip(SHIPPED, cycle(("dry", "lubricated")))])
 def test_joints_with_clearance_stay_near_it(name, kind):
     result = run(name, kind)
     assert result.completed, result.info["reason"]

@@ -88,16 +88,25 @@ class Joint(CustomKind, Table):
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
             if isinstance(value, Table):
-                usual, whole = laws.get(field.name) or {}, plain(value)
-                own = {
-                    name: whole[name]
-                    for name, inner, _ in key_values(value)
-                    if name in whole and inner != usual.get(name)
-                }
+                own = _own_keys(value, laws.get(field.name) or {})
                 keys |= {field.name: own} if own else {}
             elif value is not None:
                 keys[field.name] = value
         return keys
+
+
+def _own_keys(table: Table, shared: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the keys of a table that differ from shared ones, also of tables within it."""
+    whole, own = plain(table), {}
+    for name, value, _ in key_values(table):
+        usual = shared.get(name)
+        if name not in whole or value == usual:
+            continue
+        if isinstance(value, Table) and isinstance(usual, Table):
+            own[name] = _own_keys(value, {key: inner for key, inner, _ in key_values(usual)})
+        else:
+            own[name] = whole[name]
+    return own
 
 
 @dataclass(frozen=True)

@@ -51,6 +51,11 @@ def test_a_joints_own_law_follows_the_scenes_where_it_says_nothing():
     stopped = own.replace({"film.at_contact": "mixed", "joints.crank_pin.friction.law": "none"})
     assert stopped.joints["crank_pin"].friction.law.kind == "none"
     assert stopped.replace({"film.at_contact": "stop"}).joints["crank_pin"].friction is None
+    oil = {"viscosity_cst": (68.0, 8.7), "density": 870.0, "supply_celsius": 40.0}
+    shared = {"film.law": "finite", "film.viscosity": None, "film.oil": oil}
+    warm = PRESS.replace({**shared, "joints.crank_pin.film": {"oil": {"conductance": 5.0}}})
+    oil = warm.replace({"film.oil.supply_celsius": 60.0}).joints["crank_pin"].film.oil
+    assert (oil.supply_celsius, oil.conductance) == (60.0, 5.0)
 
 
 @pytest.mark.parametrize(

@@ -60,7 +60,7 @@ class UserFunctions:
 
     def _interval_at(self, time: float) -> int:
         """Return the number of the interval that a time (s) begins or lies in."""
-        return math.floor((time - self._start) / self._period * (1.0 + 1e-12) + 1e-6)
+        return math.floor((time - self._start) / self._period + 1e-6)
 
     def _end_of(self, interval: int) -> float:
         """Return the end of an interval, s."""

@@ -35,9 +35,8 @@ class LoadCurve:
             self._x, self._f = self.places, self.forces
             self._corners = self.places
         else:
-            last, first = self.places[-1] - period, self.places[0] + period
-            self._x = (last, *self.places, first)
-            self._f = (self.forces[-1], *self.forces, self.forces[0])
+            self._x = (*self.places, self.places[0] + period)
+            self._f = (*self.forces, self.forces[0])
             shifts = (-period, 0.0, period)
             self._corners = tuple(point + shift for shift in shifts for point in self.places)
 

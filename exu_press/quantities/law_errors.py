@@ -2,7 +2,7 @@
 
 A film that is stronger by a part x, at the same load, is thicker by x / 5 to 2 x / 3, dissipates
 more or less by up to x, and bears the same peak forces (measured on journals and balls of a press
-and a slider-crank with viscosities 1 % apart; tests/quantities/test_uncertain.py). So x bounds
+and a slider-crank with viscosities 1 % apart; tests/quantities/test_table.py). So x bounds
 them all.
 """
 

@@ -158,7 +158,7 @@ def _update_film_temperatures(model: Model, block: Result) -> Result:
         film does not get rid of its heat, it is the last one of the run and says why.
     """
     rotation = float(block["crank_angle"][-1] - block["crank_angle"][0])
-    if model.scene.drive is None or model.until is None:
+    if model.until is None:
         rotation = float(block.time[-1] - block.time[0]) * model.scene.angular_speed
     if rotation < TURN * (1.0 - WHOLE):
         return block

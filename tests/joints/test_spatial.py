@@ -25,6 +25,7 @@ from exu_press import (
     add_lubricated_spherical,
 )
 from exu_press.joints import user_force_of
+from exu_press.joints.spherical_film import SphericalFilm
 from exu_press.laws.contact import hertz, step_damping
 from exu_press.laws.film import pi_film
 from exu_press.laws.film.ball import ball
@@ -160,6 +161,28 @@ def test_jacobian_against_differences(kind, joint, factors=(1.0, 0.01)):
         made.jacobian(*factors), (len(made.indices), -1)
     )
     assert_partials(matrix, lambda: forces(made, q, q_t), (q, q_t), factors, 2e-3, by_rows=False)
+
+
+def test_film_of_a_ball_has_the_derivatives_of_its_force_and_couples():
+    """By eccentricity, rate and both angular velocities, each to 1e-5 of its own block."""
+
+    def film_at(state):
+        film, e = SphericalFilm(ball(), 2.0, CLEARANCE), float(np.linalg.norm(state[:3]))
+        film.move(e, state[:3] / e, state[3:6], state[6:])
+        return film
+
+    sizes = np.repeat([3e-4, 1e-3, 2.0, 2.0], 3)
+    state = np.random.default_rng(2).normal(size=12) * sizes
+    given = np.hstack(film_at(state).partials())
+    for rows in (slice(0, 3), slice(3, 6), slice(6, 9)):
+        for block in (slice(0, 3), slice(3, 6), slice(6, 9), slice(9, 12)):
+            expected = []
+            for step in np.diag(1e-5 * sizes)[block]:
+                low, high = (film_at(state + change) for change in (-step, step))
+                difference = [high.force - low.force, *(high.moments - low.moments)]
+                expected.append(np.concatenate(difference)[rows] / (2.0 * step.sum()))
+            size = np.abs(expected).max()
+            assert given[rows, block] == pytest.approx(np.transpose(expected), abs=1e-5 * size)
 
 
 def test_bristle_of_a_ball_works_in_space():

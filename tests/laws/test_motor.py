@@ -34,8 +34,8 @@ def test_the_slope_is_the_derivative(motor):
 
 
 def test_a_table_goes_on_at_both_ends():
-    motor = torque_table([0.0, 10.0], [300.0, 0.0])
-    assert [motor(speed)[0] for speed in (-1.0, 0.0, 2.5, 10.0, 11.0)] == [300, 300, 225, 0, 0]
+    motor = torque_table([5.0, 15.0], [300.0, 0.0])
+    assert [motor(speed)[0] for speed in (4.0, 5.0, 7.5, 15.0, 16.0)] == [300, 300, 225, 0, 0]
 
 
 def test_what_is_refused():

@@ -120,6 +120,10 @@ def test_the_factor_is_stated_and_moves_the_nodes(runs, animation):
         panel_of(animation(result, shown, Look(exaggerate=factor)))._corners("crank", 4)
         for factor in (0.0, 100.0, 200.0)
     )
+    pose = result["body_position"][shown.step[4], result.bodies.index("crank")]
+    outline = transform_points(result.surfaces["crank"].nodes[:, :2], pose)
+    world = still @ panel_of(animation(result, shown))._view
+    assert world[:, :2] == pytest.approx(outline, abs=1e-12)
     assert np.abs(once - still).max() > 0.0
     assert twice - still == pytest.approx(2.0 * (once - still), rel=1e-4, abs=1e-7)
     assert title_of(animation(result, shown, Look(exaggerate=200.0))).endswith(

@@ -167,9 +167,8 @@ def plane_pad(length: float, width: float) -> PadLaw:
 def _crosswise_shape(ratio: float) -> tuple[float, float]:
     """Return kappa of the equation along the pad, and (int phi)^2 / (w int phi^2) of the shape."""
     x = 0.5 * math.sqrt(10.0) * ratio
-    if x < 0.05:  # else digits are lost: a parabola, and its error to the first order in x^2
-        more = 1.0 + x * x / 105.0
-        return 10.0 / ratio**2 * more, 5.0 / 6.0 * more
+    if x < 0.05:  # else digits are lost: a parabola, to 2e-5
+        return 10.0 / ratio**2, 5.0 / 6.0
     flat, steep = math.tanh(x) / x, 1.0 / math.cosh(x) ** 2
     mean, square = 1.0 - flat, 1.0 - 1.5 * flat + 0.5 * steep
     return 5.0 * (flat - steep) / square, mean * mean / square

@@ -70,6 +70,13 @@ def test_reynolds_equation_between_the_knots():
     assert max(errors) < 1.5e-2
 
 
+@pytest.mark.parametrize("eps", [-1e-9, 1.0, 1.5, math.nan])
+def test_outside_of_its_clearance_it_is_not_a_number(eps):
+    assert all(map(math.isnan, LAWS[0](eps, 0.1, 0.3)[:8]))
+    assert math.isnan(LAWS[0](0.5, math.inf, 0.3)[0])
+    assert math.isnan(LAWS[0](0.5, 0.1, math.nan)[0])
+
+
 def test_supply_line_follows_the_opening_film_without_a_jump():
     assert supply_line(0.0, 1.0) == math.pi
     assert supply_line(-1e-6, 1.0) == pytest.approx(math.pi)

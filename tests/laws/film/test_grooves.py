@@ -15,10 +15,13 @@ from exu_press.laws.film.grooved_table import (
     LAST,
     LEVELS,
     GroovedFilm,
+    interval_of,
     knots_of,
     speeds_of,
     tabulated_row,
+    weights,
 )
+from exu_press.laws.film.grooved_table import slopes as spline_slopes
 from exu_press.laws.film.grooves import Groove, GroovedBearing, GroovedFilmState
 from exu_press.laws.film.reynolds import solve_reynolds
 from exu_press.model.film_tables import film_table
@@ -165,6 +168,18 @@ def test_whatever_its_table_holds_the_law_dissipates():
     for eps, eps_dot, eps_w, angle in states(1, 300, 0.999):
         law.angle = angle
         assert dissipated_power(law(eps, eps_dot, eps_w), eps_dot, eps_w) > 0.0
+
+
+@pytest.mark.parametrize("t", [0.0, 0.3, 1.0])
+def test_splines_reproduce_a_cubic(t):
+    """The coefficients of x^3 are the products (k - 1) k (k + 1) of knots (Marsden 1970)."""
+    coefficients = np.array([0.0, 0.0, 0.0, 6.0])
+    assert weights(t) @ coefficients == pytest.approx(t**3, abs=1e-15)
+    assert spline_slopes(t, 2.0) @ coefficients == pytest.approx(6.0 * t**2, abs=1e-14)
+    mirrored = coefficients[::-1]
+    assert weights(t) @ mirrored == pytest.approx((1.0 - t) ** 3, abs=1e-15)
+    assert weights(t) @ np.array([2.0, -1.0, 2.0, 11.0]) / 3.0 == pytest.approx(t**2, abs=1e-15)
+    assert interval_of(3.0 + t, 1.0, 4) == pytest.approx((3, t))
 
 
 @pytest.fixture(scope="module")

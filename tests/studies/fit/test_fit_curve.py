@@ -42,6 +42,7 @@ def test_unknown_zero_clock_and_corner_are_found():
     assert (one.nuisances, found.offset) == (2, pytest.approx(0.3, abs=1e-3))
     assert found.high_cut == pytest.approx(17.0, rel=0.01)
     shifted = curve(shift=[-0.02, 0.02])
+    assert (shifted.nuisances, curve(high_cut=[17.0]).nuisances) == (1, 0)
     found = fit_sensor(shifted, sine(lag=-2.0 * np.pi * FREQUENCY * 0.013), AT, COMPUTED)
     assert found.shift == pytest.approx(0.013, abs=1e-5)
 

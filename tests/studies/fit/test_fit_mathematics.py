@@ -133,6 +133,13 @@ def test_steps_grow_until_they_are_seen_beyond_the_errors():
     assert (large > STEP).all()
     assert (large <= LARGEST).all()
 
+    def evaluate_in_range(points):
+        assert points.max() <= 1.0
+        return evaluate(points)
+
+    edge = np.ones(2)
+    steps(evaluate_in_range, edge, evaluate(edge[None])[0], np.full(len(AT), 0.5))
+
 
 def test_a_point_that_is_better_than_the_minimum_is_reported():
     evaluate = against(decay(TRUE))

@@ -95,7 +95,8 @@ class Table:
             value = getattr(self, field.name)
             if "part" in field.metadata:
                 if value is not None:
-                    keys |= {field.name: value.kind} if field.name in names else {}
+                    if field.name in names and _is_key(field):
+                        keys[field.name] = value.kind
                     keys |= value.given_values
             elif "by_name" in field.metadata:
                 keys |= value

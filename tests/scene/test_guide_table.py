@@ -18,6 +18,7 @@ def test_on_and_off_by_replace():
     scene = Scene().replace({"guide.lateral_stiffness": 2e8})
     assert scene.guide.support.lateral_stiffness == 2e8
     assert scene.guide.support.length == 0.5
+    assert Scene(guide=scene.guide) == scene
     assert scene.replace({"guide": None}) == Scene()
     other = scene.replace({"guide": None, "mechanism": "slider_crank"})
     assert other == Scene(mechanism="slider_crank")

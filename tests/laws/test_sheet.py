@@ -99,5 +99,7 @@ def test_a_released_spring_gives_back_what_it_has_stored():
     found = solve_ivp(motion, (0.0, times[-1]), [start, 0.0], t_eval=times, rtol=1e-10, atol=1e-14)
     energy = released_work(times, -stiffness * found.y[0], found.y[1])
     assert energy == pytest.approx(pressed**2 / (2.0 * stiffness), rel=1e-4)
+    coarse = released_work(np.arange(2.0), np.array([-2.0, 1.0]), np.full(2, -3.0))
+    assert coarse == pytest.approx(3.0)  # the step within which it begins to pull counts
     assert found.y[1].min() == pytest.approx(-start * np.sqrt(stiffness / mass), rel=1e-4)
     assert -stiffness * found.y[0].min() == pytest.approx(pressed, rel=1e-4)  # all of it returns

@@ -43,7 +43,7 @@ def test_an_offset_slider_crank_turns_back_where_rod_and_crank_are_in_line():
     inner = math.asin(offset / (L - R)) + math.pi
     expected = sorted((angle - at) % (2 * math.pi) for angle in (outer, inner))
     assert [centre.angle for centre in found.dead_centres] == pytest.approx(expected, abs=1e-11)
-    assert {centre.top for centre in found.dead_centres} == {False, True}
+    assert [centre.top for centre in found.dead_centres] == [False, True]
     product = found.mechanical_advantage * np.abs(found.velocity)
     assert product == pytest.approx(1.0, abs=1e-8)
 

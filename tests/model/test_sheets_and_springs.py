@@ -59,10 +59,13 @@ def test_clearance_stacks_up():
     assert result.quantity("energy.residual").value < 1e-3
 
 
-def test_other_loads_on_the_output_are_no_pull_of_the_mechanism():
-    """Rigid links without clearance carry just what presses the output beside the sheet."""
+@pytest.mark.parametrize("mechanism", ["slider_crank", "eccentric_press"])
+def test_other_loads_on_the_output_are_no_pull_of_the_mechanism(mechanism):
+    """Rigid links carry just what presses the output, a journal or a socket, beside the sheet."""
     constant, reverse = {"kind": "table", "time": [0.0, 1.0], "force": [-1.4e4, -1.4e4]}, 1.4e4
-    scene = ideal(SHEET).replace({"load.constant": constant, "solver.tolerance": 1e-5})
+    scene = ideal(SHEET, mechanism=mechanism).replace(
+        {"load.constant": constant, "solver.tolerance": 1e-5}
+    )
     result = simulate(scene)
     assert result.quantity("loads.part.reverse_force").value == pytest.approx(reverse, rel=0.01)
     share = result.quantity("loads.part.reverse_share").value

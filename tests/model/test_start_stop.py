@@ -83,6 +83,10 @@ def test_free_rotors_are_engaged_and_stopped_as_closed_forms_say():
     brakes = 4.0 * together / 100.0
     stops = 0.02 + 0.5 * 0.01 + brakes
     assert result.quantity("drive.stopping_time").value == pytest.approx(stops, rel=1e-4)
+    stands = result.time[-1] - 1e-2 / 3.0  # between two steps, and a shaft untwists
+    slow = result.with_values({"crank_speed": 1e-3 * (stands - result.time)})
+    stop = result.scene.drive.clutch.stop.stop_time[-1]
+    assert slow.quantity("drive.stopping_time").value == pytest.approx(stands - stop, rel=1e-12)
     # J w^2 / 2 T at full torque; in the ramp of length r the speed falls by T r / 2 J, and the way
     # is w r - T r^2 / 6 J
     ramp = 0.01

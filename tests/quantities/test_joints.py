@@ -79,6 +79,8 @@ def test_touches_and_their_share_of_time():
         assert len(contact_onsets(depth)) == touches
         assert share_of_contact(TIME, depth) == pytest.approx(share)
     assert share_of_contact(np.zeros(1), np.zeros(1)) == 0.0
+    for rising in (1, -1):
+        assert share_of_contact(np.arange(2.0), np.array([-3.0, 1.0])[::rising]) == 0.25
     depth = APART.copy()
     depth[100:201], depth[500:901] = 2e-6, 5e-6
     assert contact_onsets(depth).tolist() == [100, 500]

@@ -182,6 +182,11 @@ def test_peaks_and_energies_are_of_the_second_revolution(settled):
     lost = settled["energy_dissipated"]
     expected = np.interp(2.0, turns, lost) - np.interp(1.0, turns, lost)
     assert settled.quantity("energy.dissipated").value == pytest.approx(expected, rel=1e-6)
+    at_start, later = (
+        max(np.linalg.norm(joint.force[steps], axis=1).max() for joint in settled.joints.values())
+        for steps in (turns < 1.0, inside)
+    )
+    assert settled.quantity("start_ratio").value == pytest.approx(at_start / later)
     power = settled.quantity("drive.mean_power").value
     assert power == pytest.approx(settled.quantity("energy.input").value / 0.25, rel=1e-3)
 

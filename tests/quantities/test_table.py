@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from exu_press import Scene, simulate
+from exu_press.quantities.law_errors import eccentricity_error
 from exu_press.quantities.quantity import Owner
 from exu_press.quantities.table import SINGULAR, difference_lines, lines_by_heading
 from exu_press.quantities.uncertain import CELL, bracket_text, uncertain
@@ -152,5 +153,6 @@ def test_the_error_of_a_table_covers_a_film_that_is_as_much_stronger(scene, join
         figure = run.quantity(f"joints.{joint}.{name}")
         moved = abs(other.quantity(f"joints.{joint}.{name}").value - figure.value)
         assert moved < figure.error, name
+    assert eccentricity_error(scene, joint, 0.9) == pytest.approx(0.1 * part)
     film = run.quantity(f"joints.{joint}.min_film")
     assert 7.8e-9 < part * film.value <= film.error

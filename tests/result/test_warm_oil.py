@@ -8,6 +8,7 @@ import pytest
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.laws.film.oil import roelands, walther
 from exu_press.laws.film.side_flow import finite_flow
+from exu_press.quantities.law_errors import temperature_error
 from exu_press.scene import mechanism_of
 from exu_press.studies.attractor.orbit import Orbit
 
@@ -38,6 +39,10 @@ def test_the_heat_balance_closes(result):
     """Dissipation is what side flow and frame take, within what the warnings allow."""
     assert abs(of_pin(result, "film.residual")) < 0.01
     assert abs(of_pin(result, "film.change")) < 0.02
+    lost, taken_off = of_pin(result, "mean_power"), of_pin(result, "film.carried_off")
+    assert of_pin(result, "film.residual") == pytest.approx((lost - taken_off) / lost)
+    errors = result.scene.joints["crank_pin"].film.law.errors
+    assert temperature_error(result.scene, "crank_pin", 60.0) == pytest.approx(20.0 * sum(errors))
     warmer = of_pin(result, "film.temperature") - 40.0
     per_kelvin = 1.8e6 * of_pin(result, "film.side_flow") + 5.0
     assert of_pin(result, "film.carried_off") == pytest.approx(per_kelvin * warmer, rel=1e-6)
@@ -118,6 +123,12 @@ def test_pressure_thickens_the_oil(result):
     assert of_pin(run, "film.viscosity") == pytest.approx(
         roelands(thin, 2e-8, pressure)[0], rel=1e-3
     )
+    highest = 50.0 * force.max() / (2.0 * pin.radius * pin.film.length)
+    struck = run.with_values({"crank_pin_force": 50.0 * run["crank_pin_force"]})
+    (warning,) = [text for text in struck.summary()["warnings"] if "times as thick" in text]
+    assert f"{highest / 1e6:.3g} MPa" in warning
+    thicker = roelands(thin, 2e-8, highest)[0] / of_pin(run, "film.viscosity")
+    assert f"{thicker:.2g} times" in warning
     assert of_pin(run, "max_eccentricity_ratio") < of_pin(result, "max_eccentricity_ratio")
 
 

@@ -44,6 +44,9 @@ def test_a_body_that_is_elsewhere_between_its_ways_has_parted(run, column, part)
     assert horizon(run, {FOUR: moved(run, column, 0.9 * part * DIVERGED * PLAY / 2**0.5)}) is None
     found = horizon(run, {FOUR: moved(run, column, part * DIVERGED * PLAY)})
     assert 0.9 * run.time[-1] < found <= run.time[-1]
+    for side in (1.0, -1.0):  # on one of them its upper end is where it was
+        tilted = moved(run, 2, 10.0 * side * DIVERGED * PLAY)
+        assert horizon(run, {FOUR: moved(tilted, ACROSS, DIVERGED * PLAY)}) is not None
 
 
 def test_one_that_is_ahead_has_not(run):
@@ -76,6 +79,7 @@ def test_a_run_that_was_beside_by_chance_vouches_for_less_still(run):
     part = 0.035 / (10.0 * DIVERGED)  # of the coarser one's distance, at all times
     assert found.nearest == pytest.approx(1.0 / ((EIGHT - 1.0) * part), rel=0.1)
     assert found.growth.horizon is not None
+    assert found.distances[EIGHT] == pytest.approx(10.0 * DIVERGED * 2.0**0.5)
 
 
 LORENZ_EXPONENT = 0.9056

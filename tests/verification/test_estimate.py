@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from exu_press import Scene
+from exu_press.quantities.kind import ROUNDING
 from exu_press.verification.estimate import (
     convergent_error,
     error_ratio,
@@ -69,6 +70,7 @@ def test_motions_that_have_parted_show_more_of_the_scatter():
     parted = prediction_interval(values)["error"]
     assert prediction_interval(values, shares=[0.5, 0.5])["error"] == pytest.approx(2.0 * parted)
     assert prediction_interval(values, shares=[1.5, 2.0])["error"] == parted
+    assert prediction_interval([2.0, 2.0])["error"] == pytest.approx(2.0 * ROUNDING)
     values, ratios = [5.0, 5.01, 5.011], [1.0, 0.5, 4.0]
     error = convergent_error(values, ratios, nearest=5.2)["error"]
     assert error == pytest.approx(5.2 * 0.01)

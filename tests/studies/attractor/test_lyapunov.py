@@ -61,6 +61,7 @@ def test_a_contraction_is_known_down_to_the_error():
         [np.full(40, math.log(1e-6 / d)) for d in (1e-2, 1e-3)], (1e-2, 1e-3), 1e-6, (2.0, 2.0)
     )
     assert below.low == -math.inf
+    assert below.high == pytest.approx(math.log(3.0 * 1e-6 / 1e-2))  # three errors, of the farther
     assert below.sign == "regular"
 
 

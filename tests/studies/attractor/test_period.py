@@ -5,6 +5,7 @@ import pytest
 
 from exu_press import InputError
 from exu_press.studies.attractor import period_of
+from exu_press.studies.attractor.period import APART
 
 ERROR = 1e-4
 RANDOM = np.random.default_rng(5)
@@ -59,6 +60,7 @@ def test_what_diverges_has_no_period_within_a_large_error():
     told = period_of(points, error=0.005, most=4, diverging=True)
     assert not told.is_decided and told.revolutions is None
     assert "neighbours part" in str(told) and told.finer < 1.0
+    assert told.finer * 0.005 * APART == pytest.approx(told.distances.min())
 
 
 @pytest.mark.parametrize(("scatter", "error"), [(0.03, 0.04), (0.003, 0.04), (0.03, 0.009)])

@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 
 from exu_press import InputError, Scene
 from exu_press.cli import main
+from exu_press.laws.profile import profile
 from exu_press.studies.wear import WearStudy, wear
 from exu_press.studies.wear.run import run_worn
 from exu_press.studies.wear.shape import ANGLES, Depths, worn_scene
@@ -95,6 +96,15 @@ def test_it_is_read_where_it_was_done_and_the_worn_scene_runs(coarse):
     row = run_worn({"scene": worn.to_dict()})
     force = "joints.shaft.peak_force"
     assert row[force] == pytest.approx(report.course[-1].row[force], rel=1e-6)
+
+
+def test_dents_of_both_surfaces_stay_in_reach_of_each_other():
+    dent = np.zeros(72)
+    dent[10:13] = 3e-5
+    shape = Depths(dent, dent).accessible(5e-5)
+    journal, bearing = (profile(ANGLES, depth).sharpest for depth in (shape.journal, shape.bearing))
+    assert -2.5e-5 <= journal < 0.0
+    assert journal + bearing >= -5e-5
 
 
 def test_even_wear_is_a_larger_clearance_to_the_last_digits():

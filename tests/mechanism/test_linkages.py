@@ -20,6 +20,7 @@ from exu_press.mechanism import (
     shipped_mechanism,
 )
 from exu_press.mechanism.examine import examine
+from exu_press.mechanism.guide_motion import motion_in_guide
 from exu_press.quantities import quantities_of
 
 ANGLE = np.radians(np.arange(0.0, 360.0, 7.0))
@@ -163,6 +164,11 @@ def test_a_circular_slot_moves_its_body_as_a_rod_does(compare):
     drawn = curved_yoke()
     position = drawn.ideal_slider(ANGLE, 1.0)[0]
     compare("yoke with a circular slot", expected, position, error=None, abs=1e-12, unit="m")
+    (arc,) = [guide for guide in drawn.guides if guide.radius is not None]
+    (low, _), (_, rate), (high, _) = (
+        motion_in_guide(drawn, arc, drawn.motion(ANGLE + h, 1.0)) for h in (-1e-6, 0.0, 1e-6)
+    )
+    assert rate == pytest.approx((high - low) / 2e-6, abs=1e-8)
     angle = examine(drawn).transmission["arc"][:360:90]
     assert np.cos(angle) == pytest.approx([0.0, 0.25, 0.5, 0.25], abs=1e-9)
     result = simulate(Scene(mechanism=drawn, revolutions=0.5, gravity=0.0))

@@ -293,7 +293,8 @@ def refuse_unknown_keys(
         text = f"{path} = {value!r:.200}: unknown key"
         has_names = any("by_name" in field.metadata for kind in kinds for field in _fields(kind))
         if has_names and isinstance(value, str) and not nearest(key, known):
-            text += f" (one {name} has a table, as {path} = {{kind = {value!r:.200}}})"
+            own = f"{name}.NAME" if key == "kind" else path
+            text += f" (one {name} has a table, as {own} = {{kind = {value!r:.200}}})"
         demand_known(text, key, dict.fromkeys(known), allowed)
 
 

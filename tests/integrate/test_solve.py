@@ -280,8 +280,8 @@ def test_a_long_run_says_how_long_and_why_and_a_short_one_nothing(monkeypatch, c
     )
     simulate(scene, quiet=False)
     assert "s left: steps of" not in capsys.readouterr().err
-    monkeypatch.setattr("exu_press.integrate.monitor.SOON", 0.0)
-    monkeypatch.setattr("exu_press.integrate.monitor.LONG", 0.0)
+    for number in ("SOON", "LONG", "SECONDS_BETWEEN_UPDATES"):
+        monkeypatch.setattr(f"exu_press.integrate.monitor.{number}", 0.0)
     simulate(scene.replace({"revolutions": 0.03, "solver.tolerance": 1e-4}), quiet=False)
     (said,) = [line for line in capsys.readouterr().err.splitlines() if "s left: steps of" in line]
     for part in ("run: about ", "slider's guide", "guide.friction = 'lugre'", "solver.tolerance"):

@@ -280,9 +280,9 @@ def test_a_long_run_says_how_long_and_why_and_a_short_one_nothing(monkeypatch, c
     )
     simulate(scene, quiet=False)
     assert "s left: steps of" not in capsys.readouterr().err
-    for number in ("SOON", "LONG", "SECONDS_BETWEEN_UPDATES"):
-        monkeypatch.setattr(f"exu_press.integrate.monitor.{number}", 0.0)
-    simulate(scene.replace({"revolutions": 0.03, "solver.tolerance": 1e-4}), quiet=False)
+    for number, seconds in (("SOON", 0.0), ("LONG", 0.0), ("SECONDS_BETWEEN_UPDATES", 0.02)):
+        monkeypatch.setattr(f"exu_press.integrate.monitor.{number}", seconds)
+    simulate(scene.replace({"revolutions": 0.1, "solver.tolerance": 1e-4}), quiet=False)
     (said,) = [line for line in capsys.readouterr().err.splitlines() if "s left: steps of" in line]
     for part in ("run: about ", "slider's guide", "guide.friction = 'lugre'", "solver.tolerance"):
         assert part in said

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from exu_press import Scene, simulate
 from exu_press.cli.options import scene_path
-from exu_press.report.run import run_report
+from exu_press.report.run_report import run_report
 
 CHANGES = ["film.law=finite", "film.viscosity=0.1"]
 SIZE = {"width": 1366, "height": 1000}

@@ -4,9 +4,8 @@ import argparse
 import sys
 import textwrap
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, nullcontext
+from contextlib import ExitStack, nullcontext
 from dataclasses import replace
-from functools import partial
 from itertools import chain
 from pathlib import Path
 
@@ -17,27 +16,20 @@ from exu_press.cli.options import (
     scene_of,
     show_warnings,
 )
+from exu_press.cli.pictures_beside import PicturesBeside, pictures_beside
 from exu_press.errors import InputError
 from exu_press.files.digests import file_digest
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import (
+    checkpoint_directory,
     output_directory,
-    remove_partial,
     remove_pictures,
     write_json,
 )
 from exu_press.model.state import State
-from exu_press.plots.format import picture_format
 from exu_press.quantities.table import run_lines
 from exu_press.result import Result
-from exu_press.result.channels import is_on_disk
-from exu_press.result.checkpoint import (
-    checkpoint_directory,
-    has_blocks,
-    refuse_blocks,
-    remove,
-    set_aside,
-)
+from exu_press.result.checkpoint import has_blocks, refuse_blocks, remove, set_aside
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.assumptions import assumed_line
 from exu_press.scene.warnings import scene_warnings
@@ -45,11 +37,8 @@ from exu_press.terminal.interrupt import postponed_interrupt
 from exu_press.verification.refine import refinements
 from exu_press.verification.simulate import simulate
 from exu_press.verification.within import accuracy_lines, find_tolerance
-from fe_models.processes import performed_beside
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
-
-BeginToDraw = Callable[[Result | Scene, Path], Callable[[], list[Path]]]
 
 RESULT = "run.nc"
 
@@ -153,14 +142,15 @@ def _shared_keys(scene: Scene, previous: Scene) -> Iterator[tuple[str, object, o
 
 def execute(options: argparse.Namespace) -> int:
     """Run the scene; return 0, or 3 if it stopped early or was not resolved."""
-    with nullcontext(lambda *_: list) if options.no_pictures else _drawing() as begin_to_draw:
+    with nullcontext() if options.no_pictures else pictures_beside() as pictures:
         scene = scene_of(options)
         start = _start_of(options, scene)
         if options.figure is not None and options.within is None:
             raise InputError(f"--figure {options.figure}: only together with --within")
         with lock_directory(output_directory(directory_of(options, options.scene))) as directory:
-            begin_to_draw(scene, directory)
-            return _run(scene, start, directory, options, begin_to_draw)
+            if pictures is not None:
+                pictures.prepare(scene)
+            return _run(scene, start, directory, options, pictures)
 
 
 def _with_start(result: Result, path: Path) -> Result:
@@ -192,9 +182,17 @@ def _make_room(unfinished: Path, options: argparse.Namespace) -> None:
 
 
 def _run_refined(
-    scene: Scene, start: State | None, unfinished: Path, *, quiet: bool
+    scene: Scene,
+    start: State | None,
+    unfinished: Path,
+    finished: Callable[[Result], object],
+    *,
+    quiet: bool,
 ) -> tuple[Result, bool, str]:
     """Run a scene, and at finer tolerances where that is needed.
+
+    Args:
+        finished: called with each run before its errors are known.
 
     Returns:
         The last finished run; whether Ctrl-C ended a finer one; what the user may do.
@@ -204,54 +202,24 @@ def _run_refined(
         if not quiet:
             print("\n".join(textwrap.wrap(text, 100, subsequent_indent="  ")), file=sys.stderr)
 
-    finished: list[tuple[Result, str]] = []
+    outcomes: list[tuple[Result, str]] = []
     interrupted = False
     try:
         for outcome in refinements(
-            scene, start=start, unfinished=unfinished, quiet=quiet, announce=announce
+            scene,
+            start=start,
+            unfinished=unfinished,
+            quiet=quiet,
+            announce=announce,
+            finished=finished,
         ):
-            finished.append(outcome)
+            outcomes.append(outcome)
     except KeyboardInterrupt:
-        if not finished:
+        if not outcomes:
             raise
         interrupted = True
-    result, remark = finished[-1]
+    result, remark = outcomes[-1]
     return result, interrupted, remark
-
-
-def _draw(run: Result | Scene | None, directory: Path) -> list[Path]:
-    """Draw a run; of its scene, find what all pictures show; of nothing, load what draws them."""
-    from exu_press.plots import save_pictures
-
-    if isinstance(run, Result):
-        return save_pictures(run, directory)
-    _ = run and mechanism_of(run).dead_centres  # kept
-    return []
-
-
-@contextmanager
-def _drawing() -> Iterator[BeginToDraw]:
-    """Yield what begins to draw a run, or its scene, and returns what returns all files so far.
-
-    A process beside this one draws, which loads what draws from now on. A run on the disk is drawn
-    here, as elsewhere it would be in memory. No half picture is left of a process that is killed.
-    """
-    directories: set[Path] = set()
-    try:
-        with performed_beside(_draw) as begin:
-            begun = [begin(None, Path())]
-
-            def begin_to_draw(run: Result | Scene, directory: Path) -> Callable[[], list[Path]]:
-                directories.add(directory)
-                if isinstance(run, Result) and is_on_disk(run.channels):
-                    return partial(_draw, run, directory)
-                begun.append(begin(run, directory))
-                return lambda: [path for written in begun for path in written()]
-
-            yield begin_to_draw
-    finally:
-        for directory in directories:
-            remove_partial(directory / f"*{picture_format().ending}")
 
 
 def _run(
@@ -259,8 +227,12 @@ def _run(
     start: State | None,
     directory: Path,
     options: argparse.Namespace,
-    begin_to_draw: BeginToDraw,
+    pictures: PicturesBeside | None,
 ) -> int:
+    def draw_early(run: Result) -> None:
+        if pictures is not None and start is None:  # with one, its pictures name its file
+            pictures.draw_early(run)
+
     remarks: list[str] = []
     interrupted = False
     doubts = scene_warnings(scene)
@@ -277,7 +249,9 @@ def _run(
             scene, errors=errors, start=start, unfinished=unfinished, quiet=options.quiet
         )
     else:
-        result, interrupted, remark = _run_refined(scene, start, unfinished, quiet=options.quiet)
+        result, interrupted, remark = _run_refined(
+            scene, start, unfinished, draw_early, quiet=options.quiet
+        )
         remarks = [remark] if remark else []
     if options.start is not None:
         result = _with_start(result, _start_path(options.start))
@@ -286,7 +260,7 @@ def _run(
         with postponed_interrupt():
             summary = result.summary()
             remove_pictures(directory, "run")
-            drawn = begin_to_draw(result, directory)
+            drawn = list if pictures is None else pictures.draw(result, directory)
             result.save(written[0])
             stack.callback(remove, unfinished)
             write_json(written[1], summary)

@@ -16,10 +16,10 @@ from exu_press.cli.options import (
 )
 from exu_press.errors import InputError
 from exu_press.files.lock import lock_directory, remove_unused
-from exu_press.files.output_directory import FORMATS, output_directory
+from exu_press.files.output_directory import FORMATS, REPORT_FILE, output_directory
 from exu_press.plots.format import picture_format
 from exu_press.studies.base.command import SceneCommand, StudyCommand
-from exu_press.studies.base.report import REPORT_FILE, Report
+from exu_press.studies.base.report import Report
 from exu_press.studies.base.study import Study
 
 __all__ = ["Command", "command_of", "show_report"]

@@ -15,7 +15,9 @@ from fe_models.errors import disk_full
 __all__ = [
     "FORMATS",
     "PICTURES",
+    "REPORT_FILE",
     "check_writable",
+    "checkpoint_directory",
     "folder_name",
     "output_directory",
     "plain_data",
@@ -37,6 +39,9 @@ PICTURES = {
 }
 """Names of the pictures of a command, without their endings."""
 
+REPORT_FILE = "report.json"
+"""File of a report in the directory of its study; a page is made of it."""
+
 
 def output_directory(path: str | Path) -> Path:
     """Return a directory that exists and can be written to.
@@ -55,6 +60,11 @@ def output_directory(path: str | Path) -> Path:
             "allowed is a directory that exists or can be made"
         ) from None
     return directory
+
+
+def checkpoint_directory(path: Path) -> Path:
+    """Return the directory beside a run's file in which the run is while it goes on."""
+    return path.with_name(f"{path.name}.unfinished")
 
 
 def subdirectory(directory: Path, name: str) -> Path:

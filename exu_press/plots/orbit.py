@@ -15,7 +15,7 @@ from exu_press.plots.scales import angle_ticks, note
 from exu_press.plots.style import with_style
 from exu_press.result import Result
 
-__all__ = ["orbit_figure"]
+__all__ = ["MOST_JOINTS", "orbit_figure"]
 
 ROW = 3.75  # inch
 LINE = 0.19  # inch

@@ -11,7 +11,8 @@ from exu_press.quantities.table import quantity_cells, with_headings
 from exu_press.report.comparison import comparison_page, comparison_tables
 from exu_press.report.html import paragraph, picture, table, warnings
 from exu_press.report.page_file import Page
-from exu_press.report.run import changed_keys, run_report, warnings_of
+from exu_press.report.run import changed_keys, warnings_of
+from exu_press.report.run_report import run_report
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.studies.comparison import Comparison

@@ -4,9 +4,8 @@ from enum import Enum
 from pathlib import Path
 
 from exu_press.errors import InputError
+from exu_press.files.output_directory import REPORT_FILE, checkpoint_directory
 from exu_press.report.page_file import ALL, Span
-from exu_press.result.checkpoint import checkpoint_directory
-from exu_press.studies.base.report import REPORT_FILE
 
 __all__ = ["Kind", "find_output", "find_run", "report_of"]
 
@@ -74,7 +73,7 @@ def report_of(kind: Kind, file: Path, span: Span = ALL) -> str:
         InputError: the file is of another kind than its name, or the span is not in it.
     """
     if kind is Kind.RUN:
-        from exu_press.report.run import file_report
+        from exu_press.report.run_report import file_report
 
         return file_report(file, span)
     if kind is Kind.COMPARISON:

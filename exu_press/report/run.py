@@ -1,7 +1,6 @@
 """The report of one run."""
 
 from collections.abc import Callable, Iterable, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -27,20 +26,17 @@ from exu_press.quantities.value import values_of
 from exu_press.report.html import details, page, paragraph, stills, table, warnings
 from exu_press.report.page_file import ALL, Span
 from exu_press.result import Result
-from exu_press.result.channels import is_on_disk
 from exu_press.result.windows import interval
 from exu_press.scene import Scene
 from exu_press.scene.assumptions import engineering_values, keys_of, used_assumptions
 from exu_press.scene.provenance import Provenance, rows_of
-from fe_models.processes import performed_beside
 
 __all__ = [
     "changed_keys",
-    "file_report",
     "joint_table",
     "live_part",
     "provenance_section",
-    "run_report",
+    "run_page",
     "scene_parts",
     "warnings_of",
 ]
@@ -80,39 +76,7 @@ MOST_NUMBERS = 4
 """Numbers of a list that are shown one by one."""
 
 
-def run_report(result: Result, source: str) -> str:
-    """Return the page of a run; `source` is shown, as the name of its file."""
-    with performed_beside(_pictures) as begin:
-        return _page(result, source, ALL, begin(result))
-
-
-def file_report(file: Path, span: Span = ALL) -> str:
-    """Return the page of a stored run, with the pictures beside it if these are the run's.
-
-    What draws them is loaded beside the reading, and draws beside the rest. It reads the run again
-    that would be in memory twice, or has kinds whose code is not loaded: these are not passed on.
-
-    Args:
-        span: begin and end of its curves, s; None: those of the record.
-    """
-    with performed_beside(_pictures) as begin:
-        loaded = begin(None)
-        result = Result.load(file)
-        reads = is_on_disk(result.channels) or any(kind.module for _, kind in result.scene.kinds())
-        drawn = begin(file if reads else result, file.parent)
-        name = f"{file.resolve().parent.name}/{file.name}"
-        return _page(result, name, span, lambda: loaded() + drawn())
-
-
-def _pictures(run: Result | Path | None, directory: Path | None = None) -> str:
-    """Return the pictures of a run or its file; of nothing, load what draws them."""
-    from exu_press.report.pictures import run_pictures
-
-    run = Result.load(run) if isinstance(run, Path) else run
-    return "" if run is None else run_pictures(run, directory)
-
-
-def _page(result: Result, source: str, span: Span, pictures: Callable[[], str]) -> str:
+def run_page(result: Result, source: str, span: Span, pictures: Callable[[], str]) -> str:
     """Return the page of a run; its pictures are asked for when all else is there."""
     summary = result.summary()
     numbers = with_headings(quantity_cells({"": result}))

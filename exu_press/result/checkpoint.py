@@ -11,14 +11,13 @@ from typing import TypedDict, TypeVar
 
 from exu_press.errors import InputError, error_prefix
 from exu_press.files.lock import LOCK, lock_directory
-from exu_press.files.output_directory import refuse_link, writing
+from exu_press.files.output_directory import checkpoint_directory, refuse_link, writing
 from exu_press.result import netcdf
 from exu_press.result.channels import MemmapChannels
 from exu_press.result.contents import Contents
 from exu_press.schema.stored import from_json
 
 __all__ = [
-    "checkpoint_directory",
     "has_blocks",
     "open_checkpoint",
     "read",
@@ -51,11 +50,6 @@ class Blocks(TypedDict):
 
     count: int
     checksums: dict[str, int]
-
-
-def checkpoint_directory(path: Path) -> Path:
-    """Return the directory beside a run's file in which the run is while it goes on."""
-    return path.with_name(f"{path.name}.unfinished")
 
 
 def has_blocks(directory: Path) -> bool:

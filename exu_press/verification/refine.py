@@ -46,6 +46,7 @@ def refinements(
     unfinished: Path | None = None,
     quiet: bool = True,
     announce: Callable[[str], None] = lambda text: None,
+    finished: Callable[[Result], object] = lambda run: None,
 ) -> Iterator[tuple[Result, str]]:
     """Run a scene, and again at finer tolerances while that helps and the budget lasts.
 
@@ -57,12 +58,15 @@ def refinements(
         unfinished: directory in which the first run is while it goes on, see `simulate`; it stays
             there, while finer ones go to a temporary directory.
         announce: is called before a finer run begins, with why, and how long it may take.
+        finished: is called with each run before its errors are known.
 
     Raises:
         KeyboardInterrupt: of Ctrl-C in a finer run; the results before have been yielded.
     """
     begin = time.perf_counter()
-    result = simulate_with_errors(scene, start=start, unfinished=unfinished, quiet=quiet)
+    result = simulate_with_errors(
+        scene, start=start, unfinished=unfinished, quiet=quiet, finished=finished
+    )
     duration = first_duration = time.perf_counter() - begin
     spent = 0.0
     while result.completed and (names := doubtful(result)):
@@ -88,7 +92,11 @@ def refinements(
         )
         started = time.perf_counter()
         repeated = simulate_with_errors(
-            scene.replace({"solver.tolerance": finer}), start=start, quiet=quiet, interruptible=True
+            scene.replace({"solver.tolerance": finer}),
+            start=start,
+            quiet=quiet,
+            interruptible=True,
+            finished=finished,
         )
         if not repeated.completed:
             reason = repeated.info["reason"]

@@ -80,6 +80,7 @@ def simulate_with_errors(
     quiet: bool = True,
     beside: bool = True,
     interruptible: bool = False,
+    finished: Callable[[Result], object] = lambda run: None,
 ) -> Result:
     """Simulate, with refinement runs.
 
@@ -90,6 +91,7 @@ def simulate_with_errors(
             where all cores have their runs already.
         interruptible: Ctrl-C raises KeyboardInterrupt; else it ends the run early, or leaves it
             without errors.
+        finished: called with the run before its errors are known.
 
     Returns:
         The result; `info` and summary have `errors`, quantity by quantity, `horizon` and
@@ -97,11 +99,13 @@ def simulate_with_errors(
     """
     if scene.warms or not beside:  # refinements of films have as many revolutions as they settle in
         run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet, settling=True)
+        finished(run)
         return with_errors(run, start=start, beside=beside)
     with RefinementRuns(scene, start) as refinements:
         run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet)
         if interruptible and run.info["status"] == SolverStatus.INTERRUPTED.value:
             raise KeyboardInterrupt
+        finished(run)
         return _with_refinements(run, refinements, interruptible=interruptible)
 
 

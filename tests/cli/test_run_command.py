@@ -92,7 +92,7 @@ def test_wrong_input_is_status_2_in_one_line(arguments, message, tmp_path, capsy
 def test_the_run_is_stored_and_printed_before_its_pictures_are_there(
     copied, tmp_path, capsys, monkeypatch
 ):
-    def draw(result, directory):
+    def draw(result, directory, early):
         if not copied:
             assert "peak acceleration" in capsys.readouterr().out
         (directory / ".slider.png.half.part").touch()

@@ -10,8 +10,8 @@ import pytest
 
 from exu_press import Result, Scene
 from exu_press.cli import main
+from exu_press.files.output_directory import checkpoint_directory
 from exu_press.result import run
-from exu_press.result.checkpoint import checkpoint_directory
 
 SCENE = Scene(
     mechanism="slider_crank",

@@ -13,6 +13,7 @@ from exu_press.files.output_directory import PICTURES
 from exu_press.plots import save_pictures
 from exu_press.plots.file import draw_figures, read_sources
 from exu_press.plots.format import PictureFormat, drawn_as
+from exu_press.plots.save import save_early_pictures
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="no process is copied there")
 
@@ -31,16 +32,34 @@ def assert_pictures(paths):
 def test_pictures_of_a_run(results, tmp_path, monkeypatch):
     """Of which one is written: each costs half a second."""
 
+    names = []
+
     def save_one(draws, folder, *_):
-        return [*draws, *draw_figures({"force": draws["force"]}, folder)]
+        names.extend(draws)
+        return draw_figures({"force": draws["force"]}, folder)
 
     monkeypatch.setattr("exu_press.plots.save.draw_figures", save_one)
     with drawn_as(PictureFormat(everything=True)):
-        *names, path = save_pictures(results["stopped at once"], tmp_path)
+        (path,) = save_pictures(results["stopped at once"], tmp_path)
     assert [f"{name}.png" for name in names] == EVERY
     assert path.name == "force.png"
     assert list(tmp_path.iterdir()) == [path]
     assert_pictures([path])
+
+
+def test_an_orbit_that_was_drawn_early_is_copied(results, tmp_path, monkeypatch):
+    early, result = tmp_path / "early", results["dry"]
+    early.mkdir()
+    (file,) = save_early_pictures(result, early)
+    monkeypatch.setattr(
+        "exu_press.plots.save.draw_figures",
+        lambda draws, folder, *_: [*map(folder.joinpath, draws)],
+    )
+    files = save_pictures(result, tmp_path, early)
+    assert [path.stem for path in files] == ["slider", "orbit", "force"]
+    assert files[1] == tmp_path / file.name and files[1].read_bytes() == file.read_bytes()
+    monkeypatch.setattr("exu_press.plots.save.MOST_JOINTS", 0)  # the rest has a table with errors
+    assert save_early_pictures(result, early) == []
 
 
 @pytest.mark.parametrize("copied", [pytest.param(True, marks=linux), False])

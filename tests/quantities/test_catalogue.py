@@ -16,7 +16,7 @@ from exu_press.quantities import CATALOGUE, add, quantities_of, values_of
 from exu_press.quantities.catalogue import QuantityAt, find_quantity
 from exu_press.quantities.table import run_lines
 from exu_press.quantities.units import meaning_of, unit_of
-from exu_press.report.run import run_report
+from exu_press.report.run_report import run_report
 from exu_press.studies.sweep import Sweep, sweep
 from exu_press.studies.sweep.figure import axes_of, sweep_figure
 from exu_press.verification.run import with_errors

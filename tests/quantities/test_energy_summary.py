@@ -1,5 +1,7 @@
 """The energy balance in numbers: relative to what, and where there is none."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from exudyn.itemInterface import LoadForceVector, MarkerBodyRigid
@@ -47,5 +49,5 @@ def test_the_user_s_own_load_leaves_no_balance(tmp_path, monkeypatch):
     result = Result.load(tmp_path / "run.nc")
     assert not any(name.startswith("energy_") for name in result)
     assert any("no energy balance" in warning for warning in summary["warnings"])
-    monkeypatch.setattr("exu_press.plots.save.draw_figures", lambda draws, *_: list(draws))
-    assert save_pictures(result, tmp_path) == ["slider", "force"]
+    monkeypatch.setattr("exu_press.plots.save.draw_figures", lambda draws, *_: [*map(Path, draws)])
+    assert save_pictures(result, tmp_path) == [Path("slider"), Path("force")]

@@ -8,16 +8,8 @@ from browser import opened
 
 from exu_press import Scene
 from exu_press.cli import main
-from exu_press.studies.base.report import (
-    REPORT_FILE,
-    Column,
-    Line,
-    Panel,
-    Picture,
-    Points,
-    Report,
-    Table,
-)
+from exu_press.files.output_directory import REPORT_FILE
+from exu_press.studies.base.report import Column, Line, Panel, Picture, Points, Report, Table
 
 SCENE = Scene(mechanism="slider_crank", joints={"crank_pin": "ideal"}, revolutions=0.1)
 HOSTILE = "<b>why</b>"

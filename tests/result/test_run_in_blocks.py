@@ -11,6 +11,7 @@ import pytest
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
+from exu_press.files.output_directory import checkpoint_directory
 from exu_press.report import Kind, find_output
 from exu_press.result import channels, run
 from exu_press.result.channel import Channel
@@ -22,7 +23,7 @@ from exu_press.result.channels import (
     read_columns,
     read_rows,
 )
-from exu_press.result.checkpoint import checkpoint_directory, remove
+from exu_press.result.checkpoint import remove
 from exu_press.result.windows import settled_part
 
 FILM = {"crank_pin": {"kind": "lubricated", "clearance": 5e-5, "radius": 0.07}}

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from exu_press.files.digests import files_read
-from exu_press.files.output_directory import plain_data, write_json
+from exu_press.files.output_directory import REPORT_FILE, plain_data, write_json
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.units import shown_unit
 from exu_press.scene import Scene
@@ -20,7 +20,6 @@ from fe_models.lazy import named_object
 
 __all__ = [
     "FORMAT",
-    "REPORT_FILE",
     "Column",
     "Line",
     "Panel",
@@ -32,9 +31,6 @@ __all__ = [
     "quantity_column",
     "scale_numbers",
 ]
-
-REPORT_FILE = "report.json"
-"""File of a report in the directory of its study; a page is made of it."""
 
 FORMAT = "exu_press study 1"
 """Of what a study writes: study.json, runs.jsonl and report.json."""

@@ -92,6 +92,11 @@ def test_each_step_of_the_way_to_a_run_imports_what_it_uses(tmp_path):
     assert "exu_press.joints.worn" not in rigid
     assert not tops(of_command) & {"matplotlib", *FLEXIBLE}
     assert (place / "run.nc").exists() and not list(place.glob("*.png"))
+    read = f"from exu_press import Result; print(Result.load(r'{place / 'run.nc'}').summary())"
+    (of_reading,) = imported_after(
+        f"import exu_press.report.run, exu_press.report.pictures; {read}"
+    )
+    assert "exudyn" not in tops(of_reading)  # to show a run takes no solver
 
 
 def build(**scene):

@@ -170,6 +170,10 @@ class Guide:
         """Its table in a mechanism file."""
         return f"{'slots' if self.is_slot else 'guides'}.{self.name}"
 
+    def disc_of(self, body: str) -> str:
+        """Return the name of the disc by which it guides a flexible body."""
+        return f"{body} in {self.key}"
+
     @property
     def is_slot(self) -> bool:
         """Whether it holds a pin, which turns in it."""

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from exu_press.model.placed_part import PlacedPart
     from fe_models import FlexibleBody
 
-__all__ = ["System", "carrier_name"]
+__all__ = ["System"]
 
 
 class System:
@@ -96,7 +96,7 @@ class System:
         self.rigid: dict[str, RigidBody] = {}
         self.flexible: dict[str, FlexibleBody] = {}
         self.carriers = {
-            (guide, body): carrier_name(self.mechanism.guide(guide), body)
+            (guide, body): self.mechanism.guide(guide).disc_of(body)
             for body, placed in parts.items()
             for guide in placed.carriers
         }
@@ -181,11 +181,6 @@ class System:
             damping=spring.damping,
         )
         return int(self.mbs.AddObject(connector))
-
-
-def carrier_name(guide: Guide, body: str) -> str:
-    """Return the name of the disc of a flexible body in a slot or a moving guide."""
-    return f"{body} in {guide.key}"
 
 
 def _guided_bodies(scene: Scene, mechanism: Mechanism) -> frozenset[str]:

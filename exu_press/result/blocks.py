@@ -13,7 +13,7 @@ from pathlib import Path
 from exu_press.integrate import SolverStatus
 from exu_press.laws.film.oil import HOTTEST
 from exu_press.model import Model
-from exu_press.model.state import go_on_from, state_of
+from exu_press.model.continuation import go_on_from, state_of
 from exu_press.model.warm_film import Heat
 from exu_press.numerics.piecewise import integral
 from exu_press.result.checkpoint import open_checkpoint, write_checkpoint

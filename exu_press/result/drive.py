@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from exu_press.mechanism.parts import DRIVE, FLYWHEEL
-from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import NO_BRAKE, NO_CLUTCH, Declaration, Declarations
 from exu_press.result.energy import work
@@ -13,6 +12,7 @@ from exu_press.result.motion import sensor
 from exu_press.result.recording import Record, Recording
 
 if TYPE_CHECKING:
+    from exu_press.model import Model
     from exu_press.model.start_stop import StartStop
 
 __all__ = ["CHANNELS", "record"]
@@ -46,7 +46,7 @@ def record(run: Recording) -> Record:
     return drive + Record(channels, supplied=work(run.time, torque, speed))
 
 
-def _start_stop(model: Model, start_stop: "StartStop", time: Array, crank_speed: Array) -> Record:
+def _start_stop(model: "Model", start_stop: "StartStop", time: Array, crank_speed: Array) -> Record:
     """Return flywheel, clutch and brake.
 
     The work on a clutch or brake is dissipated, but for the twist of its shafts.

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from exu_press.mechanism import Joint, Motion, Point
-from exu_press.model import Model
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.result.channel import Channel, Declaration, Declarations
 from exu_press.result.energy import work
@@ -20,6 +19,7 @@ from exu_press.result.motion import (
 from exu_press.result.recording import Record, Recording
 
 if TYPE_CHECKING:
+    from exu_press.model import Model
     from exu_press.model.placed_part import PlacedPart
     from fe_models import ReducedPart
 
@@ -112,7 +112,7 @@ def _relative_motion(placed: "PlacedPart", name: str, q: Array) -> dict[str, Cha
     return CHANNELS.record(name, elongation=q @ elongation, bending=q @ bending)
 
 
-def _slope(model: Model, joint: Joint, count: int) -> Array:
+def _slope(model: "Model", joint: Joint, count: int) -> Array:
     """Return where the axis of a journal leans in its bearing, (n, 2), rad, in the drawing's axes.
 
     By the mean rotation of the faces; of several the one that leans most.
@@ -123,7 +123,7 @@ def _slope(model: Model, joint: Joint, count: int) -> Array:
     return max(slopes, key=lambda slope: float(lengths(slope).max()))
 
 
-def _axes(model: Model, body: str, joint: Joint, count: int) -> list[Array]:
+def _axes(model: "Model", body: str, joint: Joint, count: int) -> list[Array]:
     """Return x and y of the axis of each face by which a body holds a joint, (n, 2)."""
     if body not in model.parts:
         return [np.zeros((count, 2))]
@@ -157,7 +157,7 @@ def deflection(placed: "PlacedPart", joint: str, pivot: str) -> Array:
 
 
 def carried_motion(
-    model: Model, name: str, faces: tuple[str, ...], point: Point
+    model: "Model", name: str, faces: tuple[str, ...], point: Point
 ) -> tuple[Array, Array]:
     """Return position, m, and velocity, m/s, (n, 3) each, of a point that faces carry.
 
@@ -173,7 +173,7 @@ def carried_motion(
     return moving_point(model, name, position + q @ modes.T, q_t @ modes.T)
 
 
-def guided_motion(model: Model, name: str) -> Motion:
+def guided_motion(model: "Model", name: str) -> Motion:
     """Return the mean motion of the faces of a body that lie in its guide, (x, y, angle).
 
     Where the body has its centre of mass; accelerations are left out.
@@ -192,7 +192,7 @@ def guided_motion(model: Model, name: str) -> Motion:
     return Motion(position, velocity, np.zeros_like(position))
 
 
-def modal(model: Model, name: str, reduced: "ReducedPart", count: int) -> tuple[Array, Array]:
+def modal(model: "Model", name: str, reduced: "ReducedPart", count: int) -> tuple[Array, Array]:
     """Return modal coordinates and their rates, (n, modes)."""
     if reduced.mode_count == 0:
         return np.zeros((count, 0)), np.zeros((count, 0))
@@ -208,7 +208,7 @@ def _inertia_of_modes(reduced: "ReducedPart") -> Array:
     return np.asarray(2.0 * products)
 
 
-def _rigid_energy(model: Model, name: str, reduced: "ReducedPart") -> Array:
+def _rigid_energy(model: "Model", name: str, reduced: "ReducedPart") -> Array:
     """Return kinetic and potential energy of the undeformed body, (n,), J.
 
     In space, as the frame of a bending crank shaft tilts at sudden forces.

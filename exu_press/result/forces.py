@@ -1,17 +1,20 @@
 """Force on the frame, and shaking force."""
 
 from collections.abc import Collection, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from exu_press.mechanism import GROUND, Motion
 from exu_press.mechanism.guide_motion import guide_direction
-from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import UNBALANCED, Channel, Declaration, Declarations, guide_channel
 from exu_press.result.gears_and_springs import force_on_second_end
 from exu_press.result.motion import point_acceleration
 from exu_press.result.recording import Record, Recording
+
+if TYPE_CHECKING:
+    from exu_press.model import Model
 
 __all__ = ["CHANNELS", "record"]
 
@@ -37,7 +40,7 @@ def record(run: Recording) -> Record:
 
 
 def _frame_force(
-    model: Model, channels: Mapping[str, Channel], motions: Mapping[str, Motion]
+    model: "Model", channels: Mapping[str, Channel], motions: Mapping[str, Motion]
 ) -> Array:
     """Return the force of shaft, pivots, guides and springs on the frame, (n, 2), N."""
     on_bodies = np.zeros((len(channels["time"].values), 2))
@@ -64,7 +67,7 @@ def _frame_force(
     return -on_bodies
 
 
-def _shaking_forces(model: Model, motions: Mapping[str, Motion]) -> dict[str, Channel]:
+def _shaking_forces(model: "Model", motions: Mapping[str, Motion]) -> dict[str, Channel]:
     """Return the shaking force, minus the rate of the mechanism's momentum, (n, 2), N.
 
     That is the force of shaft, pivots and guides on the frame, less weight and blanking force; the

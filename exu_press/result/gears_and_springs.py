@@ -1,15 +1,18 @@
 """Channels of gears, and of springs between bodies."""
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exu_press.model import Model
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.result.channel import Channel, Declaration, Declarations
 from exu_press.result.energy import work
 from exu_press.result.motion import sensor
 from exu_press.result.recording import Record, Recording
+
+if TYPE_CHECKING:
+    from exu_press.model import Model
 
 __all__ = ["CHANNELS", "force_on_second_end", "record"]
 
@@ -47,7 +50,7 @@ def record(run: Recording) -> Record:
     return total
 
 
-def force_on_second_end(model: Model, spring: str, channels: Mapping[str, Channel]) -> Array:
+def force_on_second_end(model: "Model", spring: str, channels: Mapping[str, Channel]) -> Array:
     """Return the force of a recorded spring on its second end, (n, 2), N."""
     ends = sensor(model, f"spring_{spring}", "ends")[:, :2]
     force = channels[f"spring_{spring}_force"].values

@@ -1,13 +1,12 @@
 """Channels of guides, and the record of those without clearance: elastic ones, and friction."""
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from exu_press.mechanism import Guide, Mechanism
 from exu_press.mechanism.guide_motion import motion_in_guide
-from exu_press.model import Model
-from exu_press.model.system import carrier_name
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import (
     Channel,
@@ -19,6 +18,9 @@ from exu_press.result.channel import (
 from exu_press.result.energy import work
 from exu_press.result.motion import body_motion
 from exu_press.result.recording import Record, Recording
+
+if TYPE_CHECKING:
+    from exu_press.model import Model
 
 __all__ = ["CHANNELS", "guide_channels", "record"]
 
@@ -126,7 +128,7 @@ def _friction(run: Recording, channels: Mapping[str, Channel]) -> Record:
 
 def _motion_in_guide(run: Recording, guide: Guide) -> tuple[Array, Array]:
     """Return pose and velocity, (n, 3) each, of what lies in a guide, in its drawing."""
-    discs = {body: carrier_name(guide, body) for body in guide.bodies}
+    discs = {body: guide.disc_of(body) for body in guide.bodies}
     discs = {body: disc for body, disc in discs.items() if disc in run.model.rigid}
     motions = {**run.motions, **{b: body_motion(run.model, disc) for b, disc in discs.items()}}
     if guide.is_rail and guide.body in run.model.parts:
@@ -136,7 +138,7 @@ def _motion_in_guide(run: Recording, guide: Guide) -> tuple[Array, Array]:
     return motion_in_guide(run.model.mechanism, guide, motions)
 
 
-def _relaxed_pose(model: Model, guide: Guide) -> Array:
+def _relaxed_pose(model: "Model", guide: Guide) -> Array:
     """Return the pose (3,) in the drawing in which the springs of a guide are relaxed."""
     if not guide.is_rail:
         body = model.mechanism.body(guide.body)

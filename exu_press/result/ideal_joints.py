@@ -1,16 +1,19 @@
 """Channels of the forces of ideal joints and guides that hold a coordinate."""
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from exu_press.mechanism import GROUND, Motion
-from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import VECTOR, Channel, Declaration, Declarations
 from exu_press.result.guides import guide_channels
 from exu_press.result.motion import sensor
 from exu_press.result.recording import Record, Recording
+
+if TYPE_CHECKING:
+    from exu_press.model import Model
 
 __all__ = ["CHANNELS", "record", "vectors"]
 
@@ -38,7 +41,7 @@ def record(run: Recording) -> Record:
     return Record(channels | _sums_over_faces(channels, model))
 
 
-def _sums_over_faces(channels: Mapping[str, Channel], model: Model) -> dict[str, Channel]:
+def _sums_over_faces(channels: Mapping[str, Channel], model: "Model") -> dict[str, Channel]:
     """Return the forces of joints of the frame with several faces: those of the faces.
 
     Face by face they are in the channels, too, numbered.
@@ -54,12 +57,12 @@ def _sums_over_faces(channels: Mapping[str, Channel], model: Model) -> dict[str,
     return totals
 
 
-def _is_on_flexible_body(model: Model, joint: str) -> bool:
+def _is_on_flexible_body(model: "Model", joint: str) -> bool:
     """Return whether a joint holds a flexible body."""
     return any(joint in placed.faces for placed in model.parts.values())
 
 
-def _single_axis(model: Model, motions: Mapping[str, Motion], joint: str, force: Array) -> Array:
+def _single_axis(model: "Model", motions: Mapping[str, Motion], joint: str, force: Array) -> Array:
     """Return the force on the journal, (n, 2), N, of a joint that holds one direction."""
     constraint = model.constraints.single_axis[joint]
     declared = next(candidate for candidate in model.mechanism.joints if candidate.name == joint)

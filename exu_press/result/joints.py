@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from exu_press.joints.history import JointHistory, history
-from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import integral
 from exu_press.result.channel import VECTOR, Channel, Declaration, Declarations
@@ -14,6 +13,7 @@ from exu_press.result.recording import Record, Recording
 from exu_press.scene.joint import has_even_gap, is_fed
 
 if TYPE_CHECKING:
+    from exu_press.model import Model
     from exu_press.model.warm_film import WarmFilm
 
 __all__ = ["CHANNELS", "joint_histories", "record", "stored_and_lost"]
@@ -37,7 +37,7 @@ CHANNELS = Declarations(
 )
 
 
-def joint_histories(model: Model, time: Array) -> dict[str, JointHistory]:
+def joint_histories(model: "Model", time: Array) -> dict[str, JointHistory]:
     """Return the states of every clearance joint at the recorded instants."""
     return {
         name: history(model.states, joint, time) for name, joint in model.clearance_joints.items()

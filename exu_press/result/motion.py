@@ -1,11 +1,15 @@
 """The motion of a model's bodies from its sensors."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from exu_press.mechanism import Motion
 from exu_press.mechanism.parts import DRIVE
-from exu_press.model import Model
 from exu_press.numerics.arrays import Array
+
+if TYPE_CHECKING:
+    from exu_press.model import Model
 
 __all__ = [
     "body_motion",
@@ -18,13 +22,13 @@ __all__ = [
 ]
 
 
-def sensor(model: Model, name: str, quantity: str, *, with_time: bool = False) -> Array:
+def sensor(model: "Model", name: str, quantity: str, *, with_time: bool = False) -> Array:
     """Return the record of a sensor, (n, k)."""
     data = np.asarray(model.mbs.GetSensorStoredData(model.sensors[name, quantity]))
     return data if with_time else data[:, 1:]
 
 
-def body_motion(model: Model, name: str) -> Motion:
+def body_motion(model: "Model", name: str) -> Motion:
     """Return position, velocity and acceleration (x, y, angle) of a body's frame, each (n, 3).
 
     The frame sits where the mechanism has the centre of mass; a flexible body's moves with the
@@ -38,7 +42,7 @@ def body_motion(model: Model, name: str) -> Motion:
     )
 
 
-def frame_motion(model: Model, name: str) -> Motion:
+def frame_motion(model: "Model", name: str) -> Motion:
     """Return the motion of the frame of a flexible body's solid, as `body_motion`."""
     position, velocity, acceleration = (
         sensor(model, name, level) for level in ("position", "velocity", "acceleration")
@@ -57,7 +61,7 @@ def frame_motion(model: Model, name: str) -> Motion:
     )
 
 
-def _crank_at_start(model: Model) -> float:
+def _crank_at_start(model: "Model") -> float:
     """Return the crank's angle, rad, with the turns it has made before the run, if it goes on."""
     mechanism = model.mechanism
     turned = DRIVE if DRIVE in model.nodes else mechanism.crank
@@ -68,7 +72,7 @@ def _crank_at_start(model: Model) -> float:
     return model.scene.start_angle + model.scene.angular_speed * model.begin
 
 
-def point_acceleration(model: Model, name: str, point: Array) -> Array:
+def point_acceleration(model: "Model", name: str, point: Array) -> Array:
     """Return the acceleration (n, 3) of a point (3,) fixed in the frame of a flexible body.
 
     In space: the frame of a bending crank shaft tilts a little.
@@ -81,7 +85,7 @@ def point_acceleration(model: Model, name: str, point: Array) -> Array:
     return np.asarray(acceleration[:, :3] + swing)
 
 
-def point_motion(model: Model, name: str, point: Array) -> tuple[Array, Array, Array]:
+def point_motion(model: "Model", name: str, point: Array) -> tuple[Array, Array, Array]:
     """Return height, velocity and angular velocity of a point (3,) of a flexible body's frame.
 
     In space: the height (n,), m, and the velocity (n, 3), m/s, are global; the frame's angular
@@ -93,7 +97,7 @@ def point_motion(model: Model, name: str, point: Array) -> tuple[Array, Array, A
     return height, velocity[:, :3] + np.cross(omega, arm), _rotate(e_0, -e, omega)
 
 
-def moving_point(model: Model, name: str, position: Array, rate: Array) -> tuple[Array, Array]:
+def moving_point(model: "Model", name: str, position: Array, rate: Array) -> tuple[Array, Array]:
     """Return position and velocity (n, 3) of a point that moves in a flexible body's frame.
 
     Args:
@@ -110,13 +114,13 @@ def moving_point(model: Model, name: str, position: Array, rate: Array) -> tuple
     return np.asarray(position + arm), np.asarray(rate_in_space)
 
 
-def turned_vectors(model: Model, name: str, vectors: Array) -> Array:
+def turned_vectors(model: "Model", name: str, vectors: Array) -> Array:
     """Return vectors (n, 3) of a flexible body's frame in global axes, (n, 3)."""
     e_0, e, _ = _in_space(model, name)
     return _rotate(e_0, e, vectors)
 
 
-def _in_space(model: Model, name: str) -> tuple[Array, Array, Array]:
+def _in_space(model: "Model", name: str) -> tuple[Array, Array, Array]:
     """Return the Euler parameters of a flexible body's frame, (n, 1) and (n, 3), and all rates."""
     start = model.mbs.GetNodeParameter(model.nodes[name], "referenceCoordinates")
     rotation = (sensor(model, name, "position") + start)[:, 3:]

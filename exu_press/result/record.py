@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from exu_press.integrate import Outcome
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model import Model
-from exu_press.model.state import state_of
+from exu_press.model.continuation import state_of
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel, guide_channel
 from exu_press.result.info import Info

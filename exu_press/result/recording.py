@@ -5,12 +5,12 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from exu_press.mechanism import Motion
-from exu_press.model import Model
 from exu_press.numerics.arrays import Array
 from exu_press.result.channel import Channel
 
 if TYPE_CHECKING:
     from exu_press.joints.history import JointHistory
+    from exu_press.model import Model
 
 __all__ = ["Record", "Recording"]
 
@@ -58,7 +58,7 @@ class Recording:
         so_far: record of the preceding recorders.
     """
 
-    model: Model
+    model: "Model"
     time: Array
     motions: Mapping[str, Motion]
     turned: Motion

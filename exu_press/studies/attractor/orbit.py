@@ -11,8 +11,9 @@ from exu_press.integrate import SolverStatus
 from exu_press.joints.joint import ClearanceJoint
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model import build
+from exu_press.model.continuation import go_on_from, state_of
 from exu_press.model.settings import scales
-from exu_press.model.state import State, go_on_from, state_of
+from exu_press.model.state import State
 from exu_press.numerics.arrays import Array
 from exu_press.result import Result, record
 from exu_press.scene import Scene, mechanism_of

@@ -1,6 +1,8 @@
 """A picture as a file."""
 
 import json
+import struct
+import zlib
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from datetime import datetime
@@ -13,7 +15,7 @@ from matplotlib import rcParams
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
-from PIL.PngImagePlugin import PngInfo
+from PIL.PngImagePlugin import PngInfo, putchunk
 
 from exu_press.errors import InputError
 from exu_press.files.output_directory import FORMATS, remove_partial, replacing
@@ -71,9 +73,21 @@ def save_figure(
 
 
 def write_png(path: Path, image: Image.Image, dpi: float, texts: PngInfo) -> None:
-    """Write the colours of an image, compressed as little as takes the least time."""
-    colours = image.convert("RGB")
-    colours.save(path, format="png", compress_level=1, dpi=(dpi, dpi), pnginfo=texts)
+    """Write the colours of an image, compressed as little as takes the least time.
+
+    Pillow's writer takes twice as long: it chooses a filter for every line.
+    """
+    colours = np.asarray(image.convert("RGB")).reshape(image.height, -1)
+    lines = np.pad(colours, ((0, 0), (1, 0)))  # each after the number of its filter, which is none
+    per_metre = round(dpi / 0.0254)
+    with path.open("wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n")
+        putchunk(file, b"IHDR", struct.pack(">2I5B", image.width, image.height, 8, 2, 0, 0, 0))
+        putchunk(file, b"pHYs", struct.pack(">2IB", per_metre, per_metre, 1))
+        for name, text, *_ in texts.chunks:
+            putchunk(file, name, text)
+        putchunk(file, b"IDAT", zlib.compress(lines.data, 1))
+        putchunk(file, b"IEND")
 
 
 def png_texts(sources: Mapping[str, Provenance]) -> PngInfo:

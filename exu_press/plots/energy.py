@@ -107,4 +107,4 @@ def _residual(axes: Axes, result: Result) -> None:
     curve(axes, result, scale * residual, color=GREY, linewidth=1.0)
     axes.set(title="Residual", ylabel=f"put in{MINUS}stored{MINUS}dissipated, {unit}")
     if relative is not None:
-        note(axes, f"at most {relative:.1e} of the largest energy on the left")
+        note(axes, f"at most {relative:.1e} of the largest energy")

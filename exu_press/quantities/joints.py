@@ -89,7 +89,7 @@ START = Quantity(
     "largest joint force before quantities are read, over the largest one after it",
     MEASURE, _start,
     available=lambda scene, _: scene.settle_revolutions > 0.0,
-    title="joint forces, start over later", digits=3,
+    title="joint forces: start / settled", digits=3,
 )  # fmt: skip
 
 IMPACTS = Quantity(

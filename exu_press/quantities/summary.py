@@ -208,4 +208,6 @@ def _solid_warnings(result: Result) -> Iterator[str]:
         if away > ALIKE * mechanism.size:
             differences.append(f"a centre of mass {1e3 * away:.3g} mm from the mechanism's")
         if differences:
-            yield f"bodies.{name}: its solid has {', '.join(differences)}"
+            yield (
+                f"bodies.{name}: its solid has {', '.join(differences)}; the run takes the solid's"
+            )

@@ -80,7 +80,8 @@ def comparison_tables(comparison: Comparison) -> tuple[str, str]:
     common = "".join(paragraph(text) for text in texts if text)
     head = ("", *comparison.results)
     quantities = table(head, with_headings(comparison.cells()))
-    return common + table(head, comparison.differences), quantities
+    rows = comparison.differences
+    return common + (table(head, rows) if rows else ""), quantities
 
 
 def _measured_section(directory: Path) -> str:

@@ -57,6 +57,10 @@ class Mechanism {
     const size = 0.034 * unit;
     for (const body of this.bodies.filter(one => one.label)) {
       body.leader = drawn("line", {class: "leader"}, svg);
+      body.middle = [0, 1].map(k => {  // of its outline: the centre of mass may be elsewhere
+        const along = body.outline.map(point => point[k]);
+        return (Math.min(...along) + Math.max(...along)) / 2;
+      });
       body.words = drawn("text", {x: right + 0.07 * unit, "font-size": size}, svg);
       body.words.textContent = body.label;
     }
@@ -117,9 +121,11 @@ class Mechanism {
   // Put the names beside their bodies, none over another.
   name() {
     const {unit} = this.scenery, line = 0.042 * unit, [, low, right, high] = this.box;
-    const named = this.bodies.filter(body => body.words).sort((a, b) => b.y - a.y);
+    const named = this.bodies.filter(body => body.words);
+    for (const body of named) [body.toX, body.toY] = this.point(body.index, body.middle);
+    named.sort((a, b) => b.toY - a.toY);
     let top = high - 0.5 * line;
-    for (const body of named) top = body.at = Math.min(body.y, top) - line;
+    for (const body of named) top = body.at = Math.min(body.toY, top) - line;
     let bottom = low;
     for (const body of [...named].reverse()) {
       body.at = Math.max(body.at + line, bottom);
@@ -128,9 +134,8 @@ class Mechanism {
     const x = right - 0.355 * unit;
     for (const body of named) {
       body.words.setAttribute("y", -body.at + 0.012 * unit);
-      for (const [name, value] of [["x1", body.x], ["y1", -body.y], ["x2", x], ["y2", -body.at]]) {
-        body.leader.setAttribute(name, value);
-      }
+      const ends = {x1: body.toX, y1: -body.toY, x2: x, y2: -body.at};
+      for (const [name, value] of Object.entries(ends)) body.leader.setAttribute(name, value);
     }
   }
 

@@ -9,8 +9,8 @@ from exu_press.plots.palette import COLOURS, GREY, SHADE
 from exu_press.plots.panels import figure_with_panels, grid_rows, name_rows
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import with_style
-from exu_press.plots.sweep_words import in_unit, words
-from exu_press.plots.typesetting import plain, wrap_text
+from exu_press.plots.sweep_words import in_unit
+from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe
 from exu_press.quantities.uncertain import significant
 from exu_press.studies.base import Range
@@ -97,6 +97,5 @@ def profiles_figure(report: FitReport) -> Figure:
             panel.set_xlim(dense[0] - margin, dense[-1] + margin)
         panel.set_ylim(0.0, 2.2 * rise)
         panel.set_xlabel(plain(f"{name}{f', {unit}' if unit else ''}"))
-        panel.set_title(wrap_text(words(name), 38))
         panel.set_ylabel("chi-square above its least")
     return figure

@@ -1,7 +1,7 @@
 """What pictures cost: each default picture over an empty one, and a run with them over a bare run.
 
 An empty picture has the size of the picture and as many axes in the same places (panels, colour
-bars, insets, second axes), without limits and data; it is laid out and saved by the same functions.
+bars, insets), without limits and data; it is laid out and saved by the same functions.
 "axes" has nothing else, "with text" also heading, titles and names of axes. They are drawn in turn,
 and the least processor time of each counts. Commands are fresh processes; the least times count.
 """
@@ -49,11 +49,8 @@ def empty_figure(picture: Figure, *, with_text: bool) -> Figure:
             spec.rowspan.start : spec.rowspan.stop, spec.colspan.start : spec.colspan.stop
         ]
         panel = figure.add_subplot(cells, sharex=drawn[0] if shares and drawn else None)
-        for child in axes.child_axes:
-            if hasattr(child, "set_functions"):
-                panel.secondary_yaxis("right")
-            else:
-                panel.inset_axes(INSET).set(xticks=[], yticks=[])
+        for _ in axes.child_axes:
+            panel.inset_axes(INSET).set(xticks=[], yticks=[])
         if with_text:
             panel.set(title=axes.get_title("left"))
             panel.set(xlabel=axes.get_xlabel(), ylabel=axes.get_ylabel())

@@ -1,6 +1,5 @@
 """Motion of journals and balls in their clearance: path in the circle, eccentricity over angle."""
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -8,7 +7,7 @@ from exu_press.errors import InputError
 from exu_press.plots.busiest import busiest
 from exu_press.plots.canvas import angle_axis, angle_range, curve, run_figure
 from exu_press.plots.clearance_circle import TOUCH_COLOUR, Path, draw_path
-from exu_press.plots.palette import GREY, RUN, SHADE
+from exu_press.plots.palette import RUN, SHADE
 from exu_press.plots.panels import grid_rows, legend_above
 from exu_press.plots.peaks import draw_rest
 from exu_press.plots.scales import angle_ticks, note
@@ -30,8 +29,8 @@ def orbit_figure(result: Result) -> Figure:
 
     On the left the path (um, x-y plane), coloured by crank angle; on the right over the crank angle
     the eccentricity of a journal, or the height of a ball in its socket, which ideal guides let
-    move only vertically. Outside the circle the surfaces penetrate each other. Of two balls that
-    do the same one is shown.
+    move only vertically, over the clearance. Outside the circle the surfaces penetrate each other.
+    Of two balls that do the same one is shown.
 
     Raises:
         InputError: the scene has no clearance joint.
@@ -59,25 +58,23 @@ def orbit_figure(result: Result) -> Figure:
 
 
 def _over_angle(axes: Axes, result: Result, path: Path) -> None:
-    """Draw the eccentricity of a journal or the height of a ball over the crank angle."""
-    limit, ball = path.clearance, path.ball
-    values = path.points[:, 1] if ball else path.distance
-    names = ("height in its socket", "vertical eccentricity") if ball else ("eccentricity",) * 2
-    axes.set(title=f"{path.title}: {names[0]}", ylabel=f"{names[1]}, µm")
-    curve(axes, result, values, color=RUN, linewidth=0.9, label="centre")
-    reach = 1.3 * max(path.reach, 1e-3 * limit) if path.small else 1.12 * max(path.reach, limit)
-    axes.set_ylim(-reach if ball else 0.0, reach)
-    if path.small:
-        note(axes, f"the surfaces would touch at {limit:g} µm")
-    else:
-        for sign in (1, -1) if ball else (1,):
-            line = axes.axhline(sign * limit, color=TOUCH_COLOUR, linewidth=1.2, zorder=1.8)
-            band = axes.axhspan(sign * limit, sign * reach, color=SHADE, linewidth=0, zorder=0.5)
-            if sign == 1:
-                line.set_label("surfaces touch")
-                band.set(label="penetration")
-        legend_above(axes)
-    ratio = axes.secondary_yaxis(
-        "right", functions=(lambda e: np.divide(e, limit), lambda r: np.multiply(r, limit))
+    """Draw the eccentricity ratio of a journal or of a ball's height over the crank angle."""
+    values, reach = (path.points[:, 1] if path.ball else path.distance), path.reach
+    values, reach = values / path.clearance, reach / path.clearance
+    names = (
+        ("height in its socket", "vertical eccentricity") if path.ball else ("eccentricity",) * 2
     )
-    ratio.set_ylabel("eccentricity ratio", color=GREY)
+    axes.set(title=f"{path.title}: {names[0]}", ylabel=f"{names[1]} ratio")
+    curve(axes, result, values, color=RUN, linewidth=0.9, label="centre")
+    reach = 1.3 * max(reach, 1e-3) if path.small else 1.12 * max(reach, 1.0)
+    axes.set_ylim(-reach if path.ball else 0.0, reach)
+    if path.small:
+        note(axes, f"the surfaces would touch at 1, which is {path.clearance:g} µm")
+        return
+    for sign in (1, -1) if path.ball else (1,):
+        line = axes.axhline(sign, color=TOUCH_COLOUR, linewidth=1.2, zorder=1.8)
+        band = axes.axhspan(sign, sign * reach, color=SHADE, linewidth=0, zorder=0.5)
+        if sign == 1:
+            line.set_label("surfaces touch")
+            band.set(label="penetration")
+    legend_above(axes)

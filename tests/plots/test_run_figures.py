@@ -25,7 +25,7 @@ def titled(figure):
         (energy_figure, "ideal", ["Balance", "Residual"], "J"),
         (press_figure, "ideal", GUIDES, ("kN", "kW")),
         (press_figure, "stopped at once", GUIDES, ("kN", "kW")),
-        (orbit_figure, "dry", PATHS, ", µm"),
+        (orbit_figure, "dry", PATHS, (", µm", "eccentricity ratio")),
     ],
 )
 def test_panels_and_their_units(results, draw, label, titles, unit):

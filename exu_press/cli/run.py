@@ -21,6 +21,7 @@ from exu_press.errors import InputError
 from exu_press.files.digests import file_digest
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import (
+    COMPARED,
     checkpoint_directory,
     output_directory,
     remove_pictures,
@@ -261,6 +262,7 @@ def _run(
             summary = result.summary()
             remove_pictures(directory, "run")
             drawn = list if pictures is None else pictures.draw(result, directory)
+            (directory / COMPARED).unlink(missing_ok=True)
             result.save(written[0])
             stack.callback(remove, unfinished)
             write_json(written[1], summary)

@@ -1,6 +1,7 @@
 """Run one scene: summary.json, run.nc and pictures."""
 
 import argparse
+import math
 import sys
 import textwrap
 from collections.abc import Callable, Iterator
@@ -89,10 +90,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _share(text: str) -> float:
     """Return the share that a text as "1%" or "0.01" names."""
-    value = float(text.removesuffix("%")) * (0.01 if text.endswith("%") else 1.0)
+    try:
+        value = float(text.removesuffix("%")) * (0.01 if text.endswith("%") else 1.0)
+    except ValueError:
+        value = math.nan
     if not 1e-5 <= value < 1.0:
-        raise argparse.ArgumentTypeError(f"{text!r}: allowed is a number from 0.001% to 100%")
+        raise argparse.ArgumentTypeError(f"{text!r}: allowed is 0.001% or more, below 100%")
     return value
+
+
+def _check_within(options: argparse.Namespace) -> None:
+    """Refuse what does not go with --within, or not without it."""
+    if options.within is None:
+        if options.figure is not None:
+            raise InputError(f"--figure {options.figure}: only together with --within")
+        return
+    apart = {"--from": options.start, "--once": options.once, "--no-error": options.no_error}
+    if option := next((option for option, value in apart.items() if value), None):
+        raise InputError(
+            f"{option}: not together with --within, which needs errors and runs as often as it "
+            "has to; remove one of the two"
+        )
 
 
 def _start_path(name: str) -> Path:
@@ -110,8 +128,6 @@ def _start_of(options: argparse.Namespace, scene: Scene) -> State | None:
     """Return the state in which the run of --from ended, or None without it."""
     if options.start is None:
         return None
-    if options.within is not None:
-        raise InputError("--from: not together with --within, which runs as often as it needs")
     previous = Result.load(_start_path(options.start))
     if not previous.completed or "state" not in previous.info:
         why = previous.info["reason"] or "it was written without the state at its end"
@@ -143,11 +159,10 @@ def _shared_keys(scene: Scene, previous: Scene) -> Iterator[tuple[str, object, o
 
 def execute(options: argparse.Namespace) -> int:
     """Run the scene; return 0, or 3 if it stopped early or was not resolved."""
+    _check_within(options)
     with nullcontext() if options.no_pictures else pictures_beside() as pictures:
         scene = scene_of(options)
         start = _start_of(options, scene)
-        if options.figure is not None and options.within is None:
-            raise InputError(f"--figure {options.figure}: only together with --within")
         with lock_directory(output_directory(directory_of(options, options.scene))) as directory:
             if pictures is not None:
                 pictures.prepare(scene)

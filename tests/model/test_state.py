@@ -96,8 +96,6 @@ def test_the_command(tmp_path, capsys):
     assert main([*command, str(tmp_path / "two"), "--from", str(tmp_path / "one")]) == 0
     second = Result.load(tmp_path / "two" / "run.nc")
     assert second.time[0] == Result.load(first).time[-1]
-    assert main([*command, str(tmp_path / "two"), "--from", first, "--within", "1%"]) == 2
-    assert "--from: not together with --within" in capsys.readouterr().err
     assert main([*command, str(tmp_path / "three"), "--from", str(tmp_path / "no.nc")]) == 2
     for change, message in (
         ("start_angle_deg=90", "start_angle_deg = 90.0 does nothing"),

@@ -3,7 +3,7 @@
 import argparse
 import itertools
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from pathlib import Path
 from typing import Any
 
@@ -18,9 +18,11 @@ from exu_press.cli.options import (
 from exu_press.errors import InputError
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import (
+    COMPARED,
     folder_name,
     output_directory,
     remove_pictures,
+    replacing,
     subdirectory,
     write_json,
 )
@@ -51,7 +53,7 @@ RESULT = "run.nc"
 COMPARISON = "comparison.json"
 
 CURVES = ".csv"
-"""Ending of the files of measured curves."""
+"""Ending of the files of measured curves, and of a table of all quantities."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -97,10 +99,11 @@ def execute(options: argparse.Namespace) -> int:
     if len(stored) > 1:
         with_equal_windows(stored)
     target = directory_of(options, options.given[0] if len(options.given) == 1 else "compare")
-    if options.csv is not None and not options.csv.parent.is_dir():
-        folder = options.csv.parent
-        if folder.resolve() != target.resolve():  # which is made for the results
-            raise InputError(f"--csv {options.csv}: there is no folder {folder}; make it first")
+    sources = {file.resolve() for file in (*files, *map(_file_of, runs))}
+    for label in compared:
+        _check_replaceable(target / folder_name(label) / RESULT, sources)
+    if options.csv is not None:
+        _check_table(options.csv, target, sources)
     with lock_directory(output_directory(target)) as directory:
         results, summaries = _run_all(compared, directory, options)
         comparison = Comparison(results)
@@ -137,6 +140,37 @@ def execute(options: argparse.Namespace) -> int:
     return 3 if stopped else 0
 
 
+def _file_of(name: str) -> Path:
+    """Return the file that is meant: of a directory, its run's."""
+    path = Path(name)
+    return find_run(path) if path.is_dir() else path
+
+
+def _check_replaceable(path: Path, sources: Set[Path]) -> None:
+    """Refuse to replace a run that is compared, or that no comparison wrote."""
+    if path.resolve() in sources:
+        reason = "it is one of the runs to compare"
+    elif path.exists() and not (path.parent / COMPARED).exists():
+        reason = "no comparison wrote it"
+    else:
+        return
+    raise InputError(
+        f"{path}: would be replaced, and {reason}; allowed is a folder without such a run: choose "
+        "another one with --out"
+    )
+
+
+def _check_table(path: Path, target: Path, sources: Set[Path]) -> None:
+    """Refuse a file of --csv that is no table, or is compared, or whose folder is not there."""
+    if path.suffix.lower() != CURVES:
+        raise InputError(f"--csv {path}: allowed is a name that ends in {CURVES}")
+    if path.resolve() in sources:
+        raise InputError(f"--csv {path}: is one of the files to compare; allowed is another file")
+    folder = path.parent
+    if not folder.is_dir() and folder.resolve() != target.resolve():  # made for the results
+        raise InputError(f"--csv {path}: there is no folder {folder}; make it first")
+
+
 def _run_all(
     compared: Mapping[str, Scene | Result], directory: Path, options: argparse.Namespace
 ) -> tuple[dict[str, Result], dict[str, dict[str, Any]]]:
@@ -152,6 +186,8 @@ def _run_all(
     for label, result in itertools.chain(stored, runs):
         results[label], summaries[label] = result, result.summary()
         remove_pictures(folders[label], "run")
+        with replacing(folders[label] / COMPARED):
+            pass
         result.save(folders[label] / RESULT)
         write_json(folders[label] / "summary.json", summaries[label])
         in_order = {name: summaries[name] for name in compared if name in summaries}
@@ -197,13 +233,12 @@ def _load_items(
         raise InputError("a measurement alone; allowed are scenes or results beside it")
     items: dict[str, Scene | Result] = {}
     for name in names:
-        path = Path(name)
-        file = find_run(path) if path.is_dir() else path
+        file = _file_of(name)
         if file.suffix == ".nc":
             item: Scene | Result = Result.load(file)
         else:
             item = Scene.load(scene_path(name), assignments, allow_code=allow_code)
-        label = file.resolve().parent.name if file.name == RESULT else path.stem
+        label = file.resolve().parent.name if file.name == RESULT else Path(name).stem
         items[_label(label, items)] = item
     scenes = [item for item in items.values() if isinstance(item, Scene)]
     if assignments and not scenes:

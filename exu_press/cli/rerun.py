@@ -10,12 +10,14 @@ from exu_press.cli.options import add_code_argument, scene_path
 from exu_press.errors import InputError
 from exu_press.files.digests import locate
 from exu_press.files.output_directory import check_writable
+from exu_press.integrate import SolverStatus
 from exu_press.report.find import Kind, find_run
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.scene.provenance import Provenance, changed_inputs
 from exu_press.schema.kinds import import_kinds
 from exu_press.verification.agreement import Agreement, agreement
+from exu_press.verification.run import simulate_with_errors
 from exu_press.verification.simulate import simulate
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
@@ -60,12 +62,13 @@ def execute(options: argparse.Namespace) -> int:
         import_kinds(run.scene.to_dict())
     scene = _scene_of(run, provenance, options) if changes else _scene_in(run)
     start = Result.load(locate(provenance["start"])) if "start" in provenance else None
-    repeated = simulate(
-        scene,
-        errors="errors" in run.info,
-        start=None if start is None else start.info["state"],
-        quiet=options.quiet,
-    )
+    state = None if start is None else start.info["state"]
+    if "errors" in run.info:
+        repeated = simulate_with_errors(scene, start=state, quiet=options.quiet, interruptible=True)
+    else:
+        repeated = simulate(scene, start=state, quiet=options.quiet)
+        if repeated.info["status"] == SolverStatus.INTERRUPTED.value:
+            raise KeyboardInterrupt
     if options.out is not None:
         repeated.save(options.out)
     compared = agreement(run, repeated)

@@ -1,14 +1,15 @@
 """Run one scene: summary.json, run.nc and pictures."""
 
 import argparse
+import math
 import sys
 import textwrap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import ExitStack, nullcontext
-from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
+from exu_press.cli.continuation import RESULT, start_path, start_state, with_start
 from exu_press.cli.options import (
     add_error_argument,
     add_scene_arguments,
@@ -18,9 +19,9 @@ from exu_press.cli.options import (
 )
 from exu_press.cli.pictures_beside import PicturesBeside, pictures_beside
 from exu_press.errors import InputError
-from exu_press.files.digests import file_digest
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import (
+    COMPARED,
     checkpoint_directory,
     output_directory,
     remove_pictures,
@@ -29,8 +30,8 @@ from exu_press.files.output_directory import (
 from exu_press.model.state import State
 from exu_press.quantities.table import run_lines
 from exu_press.result import Result
-from exu_press.result.checkpoint import has_blocks, refuse_blocks, remove, set_aside
-from exu_press.scene import Scene, mechanism_of
+from exu_press.result.checkpoint import refuse_blocks, remove, set_aside
+from exu_press.scene import Scene
 from exu_press.scene.assumptions import assumed_line
 from exu_press.scene.warnings import scene_warnings
 from exu_press.terminal.interrupt import postponed_interrupt
@@ -39,11 +40,6 @@ from exu_press.verification.simulate import simulate
 from exu_press.verification.within import accuracy_lines, find_tolerance
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
-
-RESULT = "run.nc"
-
-OF_THE_START = "start", "start_angle_deg"
-"""Keys that do nothing where a run goes on from another one."""
 
 EXAMPLE = "exu-press run press --set joints.crank_pin=dry --set gravity=0 --out out/dry"
 
@@ -88,97 +84,67 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _share(text: str) -> float:
     """Return the share that a text as "1%" or "0.01" names."""
-    value = float(text.removesuffix("%")) * (0.01 if text.endswith("%") else 1.0)
+    try:
+        value = float(text.removesuffix("%")) * (0.01 if text.endswith("%") else 1.0)
+    except ValueError:
+        value = math.nan
     if not 1e-5 <= value < 1.0:
-        raise argparse.ArgumentTypeError(f"{text!r}: allowed is a number from 0.001% to 100%")
+        raise argparse.ArgumentTypeError(f"{text!r}: allowed is 0.001% or more, below 100%")
     return value
 
 
-def _start_path(name: str) -> Path:
-    """Return the file, or the directory of blocks, that --from means.
-
-    In the directory of a run, what a killed one has left is newer than the result beside it.
-    """
-    path = Path(name)
-    file = path / RESULT if path.is_dir() else path
-    blocks = path if has_blocks(path) else checkpoint_directory(file)
-    return blocks if has_blocks(blocks) and (path.is_dir() or not path.exists()) else file
-
-
-def _start_of(options: argparse.Namespace, scene: Scene) -> State | None:
-    """Return the state in which the run of --from ended, or None without it."""
-    if options.start is None:
-        return None
-    if options.within is not None:
-        raise InputError("--from: not together with --within, which runs as often as it needs")
-    previous = Result.load(_start_path(options.start))
-    if not previous.completed or "state" not in previous.info:
-        why = previous.info["reason"] or "it was written without the state at its end"
-        raise InputError(f"--from {options.start}: allowed is a run that reached its end; {why}")
-    for key, asked, began in _shared_keys(scene, previous.scene):
-        if asked != began:
-            raise InputError(
-                f"--from {options.start}: {key} = {asked!r}; allowed is {began!r}, as in that run"
-            )
-    for key in OF_THE_START:
-        asked, began = getattr(scene, key), getattr(previous.scene, key)
-        if asked != began:
-            raise InputError(
-                f"--from {options.start}: {key} = {asked!r} does nothing in a run that goes on; "
-                f"allowed is {began!r}, with which that run began"
-            )
-    return previous.info["state"]
-
-
-def _shared_keys(scene: Scene, previous: Scene) -> Iterator[tuple[str, object, object]]:
-    """Yield names and both values of what a run that goes on shares with the one before it."""
-    yield "mechanism", mechanism_of(scene).name, mechanism_of(previous).name
-    yield "joints", [*scene.joints], [*previous.joints]
-    for name, joint in scene.joints.items():
-        began = previous.joints[name].kind
-        if "ideal" in (joint.kind, began):
-            yield f"joints.{name}.kind", joint.kind, began
+def _check_within(options: argparse.Namespace) -> None:
+    """Refuse what does not go with --within, or not without it."""
+    if options.within is None:
+        if options.figure is not None:
+            raise InputError(f"--figure {options.figure}: only together with --within")
+        return
+    apart = {"--from": options.start, "--once": options.once, "--no-error": options.no_error}
+    if option := next((option for option, value in apart.items() if value), None):
+        raise InputError(
+            f"{option}: not together with --within, which needs errors and runs as often as it "
+            "has to; remove one of the two"
+        )
 
 
 def execute(options: argparse.Namespace) -> int:
     """Run the scene; return 0, or 3 if it stopped early or was not resolved."""
+    _check_within(options)
     with nullcontext() if options.no_pictures else pictures_beside() as pictures:
         scene = scene_of(options)
-        start = _start_of(options, scene)
-        if options.figure is not None and options.within is None:
-            raise InputError(f"--figure {options.figure}: only together with --within")
+        start = None if options.start is None else start_path(options.start)
+        state = None if start is None else start_state(start, scene)
         with lock_directory(output_directory(directory_of(options, options.scene))) as directory:
             if pictures is not None:
                 pictures.prepare(scene)
-            return _run(scene, start, directory, options, pictures)
+            return _run(scene, start, state, directory, options, pictures)
 
 
-def _with_start(result: Result, path: Path) -> Result:
-    """Return a run that went on from another one, with that in its provenance."""
-    provenance = result.info["provenance"]
-    files = sorted(path.iterdir()) if path.is_dir() else [path]
-    digests = {str(file): file_digest(file) for file in files}
-    provenance = {
-        **provenance,
-        "files": {**provenance["files"], **digests},
-        "start": str(path),
-    }
-    return replace(result, info={**result.info, "provenance": provenance})
+def _make_room(directory: Path, start: Path | None, options: argparse.Namespace) -> Path | None:
+    """Remove the finished blocks of an earlier run, or set them aside where --from goes on.
 
+    Returns:
+        Where the run of --from is then.
 
-def _make_room(unfinished: Path, options: argparse.Namespace) -> None:
-    """Remove the finished blocks of an earlier run, or set them aside where --from goes on."""
+    Raises:
+        InputError: it would be deleted, or blocks of another run would.
+    """
+    unfinished = checkpoint_directory(directory / RESULT)
+    resolved = None if start is None else start.resolve()
+    goes_on = resolved == unfinished.resolve()
+    if resolved == (directory / RESULT).resolve() or (goes_on and options.overwrite):
+        raise InputError(
+            f"--from {start}: this run would delete the one that it goes on from; allowed is "
+            "another directory: choose it with --out"
+        )
     if options.overwrite:
         remove(unfinished)
-    elif (
-        options.start is not None
-        and has_blocks(unfinished)
-        and _start_path(options.start).resolve() == unfinished.resolve()
-    ):
-        aside = set_aside(unfinished)
+    elif goes_on:
+        start = set_aside(unfinished)
         if not options.quiet:
-            print(f"the revolutions before are kept in {aside}", file=sys.stderr)
+            print(f"the revolutions before are kept in {start}", file=sys.stderr)
     refuse_blocks(unfinished)
+    return start
 
 
 def _run_refined(
@@ -224,13 +190,14 @@ def _run_refined(
 
 def _run(
     scene: Scene,
-    start: State | None,
+    start: Path | None,
+    state: State | None,
     directory: Path,
     options: argparse.Namespace,
     pictures: PicturesBeside | None,
 ) -> int:
     def draw_early(run: Result) -> None:
-        if pictures is not None and start is None:  # with one, its pictures name its file
+        if pictures is not None and state is None:  # with one, its pictures name its file
             pictures.draw_early(run)
 
     remarks: list[str] = []
@@ -239,28 +206,29 @@ def _run(
     if not options.quiet:  # a drawing in mm may run for long
         show_warnings(doubts, directory / "summary.json")
     unfinished = checkpoint_directory(directory / RESULT)
-    _make_room(unfinished, options)
+    start = _make_room(directory, start, options)
     if options.within is not None:
         delivered = find_tolerance(scene, options.within, options.figure, quiet=options.quiet)
         result, remarks = delivered.result, accuracy_lines(delivered, options.within)
     elif options.no_error or options.once:
         errors = not options.no_error
         result = simulate(
-            scene, errors=errors, start=start, unfinished=unfinished, quiet=options.quiet
+            scene, errors=errors, start=state, unfinished=unfinished, quiet=options.quiet
         )
     else:
         result, interrupted, remark = _run_refined(
-            scene, start, unfinished, draw_early, quiet=options.quiet
+            scene, state, unfinished, draw_early, quiet=options.quiet
         )
         remarks = [remark] if remark else []
-    if options.start is not None:
-        result = _with_start(result, _start_path(options.start))
+    if start is not None:
+        result = with_start(result, start)
     written = [directory / RESULT, directory / "summary.json"]
     with ExitStack() as stack:
         with postponed_interrupt():
             summary = result.summary()
             remove_pictures(directory, "run")
             drawn = list if pictures is None else pictures.draw(result, directory)
+            (directory / COMPARED).unlink(missing_ok=True)
             result.save(written[0])
             stack.callback(remove, unfinished)
             write_json(written[1], summary)

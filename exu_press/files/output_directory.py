@@ -13,6 +13,7 @@ from exu_press.errors import InputError
 from fe_models.errors import disk_full
 
 __all__ = [
+    "COMPARED",
     "FORMATS",
     "PICTURES",
     "REPORT_FILE",
@@ -38,6 +39,9 @@ PICTURES = {
     "compare": ("compare_slider", "compare_force", "compare_measured"),
 }
 """Names of the pictures of a command, without their endings."""
+
+COMPARED = ".compared"
+"""File in the directory of a run that a comparison wrote, and the next one may replace."""
 
 REPORT_FILE = "report.json"
 """File of a report in the directory of its study; a page is made of it."""

@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from exu_press.errors import InputError
 from exu_press.joints.joint import SHALLOW, ClearanceJoint, JointState
 from exu_press.laws.contact import Approach, NormalContact
 from exu_press.laws.film.contract import FilmLaw
@@ -526,7 +527,18 @@ class InterfaceJoint(ClearanceJoint):
         return [*super().memory(), [interface.memory() for interface in self.interfaces]]
 
     def recall(self, memory: list[Any]) -> None:
-        """Take over the memory of another joint of its kind, in the state of the last forces."""
+        """Take over the memory of another joint of its kind, in the state of the last forces.
+
+        Raises:
+            InputError: the joint is of another kind.
+        """
+        sizes = [len(numbers) for numbers in memory[2]]
+        own_sizes = [len(interface.memory()) for interface in self.interfaces]
+        if sizes != own_sizes:
+            raise InputError(
+                f"its surfaces and film remember {own_sizes} numbers, those of the state {sizes}; "
+                "allowed is a joint of the same kind, with or without a mixed film"
+            )
         super().recall(memory)
         for interface, interface_memory in zip(self.interfaces, memory[2], strict=True):
             interface.drift = self.path.drift

@@ -16,7 +16,7 @@ import numpy as np
 from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 from numpy.typing import NDArray
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, error_prefix
 from exu_press.joints.joint import GROUND, SHALLOW, ClearanceJoint, JointState
 
 __all__ = ["StepWatch", "UserForceElement", "add_massless_item", "holds_joints", "user_force_of"]
@@ -154,7 +154,11 @@ class UserForceElement:
         return {"step": tried and list(tried), "joints": [joint.memory() for joint in self.joints]}
 
     def recall(self, memory: Mapping[str, Any]) -> None:
-        """Go on from the memory of a system like this one, in the initial state."""
+        """Go on from the memory of a system like this one, in the initial state.
+
+        Raises:
+            InputError: a joint is of another kind.
+        """
         data: Any = self._mbs.systemData
         q = self._of_item(data.GetODE2Coordinates(exu.ConfigurationType.Initial))
         q_t = self._of_item(data.GetODE2Coordinates_t(exu.ConfigurationType.Initial))
@@ -163,7 +167,8 @@ class UserForceElement:
         self._last = q, q_t
         self._steps.tried = memory["step"] and tuple(memory["step"])
         for joint, joint_memory in zip(self.joints, memory["joints"], strict=True):
-            joint.recall(joint_memory)
+            with error_prefix(f"{self.number(joint)}: "):
+                joint.recall(joint_memory)
 
     def _check_start(self, q: list[float], called: Callable[[ClearanceJoint], str]) -> None:
         """Raise InputError for a joint that is further out in a state than its laws hold."""

@@ -40,7 +40,7 @@ class SceneAdvice(Advice):
         return iter(())
 
     def about_start(self, task: Task, changes: tuple[float, float]) -> Iterator[str]:
-        """Say nothing: a scene's start fits, but where it goes on from a run at another speed."""
+        """Say nothing: a scene's start fits, but where it goes on with another geometry."""
         return iter(())
 
     @property
@@ -53,8 +53,8 @@ class SceneAdvice(Advice):
         scene = self._scene
         if scene.drive is not None:  # the angle is not known from the time
             return super().location(time)
-        degrees = math.degrees(scene.start_angle + scene.angular_speed * time) % 360.0
-        return f"{super().location(time)}, crank angle {degrees:.2f} deg"
+        angle = scene.start_angle + scene.angular_speed * time + self._model.ahead[0]
+        return f"{super().location(time)}, crank angle {math.degrees(angle) % 360.0:.2f} deg"
 
     def joint(self, joint: ClearanceJoint) -> str:
         """Return a joint's name."""

@@ -45,7 +45,7 @@ class System:
         clocks: of pulses and sheets, updated at the end of every step, each with a function that
             reads its coordinate and rate at a time.
         ahead: [angle, rad, of a crank at constant speed at time 0 from its start]; not 0 where a
-            run continues one of another speed or start.
+            run continues one of another start.
         SC: Exudyn's system container.
         mbs: Exudyn's main system, not yet assembled.
         ground: object number of the frame.

@@ -97,19 +97,29 @@ def simulate_with_errors(
         The result; `info` and summary have `errors`, quantity by quantity, `horizon` and
         `lyapunov_exponent` too. Of a run that stopped early, or was stopped, nothing is known.
     """
-    if scene.warms or not beside:  # refinements of films have as many revolutions as they settle in
-        run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet, settling=True)
-        finished(run)
-        return with_errors(run, start=start, beside=beside)
-    with RefinementRuns(scene, start) as refinements:
-        run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet)
+
+    def first_run(*, settling: bool) -> Result:
+        run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet, settling=settling)
         if interruptible and run.info["status"] == SolverStatus.INTERRUPTED.value:
             raise KeyboardInterrupt
         finished(run)
+        return run
+
+    if scene.warms or not beside:  # refinements of films have as many revolutions as they settle in
+        run = first_run(settling=True)
+        return with_errors(run, start=start, beside=beside, interruptible=interruptible)
+    with RefinementRuns(scene, start) as refinements:
+        run = first_run(settling=False)
         return _with_refinements(run, refinements, interruptible=interruptible)
 
 
-def with_errors(result: Result, *, start: State | None = None, beside: bool = True) -> Result:
+def with_errors(
+    result: Result,
+    *,
+    start: State | None = None,
+    beside: bool = True,
+    interruptible: bool = False,
+) -> Result:
     """Return a result with the errors of its figures, by refinement runs of its scene."""
     if not result.completed:
         return _with_errors_of(result, ())
@@ -117,7 +127,7 @@ def with_errors(result: Result, *, start: State | None = None, beside: bool = Tr
         runs = ((r, run_once(scene, start=start)) for r, scene in plan(result.scene).items())
         return _with_errors_of(result, runs)
     with RefinementRuns(result.scene, start) as refinements:
-        return _with_refinements(result, refinements)
+        return _with_refinements(result, refinements, interruptible=interruptible)
 
 
 def _with_refinements(

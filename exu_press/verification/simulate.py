@@ -26,9 +26,9 @@ def simulate(
         errors: whether every quantity gets its error, by refinement runs: runs of the scene at
             other tolerances, which take about as long as the run itself.
         start: `info["state"]` of another run, from whose end this one goes on, for as long as the
-            scene says. Time and crank angle go on, too. Steps begin as the others ended, but what
-            step control remembers is lost: a run in two pieces is within its tolerance of one in
-            one piece, not equal to the last digit.
+            scene says; its geometry has to be that run's. Time and crank angle go on, too. Steps
+            begin as the others ended, but what step control remembers is lost: a run in two pieces
+            is within its tolerance of one in one piece, not equal to the last digit.
         unfinished: directory in which a run of more than ten revolutions leaves what it has while
             it goes on, for `Result.load`, should its process be killed. The result's channels stand
             there, too: remove it when the result has been saved, as one with finished blocks is
@@ -43,8 +43,8 @@ def simulate(
         quantity, `horizon` and `lyapunov_exponent`; a run that stopped early has none.
 
     Raises:
-        InputError: `start` is the state of a run with other bodies, joints or loads, or another run
-            is in `unfinished`, or has left finished blocks there.
+        InputError: `start` is the state of a run with other bodies, joints or loads, or at another
+            constant speed, or another run is in `unfinished`, or has left finished blocks there.
         DiskFullError: there is no room for the channels of a long run.
     """
     directory = None if unfinished is None else Path(unfinished)

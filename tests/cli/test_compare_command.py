@@ -220,9 +220,34 @@ def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
         ([str(curve)], "a measurement alone; allowed are scenes or results beside it"),
         ([str(result)] * 2 + ["--set", "gravity=0"], "--set gravity=0: changes scenes, and none"),
         (["press", "--csv", str(tmp_path / "no" / "a.csv")], "no; make it first"),
+        (["press", str(curve), "--csv", str(curve)], "measured.csv: is one of the files to"),
+        (["press", "--csv", str(result / "run.nc")], "run.nc: allowed is a name that ends in .csv"),
         (["press", "drag_link_shop"], "press is read from 0 to 2, drag_link_shop is read from 2"),
     ):
         assert main(["compare", *arguments, "--out", str(out)]) == 2
         error = capsys.readouterr().err
         assert message in error and error.count("\n") == 1
         assert not out.exists()
+
+
+def test_no_run_is_replaced_but_that_of_an_earlier_comparison(mine, tmp_path, capsys):
+    """Neither one that is compared nor one that has a label's name by chance."""
+    first, other = tmp_path / "a" / "sc", tmp_path / "b" / "sc"
+    for out in (first, other):
+        assert main(["run", str(mine), *QUICK, "--quiet", "--out", str(out)]) == 0
+    command = ["compare", str(first), str(other), *QUICK[2:3], "--quiet", "--out"]
+    compared = tmp_path / "both"
+    assert main([*command, str(compared)]) == main([*command, str(compared)]) == 0
+    assert main(["run", str(mine), *QUICK, "--quiet", "--out", str(compared / "sc_2")]) == 0
+    again = [str(compared / "sc"), str(mine)]
+    capsys.readouterr()
+    for arguments, kept, reason in (
+        ([*command, str(tmp_path / "b")], other, "it is one of the runs to compare"),
+        ([*command, str(compared)], compared / "sc_2", "no comparison wrote it"),
+        (["compare", *again, "--out", str(compared)], compared / "sc", "it is one of the runs"),
+    ):
+        was = (kept / "run.nc").read_bytes()
+        assert main(arguments) == 2
+        error = capsys.readouterr().err
+        assert f"{kept / 'run.nc'}: would be replaced, and {reason}" in error
+        assert error.count("\n") == 1 and (kept / "run.nc").read_bytes() == was

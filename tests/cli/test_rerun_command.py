@@ -1,8 +1,11 @@
 """exu-press rerun: the same figures from the same inputs, and what it refuses."""
 
+import signal
+
 import pytest
 
 from exu_press.cli import main
+from exu_press.model import Model
 from exu_press.result import Result
 from exu_press.verification.agreement import agreement
 from exu_press.verification.simulate import simulate
@@ -36,6 +39,18 @@ def test_the_same_inputs_give_the_same_digits_with_errors_and_from_another_run(c
     assert "identical in all digits" in capsys.readouterr().out
     first, again = Result.load("p/run.nc"), Result.load("again.nc")
     assert (first["slider_position"] == again["slider_position"]).all()
+
+
+@pytest.mark.parametrize("errors", [[], ["--no-error"]])
+def test_ctrl_c_keeps_nothing_and_says_no_more_than_that(errors, folder, monkeypatch, capsys):
+    assert main([*RUN, *errors]) == 0
+    watch = Model.watch
+    pressed = lambda *step: signal.raise_signal(signal.SIGINT) or watch(*step)  # noqa: E731
+    monkeypatch.setattr(Model, "watch", pressed)
+    assert main(["rerun", "o", "--out", "again.nc"]) == 130
+    said = capsys.readouterr()
+    assert said.err.endswith("exu-press: interrupted\n") and not said.out
+    assert not (folder / "again.nc").exists()
 
 
 def test_a_changed_input_is_refused_unless_it_is_allowed(folder, capsys):

@@ -94,22 +94,26 @@ def test_finished_blocks_are_neither_deleted_nor_hidden(killed, capsys):
     assert not (killed / "run.nc").exists()
 
 
-@pytest.mark.parametrize("start", ["o", "o/run.nc", "o/run.nc.unfinished"])
-def test_a_run_goes_on_in_its_own_directory(killed, start):
+@pytest.mark.parametrize(
+    ("start", "revolutions"), [("o", 0.11), ("o/run.nc", 0.11), ("o/run.nc.unfinished", 0.05)]
+)
+def test_a_run_goes_on_in_its_own_directory(killed, start, revolutions):
     """With a result of an earlier run beside it the directory means what is newer."""
     if start == "o":
         assert main([*RUN[:-1], "p", "--set", "revolutions=0.02"]) == 0
         shutil.copy("p/run.nc", killed / "run.nc")
     left = blocks_in(killed / "run.nc.unfinished")
     with pytest.warns(UserWarning, match=r"has 0\.14 revolutions"):
-        assert main([*RUN, "--from", start, "--set", "revolutions=0.11"]) == 0
+        assert main([*RUN, "--from", start, "--overwrite"]) == 2  # which would delete its start
+        assert main([*RUN, "--from", start, "--set", f"revolutions={revolutions}"]) == 0
     assert blocks_in(killed / "run.nc.unfinished.1") == left
     gone_on = Result.load(killed / "run.nc")
     assert gone_on.time[0] == pytest.approx(0.14 / 0.25 * SCENE.duration)
-    assert gone_on.time[-1] == pytest.approx(SCENE.duration)
+    assert gone_on.time[-1] == pytest.approx((0.14 + revolutions) / 0.25 * SCENE.duration)
     assert not checkpoint_directory(killed / "run.nc").exists()
     with pytest.warns(UserWarning, match=r"has 0\.14 revolutions"):
         assert Result.load(killed / "run.nc.unfinished.1").completed
+    assert gone_on.info["provenance"]["start"] == "o/run.nc.unfinished.1"
 
 
 def test_a_run_from_elsewhere_does_not_take_the_place_of_blocks(killed, folder, capsys):

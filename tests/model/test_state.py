@@ -8,8 +8,10 @@ import pytest
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
+from exu_press.studies.bifurcation.run import rescale_state
 
 PIN = {"clearance": 1e-4, "radius": 0.03}
+MOTOR = {"rated_torque": 200.0, "inertia": 2.0}
 DRY = Scene(
     mechanism="slider_crank",
     joints={"crank_pin": {"kind": "dry", **PIN}},
@@ -28,7 +30,7 @@ SCENES = {
     "film": FILM,
     "pulse by a motor": DRY.replace(
         {
-            "drive": {"rated_torque": 200.0, "inertia": 2.0},
+            "drive": MOTOR,
             "load": {"blanking": {"kind": "blanking", "force": 1e3, "end_angle_deg": 20.0}},
         }
     ),
@@ -63,15 +65,17 @@ def test_two_pieces_are_one_run(name):
 
 
 def test_loads_and_samples_are_where_the_crank_is():
-    """At another speed, and whatever the start angle, which moves no state."""
+    """At another speed, with the state's scaled, and whatever the start angle, which moves none."""
     force = {"kind": "table", "crank_angle_deg": [90, 135, 180], "force": [0, 1e3, 0]}
     scene = FILM.replace({"revolutions": 0.25, "load": {"forming": force}})
-    state = simulate(scene).info["state"]
+    state = rescale_state(simulate(scene).info["state"], 240.0, 120.0)
     changes = {"speed_rpm": 120.0, "start_angle_deg": 45.0, "output": {"samples": [100.0]}}
     run = simulate(scene.replace(changes), start=state)
     peak = run["crank_angle"][run["load_forming_force"].argmax()]
     assert np.degrees(peak) == pytest.approx(135.0)
     assert np.degrees(run.samples.at_angle(100.0)["crank_angle"]) == pytest.approx(100.0)
+    stopped = simulate(scene.replace({**changes, "solver.max_steps": 20}), start=state)
+    assert f"crank angle {np.degrees(stopped['crank_angle'][-1]):.2f} deg" in stopped.info["reason"]
 
 
 def test_a_bearing_too_small_for_its_journal_is_refused():
@@ -81,10 +85,22 @@ def test_a_bearing_too_small_for_its_journal_is_refused():
         simulate(small, start=state)
 
 
-def test_a_state_of_another_model_is_refused():
-    state = first_piece("film").info["state"]
-    with pytest.raises(InputError, match="allowed is a run of the same bodies, joints and loads"):
-        simulate(Scene(revolutions=0.1), start=state)
+@pytest.mark.parametrize(
+    ("name", "changes", "message"),
+    [
+        ("film", {"speed_rpm": 120.0}, "speed_rpm = 120: the crank of the state turns at 240 rpm"),
+        ("film", {"film.at_contact": "mixed"}, r"clearance joint 0: .* remember \[0, 5\] numbers"),
+        ("restitution", FILM, r"remember \[0\] numbers, those of the state \[5\]"),
+        ("film", SCENES["restitution"], r"remember \[5\] numbers, those of the state \[0\]"),
+        ("film", {"joints.crank_pin": "ideal"}, "1 joints with clearance, the scene 0"),
+        ("film", {"drive": MOTOR}, "has 3 constraint forces, the scene 2: allowed is a run of the"),
+    ],
+)
+def test_a_state_of_another_model_is_refused(name, changes, message):
+    state = first_piece(name).info["state"]
+    scene = changes if isinstance(changes, Scene) else SCENES[name].replace(changes)
+    with pytest.raises(InputError, match=message):
+        simulate(scene, start=state)
 
 
 def test_the_command(tmp_path, capsys):
@@ -96,19 +112,26 @@ def test_the_command(tmp_path, capsys):
     assert main([*command, str(tmp_path / "two"), "--from", str(tmp_path / "one")]) == 0
     second = Result.load(tmp_path / "two" / "run.nc")
     assert second.time[0] == Result.load(first).time[-1]
-    assert main([*command, str(tmp_path / "two"), "--from", first, "--within", "1%"]) == 2
-    assert "--from: not together with --within" in capsys.readouterr().err
     assert main([*command, str(tmp_path / "three"), "--from", str(tmp_path / "no.nc")]) == 2
     for change, message in (
         ("start_angle_deg=90", "start_angle_deg = 90.0 does nothing"),
         ("start=centred", "start = 'centred' does nothing"),
         ("joints.crank_pin=ideal", "joints.crank_pin.kind = 'ideal'; allowed is 'lubricated'"),
+        ("joints.crank_pin=dry", "joints.crank_pin.kind = 'dry'; allowed is 'lubricated'"),
+        ("film.at_contact=mixed", "joints.crank_pin.film.at_contact = 'mixed'; allowed is 'stop'"),
+        ("speed_rpm=120", "speed_rpm = 120.0; allowed is 240.0, as in that run"),
+        ("slider_crank.rod_length=0.384", "joints.wrist_pin.at of the mechanism = (0.0, -0.354"),
+        ("bodies.rod=linkage", "bodies = ['rod']; allowed is []"),
         ("mechanism=press", "mechanism = 'press'; allowed is 'slider_crank', as in that run"),
     ):
         went_on = [*command, str(tmp_path / "three"), "--from", first, "--set", change]
         assert main(went_on) == 2
         assert message in capsys.readouterr().err
     assert not (tmp_path / "three").exists()
+    was = (tmp_path / "one" / "run.nc").read_bytes()
+    assert main([*command, str(tmp_path / "one"), "--from", first, "--overwrite"]) == 2
+    assert "would delete the one that it goes on from" in capsys.readouterr().err
+    assert (tmp_path / "one" / "run.nc").read_bytes() == was
 
 
 @pytest.mark.long

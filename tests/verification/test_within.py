@@ -55,9 +55,19 @@ def test_what_cannot_be_asked(tmp_path, capsys):
     fixed = Scene(mechanism="slider_crank", revolutions=0.01, solver={"step": 1e-5})
     with pytest.raises(InputError, match="fixed steps"):
         find_tolerance(fixed, 0.01)
-    arguments = ["run", "slider_crank", "--figure", NAME, "--out", str(tmp_path)]
-    assert main(arguments) == 2
-    assert "only together with --within" in capsys.readouterr().err
+    for arguments, message in (
+        (["--figure", NAME], "only together with --within"),
+        (["--within", "1%", "--once"], "--once: not together with --within"),
+        (["--within", "1%", "--no-error"], "--no-error: not together with --within"),
+        (["--within", "1%", "--from", "run.nc"], "--from: not together with --within"),
+    ):
+        assert main(["run", "slider_crank", *arguments, "--out", str(tmp_path / "out")]) == 2
+        assert message in capsys.readouterr().err
+    for share in ("1%%", "nan", "100%"):
+        with pytest.raises(SystemExit, match="2"):
+            main(["run", "slider_crank", "--within", share])
+        assert f"'{share}': allowed is 0.001% or more" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_figure_that_is_not_there_is_refused_before_the_runs(monkeypatch):

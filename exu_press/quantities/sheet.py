@@ -58,7 +58,7 @@ def _pull(run: Reading) -> Array:
     """
     mechanism = run.mechanism
     output, direction = mechanism.body(mechanism.slider), np.array(mechanism.output.direction)
-    pull = -output.mass * (_ideal(run)[2] + run.result.scene.gravity * direction[1])
+    pull = -output.mass * (run.once(_ideal)[2] + run.result.scene.gravity * direction[1])
     for joint in mechanism.joints_of(output.name):
         on_output = 1.0 if joint.journal == output.name else -1.0
         pull += on_output * run[f"{joint.name}_force"][:, :2] @ direction
@@ -122,13 +122,13 @@ def _downward_acceleration(run: Reading, load: str, pressed: Array, released: Ar
 
 
 def _stack_up(run: Reading, load: str, pressed: Array, released: Array) -> float:
-    above = run["slider_position"] - _ideal(run)[0]
+    above = run["slider_position"] - run.once(_ideal)[0]
     highest = above[pressed].max() if pressed.size else above[released[0]]
     return float(highest - above[released].min())
 
 
 def _released_energy(run: Reading, load: str, pressed: Array, released: Array) -> float:
-    rising = run["slider_velocity"] - _ideal(run)[1]
+    rising = run["slider_velocity"] - run.once(_ideal)[1]
     return released_work(run.time[released], run.once(_pull)[released], rising[released])
 
 

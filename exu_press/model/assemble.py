@@ -41,7 +41,7 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
     scene.require_code()
     parts: Mapping[str, PlacedPart] = {}
     if scene.bodies:
-        from exu_press.model.placed_part import placed_parts
+        from exu_press.model.placement import placed_parts
 
         parts = placed_parts(scene, quiet=quiet)
     start: dict[str, Motion] = {}

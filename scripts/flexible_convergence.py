@@ -14,7 +14,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from exu_press import Scene, simulate
-from exu_press.model.placed_part import IN_THE_PLANE, placed_parts
+from exu_press.model.placement import placed_parts
+from exu_press.model.solids import IN_THE_PLANE
 from exu_press.plots.file import save_figure
 from exu_press.plots.palette import COLOURS
 from exu_press.plots.style import look

@@ -82,7 +82,7 @@ def test_the_ideal_guide_rubs_with_its_force(of_ideal_pins):
 def test_the_rod_of_its_step_file_fits(tmp_path):
     """As the scene has it in comments: the pins lie in the bores, the mass is the rod's."""
     pytest.importorskip("ngsolve")
-    from exu_press.model.placed_part import placed_parts
+    from exu_press.model.placement import placed_parts
 
     lines = SCENE.read_text().replace('"six_bar_rod.step"', f'"{SCENE.parent}/six_bar_rod.step"')
     start = lines.index("# [bodies.rod]")

@@ -60,6 +60,7 @@ NOT_OF_AN_IDEAL_RUN = (
     "worn",
     "flexible",
     "placed_part",
+    "placement",
     "studies",
 )
 

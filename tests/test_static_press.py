@@ -9,7 +9,7 @@ from independent.solid import displaced
 from exu_press import Scene
 from exu_press.mechanism.parts import DRIVE
 from exu_press.model import build
-from exu_press.model.placed_part import placed_parts
+from exu_press.model.placement import placed_parts
 from exu_press.model.start import quasi_static_motion
 from exu_press.result.flexible import deflection
 from exu_press.scene import flexible_press

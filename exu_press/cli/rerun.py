@@ -89,9 +89,14 @@ def _changes(provenance: Provenance, scene: Scene, options: argparse.Namespace) 
 
 
 def _scene_in(run: Result) -> Scene:
-    if not run.scene.has_unresolved_kinds:
-        return run.scene
-    return Scene.from_dict(run.scene.to_dict(), run.scene.asked)  # refuses what is not loaded
+    """Return a run's scene without the revolutions that were added until its oil had settled."""
+    scene, added = run.scene, run.info.get("added_revolutions", 0)
+    if scene.has_unresolved_kinds:
+        scene = Scene.from_dict(scene.to_dict(), scene.asked)  # refuses what is not loaded
+    if added:
+        asked = {"revolutions": scene.revolutions, "settle": scene.settle_revolutions}
+        scene = scene.replace({name: round(value - added, 12) for name, value in asked.items()})
+    return scene
 
 
 def _scene_of(run: Result, provenance: Provenance, options: argparse.Namespace) -> Scene:

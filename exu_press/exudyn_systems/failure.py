@@ -16,6 +16,7 @@ __all__ = ["agreed_until", "why_not_converged"]
 SMALL = 1e-4  # relative difference from which on growth is judged
 APART = 0.1  # relative difference from which on motions are as far apart as they get
 LEVELS = "three levels whose order is plausible"
+A_DAY = 86400.0  # s; a budget that takes longer is no cure
 GROWN = 1e3  # growth of differences in a run from which on the motion amplifies them
 
 
@@ -98,7 +99,13 @@ def _small_budget(refinement: Refinement, need: str, steps: int) -> str:
     """Return that the budget was too small for a need, which a level of these steps meets."""
     by_steps, by_time = refinement.budget_left()
     used = sum(steps for steps, _ in refinement.cost)
-    enough = f"max_steps = {used + 4 * steps}"
-    if by_time < by_steps:
-        enough = f"max_time = {refinement.runs.elapsed_time() * (1.0 + 4 * steps / used):.3g}"
-    return f"the budget was too small for {need}; {enough} would do"
+    seconds = refinement.runs.elapsed_time() * (1.0 + 4 * steps / used)
+    enough = f"max_steps = {used + 4 * steps} would do"
+    if seconds > A_DAY:
+        enough = (
+            f"one that would do takes about {seconds / A_DAY:.2g} days; try a larger tolerance, or "
+            "an earlier end time"
+        )
+    elif by_time < by_steps:
+        enough = f"max_time = {seconds:.3g} would do"
+    return f"the budget was too small for {need}; {enough}"

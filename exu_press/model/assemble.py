@@ -19,6 +19,7 @@ from exu_press.model.system import System
 from exu_press.scene import IdealJoint, Scene
 from exu_press.scene.holding_torque import holding_torque
 from exu_press.schema.table import plain
+from exu_press.terminal.interrupt import unmasked_interrupt
 
 if TYPE_CHECKING:
     from exu_press.model.flexible_body import FrameStart
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["build"]
 
 
+@unmasked_interrupt()
 def build(scene: Scene, *, quiet: bool = True) -> Model:
     """Return the assembled Exudyn model of a scene, in the ideal mechanism's start.
 
@@ -39,7 +41,7 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
     scene.require_code()
     parts: Mapping[str, PlacedPart] = {}
     if scene.bodies:
-        from exu_press.model.placed_part import placed_parts
+        from exu_press.model.placement import placed_parts
 
         parts = placed_parts(scene, quiet=quiet)
     start: dict[str, Motion] = {}

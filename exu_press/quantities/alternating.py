@@ -77,7 +77,7 @@ def _columns(values: Array) -> Array:
 
 def _magnitudes(block: Array) -> Array:
     """Return the largest magnitude of each row."""
-    return np.asarray(np.maximum(block.max(axis=1), -block.min(axis=1)))
+    return np.asarray(np.maximum(np.abs(block.max(axis=1)), np.abs(block.min(axis=1))))
 
 
 def _blocks(time: Array, values: Array) -> Iterator[Array]:

@@ -7,6 +7,7 @@ import numpy as np
 
 from exu_press.numerics.arrays import Array
 from exu_press.quantities.acceleration import peak
+from exu_press.quantities.alternating import remove_alternation
 from exu_press.quantities.kind import DIFFERENCE, ENERGY, LOAD
 from exu_press.quantities.quantity import Extreme, Owner, Quantity
 from exu_press.quantities.reading import Reading
@@ -53,14 +54,15 @@ def _pull(run: Reading) -> Array:
     """Return the force of the output's joints that lifts it, (n,), N, beyond weight and inertia.
 
     Its inertia is that of the ideal motion. Loads, springs and friction of guides act beside them.
+    The force is without the oscillation from step to step that ideal joints leave in it.
     """
     mechanism = run.mechanism
     output, direction = mechanism.body(mechanism.slider), np.array(mechanism.output.direction)
-    pull = -output.mass * (_ideal(run)[2] + run.result.scene.gravity * direction[1])
+    pull = -output.mass * (run.once(_ideal)[2] + run.result.scene.gravity * direction[1])
     for joint in mechanism.joints_of(output.name):
         on_output = 1.0 if joint.journal == output.name else -1.0
         pull += on_output * run[f"{joint.name}_force"][:, :2] @ direction
-    return np.asarray(pull)
+    return remove_alternation(run.time, np.asarray(pull))
 
 
 def _ideal(run: Reading) -> tuple[Array, Array, Array]:
@@ -98,7 +100,7 @@ def _largest(
 
 
 def _reverse_force(run: Reading, load: str, pressed: Array, released: Array) -> float:
-    return max(0.0, float(_pull(run)[released].max()))
+    return max(0.0, float(run.once(_pull)[released].max()))
 
 
 def _if_determined(
@@ -120,14 +122,14 @@ def _downward_acceleration(run: Reading, load: str, pressed: Array, released: Ar
 
 
 def _stack_up(run: Reading, load: str, pressed: Array, released: Array) -> float:
-    above = run["slider_position"] - _ideal(run)[0]
+    above = run["slider_position"] - run.once(_ideal)[0]
     highest = above[pressed].max() if pressed.size else above[released[0]]
     return float(highest - above[released].min())
 
 
 def _released_energy(run: Reading, load: str, pressed: Array, released: Array) -> float:
-    rising = run["slider_velocity"] - _ideal(run)[1]
-    return released_work(run.time[released], _pull(run)[released], rising[released])
+    rising = run["slider_velocity"] - run.once(_ideal)[1]
+    return released_work(run.time[released], run.once(_pull)[released], rising[released])
 
 
 SHEETS = (

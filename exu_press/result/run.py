@@ -14,7 +14,7 @@ from exu_press.scene import Scene
 from exu_press.scene.provenance import provenance_of
 from exu_press.scene.scene import SHORTEST_RUN
 
-__all__ = ["run_once"]
+__all__ = ["check_channels", "run_once"]
 
 SHORT = 1e-5
 """Revolutions of a run that shows which channels a scene has."""
@@ -33,8 +33,6 @@ def run_once(
 ) -> Result:
     """Simulate a scene as `exu_press.simulate` does without errors.
 
-    Channels that [output] names are checked in a shorter run first: only a record has all names.
-
     Args:
         scene: to be simulated.
         start: state of another run, from which this one goes on.
@@ -44,11 +42,7 @@ def run_once(
             have settled; as many more then go before those that quantities are read from.
     """
     started = time.perf_counter()
-    if scene.output is not None and not isinstance(scene.output.channels, str):
-        turned = max(SHORT, 2.0 * SHORTEST_RUN * scene.speed_rpm / 60.0)
-        short = run_once(scene.replace({"output": None, "revolutions": turned, "settle": 0.0}))
-        with error_prefix(scene.origin):
-            scene.output.kept_channels(short.channels)
+    check_channels(scene)
     model = build(scene, quiet=quiet)
     provenance = provenance_of(scene)
     if start is not None:
@@ -64,3 +58,16 @@ def run_once(
         model.SC.Reset()  # its systems and their solvers hold each other: never freed otherwise
     total = time.perf_counter() - started
     return replace(result, info={**result.info, "total_time": total, "provenance": provenance})
+
+
+def check_channels(scene: Scene) -> None:
+    """Raise InputError where [output] names a channel that runs of the scene do not have.
+
+    A short run tells: only a record has all names.
+    """
+    if scene.output is None or isinstance(scene.output.channels, str):
+        return
+    turned = max(SHORT, 2.0 * SHORTEST_RUN * scene.speed_rpm / 60.0)
+    short = run_once(scene.replace({"output": None, "revolutions": turned, "settle": 0.0}))
+    with error_prefix(scene.origin):
+        scene.output.kept_channels(short.channels)

@@ -27,7 +27,7 @@ class SupplyGroove(Table):
     """A groove, in the middle of the bearing's length."""
 
     table: ClassVar[str] = "film.grooves"
-    required: ClassVar[tuple[str, ...]] = ("width_deg",)
+    needed: ClassVar[tuple[str, ...]] = ("width_deg",)
 
     angle_deg: float = key(
         0.0,

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast, overload
 
@@ -574,7 +575,7 @@ class Scene(Table):
             if guide.contact is not None:
                 yield "contact.damping", guide.contact.damping
 
-    @property
+    @cached_property
     def applied_loads(self) -> "dict[str, AppliedLoad]":
         """The loads on their mechanism that are not zero throughout, by name."""
         loads = {
@@ -585,6 +586,10 @@ class Scene(Table):
         }
         # the peak of a load of a result may be unknown
         return {name: load for name, load in loads.items() if not load.curve.peak <= 0.0}
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what other processes get: no applied loads, whose curves may be a user's own."""
+        return {name: value for name, value in vars(self).items() if name != "applied_loads"}
 
     @property
     def shipped_name(self) -> str:

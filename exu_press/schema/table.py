@@ -373,7 +373,7 @@ def declared_keys(kind: type[Table]) -> Mapping[str, Field]:
 def missing_keys(
     path: str, table: Table, keys: Collection[str], law: str, where: str
 ) -> list[Need]:
-    """Return what a place needs of those of some keys that a table does not have.
+    """Return what a place needs of those of some keys that a table, or lists in it, do not have.
 
     Args:
         path: dotted name of what needs them.
@@ -382,11 +382,19 @@ def missing_keys(
         law: name of the table in the message, if it has one.
         where: they may be given; {path} stands for the name.
     """
-    needed = {*keys, *_needed_keys(table)}
-    missing = {
-        name: field for name, value, field in key_values(table) if value is None and name in needed
-    }
+    missing = _missing_keys(table, keys)
     return [(path, need_text(missing, law, where))] if missing else []
+
+
+def _missing_keys(table: Table, keys: Collection[str]) -> dict[str, Field]:
+    needed, missing = {*keys, *_needed_keys(table)}, dict[str, Field]()
+    for name, value, field in key_values(table):
+        if value is None and name in needed:
+            missing[name] = field
+        for number, entry in enumerate(value if value and "list_of" in field.metadata else ()):
+            inner = _missing_keys(entry, ())
+            missing |= {f"{name}.{number}.{key}": inner[key] for key in inner}
+    return missing
 
 
 def need_text(missing: Mapping[str, Field], law: str, where: str) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 
-__all__ = ["handled_interrupt", "postponed_interrupt"]
+__all__ = ["handled_interrupt", "postponed_interrupt", "unmasked_interrupt"]
 
 
 @contextmanager
@@ -33,5 +33,28 @@ def postponed_interrupt() -> Iterator[None]:
     interrupts: list[None] = []
     with handled_interrupt(partial(interrupts.append, None)):
         yield
+    if interrupts:
+        raise KeyboardInterrupt
+
+
+@contextmanager
+def unmasked_interrupt() -> Iterator[None]:
+    """Let Ctrl-C in the block be KeyboardInterrupt, whatever error compiled code makes of it.
+
+    Raises:
+        KeyboardInterrupt: at once, or in place of that error.
+    """
+    interrupts: list[None] = []
+
+    def interrupt() -> None:
+        interrupts.append(None)
+        raise KeyboardInterrupt
+
+    with handled_interrupt(interrupt):
+        try:
+            yield
+        except Exception:
+            if not interrupts:
+                raise
     if interrupts:
         raise KeyboardInterrupt

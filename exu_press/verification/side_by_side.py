@@ -13,7 +13,7 @@ from functools import partial
 from itertools import zip_longest
 
 from exu_press.files.command import command_line, executing
-from exu_press.model.placed_part import placed_parts
+from exu_press.model.placement import placed_parts
 from exu_press.result import Result
 from exu_press.result.run import run_once
 from exu_press.scene import Scene

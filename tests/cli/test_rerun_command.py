@@ -53,6 +53,19 @@ def test_ctrl_c_keeps_nothing_and_says_no_more_than_that(errors, folder, monkeyp
     assert not (folder / "again.nc").exists()
 
 
+def test_a_run_with_a_motor_is_repeated_with_the_revolutions_that_its_oil_adds(folder, capsys):
+    oil = "viscosity_cst = [68.0, 8.7], density = 870.0, supply_celsius = 40.0, conductance = 5.0"
+    motor = "rated_torque = 1e3, slip = 0.05, no_load_speed_rpm = 250.0, inertia = 1.0"
+    (folder / "scene.toml").write_text(
+        'mechanism = "slider_crank"\nrevolutions = 3.3\nsettle = 1.1\nsolver.tolerance = 0.1\n'
+        f'joints.crank_pin = "lubricated"\nfilm.oil = {{{oil}}}\ndrive = {{{motor}}}\n'
+    )
+    assert main([*RUN, "--no-error"]) == 0
+    assert Result.load("o/run.nc").info["added_revolutions"] == 1
+    assert main(["rerun", "o"]) == 0
+    assert "figures are identical in all digits" in capsys.readouterr().out
+
+
 def test_a_changed_input_is_refused_unless_it_is_allowed(folder, capsys):
     assert main([*RUN, "--no-error"]) == 0
     (folder / "scene.toml").write_text(SCENE.replace("0.05", "0.04"))

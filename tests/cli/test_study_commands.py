@@ -12,6 +12,7 @@ import pytest
 from exu_press import Scene
 from exu_press.cli import main
 from exu_press.parallel import cluster
+from exu_press.studies.precision import timing
 
 CRANK = """
 [scene]
@@ -187,6 +188,10 @@ WRITTEN = {
         ("attractor", ["--set", "joints.crank_pin=ideal"], "joints: none has clearance"),
         ("attractor", ["--format", ".bmp"], "--format .bmp: allowed are png"),
         ("stability", ["--key", "nothing"], "--key nothing: allowed are"),
+        ("stability", ["--set", 'output.channels=["nothing"]'],
+         "output.channels: 'nothing' is no channel of this scene"),
+        ("precision", ["--set", 'output.channels=["nothing"]'],
+         "output.channels: 'nothing' is no channel of this scene"),
         ("sweep", ["--workers", "0"], "workers = 0"),
         ("sweep", ["--over", "film.length"], "--over film.length: allowed are speed_rpm"),
         ("sweep", ["--dask", "nonsense"], "dask = nonsense"),
@@ -200,6 +205,7 @@ def test_wrong_arguments(name, arguments, said, given, tmp_path, capsys, monkeyp
     if said.endswith("answers"):
         pytest.importorskip("distributed")
     monkeypatch.setattr(cluster, "SECONDS_TO_ANSWER", 0.5)
+    monkeypatch.setattr(timing, "build", None)  # the runs of `precision`
     assert main(given(name, None, *arguments)) == 2
     error = capsys.readouterr().err
     assert said in error and error.count("\n") == 1

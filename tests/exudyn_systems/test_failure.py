@@ -91,6 +91,13 @@ def test_periods_that_no_level_resolves_are_told():
     assert 1e4 < needed < 3e4  # ten steps in a period of 2 pi / 1e4 s
 
 
+def test_a_budget_that_takes_days_is_no_cure():
+    outcome = refused_result(oscillator(stiffness=1e18)[0], settings(1.0, 16), max_steps=1000)
+    assert "max_steps" not in outcome.reason
+    days = float(re.search(r"would do takes about (\S+) days; try a larger", outcome.reason)[1])
+    assert days > 1.0
+
+
 def slow_oscillator():
     """An oscillator whose spring takes a millisecond to say its force."""
 

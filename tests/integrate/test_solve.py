@@ -189,8 +189,8 @@ CTRL_C = """
 import os, signal, sys, threading, time
 
 def press_ctrl_c():
-    while signal.getsignal(signal.SIGINT) in (signal.default_int_handler, signal.SIG_DFL):
-        time.sleep(0.01)  # until the run listens
+    while not os.path.exists(sys.argv[1] + "/run.nc.unfinished"):
+        time.sleep(0.01)  # until the model is built
     time.sleep(0.3)
     os.kill(os.getpid(), signal.SIGINT)
 

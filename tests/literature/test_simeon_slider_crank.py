@@ -128,7 +128,7 @@ def his_start(beam):
 
 def run(scene, rod, start=None):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("exu_press.model.placed_part.placed_parts", lambda *_, **__: {"rod": rod})
+        patch.setattr("exu_press.model.placement.placed_parts", lambda *_, **__: {"rod": rod})
         if start is not None:
             patch.setattr("exu_press.model.start.deformed_start", lambda *_: start)
         return simulate(scene)

@@ -6,7 +6,7 @@ import pytest
 from exu_press import InputError, Scene, simulate
 from exu_press.joints.history import history
 from exu_press.model import build
-from exu_press.model.placed_part import placed_parts
+from exu_press.model.placement import placed_parts
 from exu_press.model.system import System
 from exu_press.result.flexible import guided_motion
 from exu_press.result.record import record

@@ -16,7 +16,7 @@ from exu_press.mechanism import (
     shipped_mechanism,
 )
 from exu_press.model import build
-from exu_press.model.placed_part import placed_parts
+from exu_press.model.placement import placed_parts
 from exu_press.result.channel import guide_channel
 from exu_press.result.motion import sensor
 from exu_press.result.record import record

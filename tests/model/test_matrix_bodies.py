@@ -8,7 +8,7 @@ from exudyn.FEM import FEMinterface
 
 import exu_press
 from exu_press import InputError, Scene, simulate
-from exu_press.model.placed_part import placed_parts
+from exu_press.model.placement import placed_parts
 from exu_press.scene.provenance import files_in
 from fe_models import CRANK_STEEL, Axis, Interface, Part, StepFile, write_matrices
 from fe_models.geometry import OpenedStepFile

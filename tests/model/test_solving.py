@@ -1,9 +1,13 @@
 """What a run that stops advises is what helps; what is hard to pass is passed."""
 
+import signal
+
 import pytest
+from exudyn.itemInterface import SensorNode
 
 from exu_press import Scene, simulate
 from exu_press.mechanism import GROUND, Body, Joint, Mechanism, Output
+from exu_press.model import build
 
 
 def test_fixed_steps_that_fail_in_a_singular_position_are_advised_to_follow_a_tolerance():
@@ -107,3 +111,15 @@ def test_one_dry_pin_carries_parallel_cranks_over(tolerance):
     assert run.completed
     peak = run.quantity("peak_acceleration.resolved").value
     assert peak == pytest.approx(78.957, rel=1e-3)
+
+
+def test_ctrl_c_while_a_model_is_built_is_no_error_of_exudyn(monkeypatch):
+    """Exudyn makes an error of its own of what the Python code of its items raises."""
+
+    def interrupt(item):
+        signal.raise_signal(signal.SIGINT)
+        yield from ()
+
+    monkeypatch.setattr(SensorNode, "__iter__", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        build(Scene(mechanism="slider_crank", joints={}))

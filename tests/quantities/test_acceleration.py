@@ -127,6 +127,10 @@ def test_a_peak_of_one_sample_stays(run):
     assert np.array_equal(remove_alternation(run.time, force), force)
 
 
+def test_the_peak_of_no_load_has_no_sign():
+    assert str(peaks(TIME, np.zeros_like(TIME)).columns[0]) == "0.0"
+
+
 @pytest.mark.parametrize("at_once", [7, 50, 10_000])
 def test_the_largest_is_that_of_the_steady_load(run, monkeypatch, at_once):
     """The last parts of a record are those of the whole."""

@@ -5,7 +5,7 @@ import pytest
 from coarse_parts import COARSE
 
 from exu_press import Result, Scene, simulate
-from exu_press.model.placed_part import placed_parts
+from exu_press.model.placement import placed_parts
 from exu_press.result.stress import _worst
 
 pytest.importorskip("ngsolve")

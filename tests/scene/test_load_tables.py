@@ -1,6 +1,7 @@
 """[load.NAME]: what a scene allows and fills in, tables as CSV, where loads act, refusals."""
 
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -46,6 +47,14 @@ def test_keys_on_the_command_line_and_in_sweeps():
     assert table.load["a"] == TableLoad(time=(0.0, 1.0), force=(0.0, 1.0), offset=(0.1, 0.0))
     assert not table.replace({"load": {}}).load
     assert changed.replace({"mechanism": "slider_crank"}).load == changed.load
+
+
+def test_applied_loads_are_computed_once_for_a_scene_and_not_copied():
+    scene = Scene(load={"a": PULSE})
+    assert scene.applied_loads is scene.applied_loads
+    assert scene.replace({"load.a.force": 3.0}).applied_loads["a"].curve.peak == 3.0
+    again = pickle.loads(pickle.dumps(scene))
+    assert again == scene and "applied_loads" not in vars(again)
 
 
 @pytest.mark.parametrize(

@@ -43,6 +43,8 @@ press.link_7_length = 0.005 -> press.link_7_length .. deg
 crank_pin = 'dry' -> crank_pin = 'dry': is joints.crank_pin now
 = mechanism = 'four_bar'
 joints.crankpin = 'dry' -> joints.crankpin = 'dry': four_bar has no such joint .. mean 'crank_pin'
+joints.crank_pin = 'lubricated'; film = {law = 'grooved', grooves = [{}]} -> clearance (radial \
+.. radius .. film.grooves.0.width_deg (around the bearing .. film.viscosity .. film.length
 = mechanism = 'scotch_yoke'
 joints.yoke_slot = 'dry' -> yoke_slot is a guide or slot of scotch_yoke; allowed is [guide.
 = mechanism = 'slider_crank'
@@ -162,10 +164,8 @@ film.oil = {viscosity_cst = [68.0, 8.7]} -> needs film.oil.density .. density = 
 radius = 0.05}; film = {law = 'grooved', length = 0.05, viscosity = 0.05}
 speed_rpm = 10 -> film.grooves: missing; allowed is one .. or film.tilt > 0
 film.grooves = [] -> film.grooves = .. allowed is a list of tables
-film.grooves = [{}] -> film.grooves.0 needs width_deg (around the .. in [[film.grooves]]
-joints.crank_pin.film.grooves = [{}] -> joints.crank_pin.film.grooves.0 needs width_deg (around \
-.. give it in [[joints.crank_pin.film.grooves]]
-film.grooves = [{}, {width_deg = 9}, {}] -> film.grooves.0, film.grooves.2 need width_deg (around
+film.grooves = [{}] -> joints.crank_pin needs film.grooves.0.width_deg (around the .. in [film] or
+film.grooves = [{}, {width_deg = 9}, {}] -> film.grooves.0.width_deg .. film.grooves.2.width_deg
 film.grooves = [{width_deg = 9, angle_deg = 90}, {width_deg = 9, angle_deg = 98}] -> at 90 and 98
 film.grooves = [{width_deg = 359.9999}] -> <= 359, which leaves 1 deg of bearing
 film.grooves = [{width_deg = 10.0, length = 0.051}] -> film.grooves.0.length = 0.051

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from exu_press.result.run import check_channels
 from exu_press.schema.checks import key
 from exu_press.studies.base.command import SceneCommand, SceneStudy
 from exu_press.studies.precision.cases import FULL, QUICK, Case, Extent, case_of
@@ -119,5 +120,6 @@ class PrecisionCommand(SceneCommand):
     @staticmethod
     def run(study: PrecisionStudy, directory: Path, **how: Any) -> PrecisionReport:
         """Measure, and return the report."""
+        check_channels(study.scene)
         case = case_of(study.label, study.scene)
         return precision((case,), quick=study.quick, **how)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from exu_press.errors import InputError
+from exu_press.result.run import check_channels
 from exu_press.studies.base import Runs, arguments_of
 from exu_press.studies.base.command import SceneCommand, SceneStudy, list_of_texts
 from exu_press.studies.stability.cases import Case, extremes
@@ -62,6 +63,7 @@ def stability(study: StabilityStudy, directory: str | Path, **how: Any) -> Stabi
 
     Arguments and errors are those of `exu_press.studies.base.Runs`.
     """
+    check_channels(study.scene)
     cases = study.cases
     with Runs(study, directory, report=StabilityReport, function=judge, **how) as runs:
         rows = runs.rows([{"name": case.name, **arguments_of(case.scene)} for case in cases])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, simulate
-from exu_press.model.placed_part import placed_parts
+from exu_press.model.placement import placed_parts
 from exu_press.scene import mechanism_of
 
 pytest.importorskip("ngsolve")

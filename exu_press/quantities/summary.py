@@ -118,8 +118,8 @@ def run_warnings(run: Reading) -> list[str]:
     if centred := _centred_joints(run):
         texts.append(
             f"{', '.join(centred)}: started centred, not loaded: without an equilibrium position, "
-            "as the load is changing sides or the film hardly turns. First peaks may be those of a "
-            "fall; settle = 1 leaves them out"
+            "as the load is changing sides, the film hardly turns, or ideal joints and guides bear "
+            "a part of the load. First peaks may be those of a fall; settle = 1 leaves them out"
         )
     if scene.drive is not None and scene.drive.stops and still_turns(run):
         speed = float(result["crank_speed"][-1]) * 30.0 / math.pi

@@ -38,14 +38,17 @@ def energy_residual(result: Result) -> float | None:
     """Return the worst that the balance misses over the run, relative to `energy_scale`.
 
     None where there is no balance, or next to no energy that it could be relative to, as in a run
-    of a few degrees in which no surfaces touch.
+    of a few degrees in which no surfaces touch. Relative to the kinetic energy where next to
+    nothing is put in or dissipated, as by a motor that coasts: what is stored changes by the misfit.
     """
     if not has_balance(result):
         return None
-    scale = energy_scale(result)
-    if scale <= LITTLE * kinetic_energy(result.scene):
+    scale, kinetic = energy_scale(result), kinetic_energy(result.scene)
+    if scale <= LITTLE * kinetic:
         return None
     put_in, stored, dissipated = _balance(result).values()
+    if max(np.abs(put_in).max(), np.abs(dissipated).max()) <= LITTLE * kinetic:
+        scale = kinetic
     return float(np.abs(put_in - stored - dissipated).max()) / scale
 
 

@@ -39,7 +39,7 @@ def energy_residual(result: Result) -> float | None:
 
     None where there is no balance, or next to no energy that it could be relative to, as in a run
     of a few degrees in which no surfaces touch. Relative to the kinetic energy where next to
-    nothing is put in or dissipated, as by a motor that coasts: what is stored changes by the misfit.
+    nothing is put in or dissipated, as by a motor that coasts: the misfit is all that is stored.
     """
     if not has_balance(result):
         return None

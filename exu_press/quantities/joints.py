@@ -134,7 +134,7 @@ JOINTS = (
     Quantity("dissipated_per_stroke", "J",
              "energy that the joint dissipates per revolution, over whole revolutions",
              ENERGY, lambda run, joint: run.per_stroke(run[f"{joint}_loss"]), Owner.JOINT,
-             _has_clearance, title="per stroke", is_detail=True, signed=True, law_error=film_error),
+             _has_clearance, title="per revolution", is_detail=True, signed=True, law_error=film_error),
     Quantity("mean_power", "W", "mean power that the joint dissipates, over whole revolutions",
              LOAD, lambda run, joint: run.rate(run[f"{joint}_loss"]), Owner.JOINT, _has_clearance,
              signed=True, law_error=film_error),

@@ -42,6 +42,10 @@ ORIENTATIONS = 10
 LARGEST_RATIO = 0.98
 """Largest eccentricity ratio at which a film may bear its load without squeezing."""
 
+MISFIT = 0.01
+"""Distance over the clearance at which the other joints and guides keep a journal from its place:
+the curvature of a path takes some 1e-3."""
+
 LARGEST_CHANGE = 5.0
 """Largest relative change of a joint's force per radian of the crank: a journal that is changing
 sides has no equilibrium."""
@@ -84,8 +88,8 @@ def loaded_start(system: System) -> dict[str, Motion]:
     """Return the motion of every body at the start, one instant.
 
     Ideal joints and guides are satisfied, and the crank's angle is kept. A joint without an
-    equilibrium position starts centred: one that changes sides, or a film whose journal hardly
-    turns.
+    equilibrium position starts centred: one that changes sides, a film whose journal hardly turns,
+    or one that other joints and guides keep from it.
 
     Args:
         system: with nothing but the frame in it.
@@ -105,7 +109,7 @@ def loaded_start(system: System) -> dict[str, Motion]:
     for i, instant in enumerate(instants):
         e[i] = instant.add_wear(e[i], in_equilibrium)
     e[:, problem.films] = e[middle, problem.films]
-    poses = np.array([instant.positions(e[i].ravel()) for i, instant in enumerate(instants)])
+    poses = _reached_poses(problem, instants, e)
     speed = system.scene.start_speed
     rates = np.zeros_like(poses[middle])
     if speed > 0.0:
@@ -122,12 +126,30 @@ def loaded_start(system: System) -> dict[str, Motion]:
     }
 
 
+def _reached_poses(problem: "_Problem", instants: list["_Instant"], e: Array) -> Array:
+    """Return the coordinates (k, n) with the eccentricities e, (k, m, 2), m, at all instants.
+
+    Journals whose place the other joints and guides do not allow are moved to the centre in e:
+    where one can move along a line alone, or several share fewer motions, constraints bear a part.
+    """
+    middle, size = len(instants) // 2, problem.constraints.size
+    while True:
+        poses = np.array([instant.positions(e[i].ravel()) for i, instant in enumerate(instants)])
+        reached = size * problem.gaps(poses[middle])[0].reshape(-1, 2)
+        misses = np.linalg.norm(reached - e[middle], axis=1) > MISFIT * problem.clearances
+        misses &= e[middle].any(axis=1)
+        if not misses.any():
+            return poses
+        e[:, misses] = 0.0
+
+
 class _Problem:
     """A mechanism's constraints and loads over the angles about its start.
 
     Attributes:
         scale: units of all coordinates, m and rad.
-        films: (m,), which of the clearance joints have a film.
+        clearances: (m,), of the clearance joints, m.
+        films: (m,), which of them have a film.
         ideal: name -> ideal motion at the angles.
         ideal_q: its coordinates, (k, n), relative to the mechanism's size.
     """
@@ -140,7 +162,9 @@ class _Problem:
         self.scale = np.tile([size, size, 1.0], len(self.constraints.bodies))
         joints = [j for j in self.mechanism.joints if j.name not in scene.joints.ideal]
         self.clearance_joints = joints
-        self.films = np.array([scene.joints[joint.name].kind == "lubricated" for joint in joints])
+        kinds = [scene.joints[joint.name] for joint in joints]
+        self.clearances = np.array([kind.clearance for kind in kinds])
+        self.films = np.array([kind.kind == "lubricated" for kind in kinds])
         rows = self.constraints.rows
         self._clearance_rows = np.concatenate([rows[f"joints.{joint.name}"] for joint in joints])
         self._crank = self.constraints.angle_row(self.mechanism.crank)
@@ -241,9 +265,17 @@ class _Instant:
             turning = self._omega[joints[k].journal], self._omega[joints[k].bearing]
             interfaces = interfaces_of(kind, self._problem.system.scene)
             turned = self._angle[joints[k].bearing]
-            e = _equilibrium(interfaces, complex(self.forces[k]), *turning, turned)
+            force, is_guided = complex(self.forces[k]), self._is_guided(int(k))
+            e = _equilibrium(interfaces, force, *turning, turned, is_guided)
             eccentricities[k] = (math.nan, math.nan) if e is None else (e.real, e.imag)
         return eccentricities
+
+    def _is_guided(self, k: int) -> bool:
+        """Return whether a dry journal moves along a line alone: others bear its friction."""
+        if self._problem.films[k]:
+            return False
+        sizes = np.linalg.svd(self._reach[2 * k : 2 * k + 2], compute_uv=False)
+        return bool((sizes > INDEPENDENT * sizes[0]).sum() < 2)
 
     def add_wear(self, eccentricities: Array, is_loaded: Array) -> Array:
         """Return eccentricities (m, 2) in round bearings as they are in worn ones.
@@ -284,18 +316,24 @@ class _Instant:
 
 
 def _equilibrium(
-    interfaces: list[InterfaceLaw], force: complex, omega_j: float, omega_b: float, turned: float
+    interfaces: list[InterfaceLaw],
+    force: complex,
+    omega_j: float,
+    omega_b: float,
+    turned: float,
+    is_guided: bool = False,
 ) -> complex | None:
     """Return the eccentricity at which interfaces exert a force on a journal at rest, or None.
 
     A bearing with grooves, turned by an angle, rad, has its force at the angle of the eccentricity
-    in it, which is found by iteration.
+    in it, which is found by iteration. Across the force of a guided journal its guide bears all.
     """
 
     def surface_force(e: float) -> complex:
         """Return the force along the eccentricity and a quarter turn from it, at rest."""
         loads = [interface.load(e, 0.0, 0.0, omega_j, omega_b) for interface in interfaces]
-        return sum((complex(f[0], f[1]) for f in loads if f is not None), 0j)
+        total = sum((complex(f[0], f[1]) for f in loads if f is not None), 0j)
+        return complex(total.real) if is_guided else total
 
     is_oriented = any(interface.is_oriented for interface in interfaces)
     e = -force

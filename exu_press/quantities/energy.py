@@ -38,14 +38,17 @@ def energy_residual(result: Result) -> float | None:
     """Return the worst that the balance misses over the run, relative to `energy_scale`.
 
     None where there is no balance, or next to no energy that it could be relative to, as in a run
-    of a few degrees in which no surfaces touch.
+    of a few degrees in which no surfaces touch. Relative to the kinetic energy where next to
+    nothing is put in or dissipated, as by a motor that coasts: the misfit is all that is stored.
     """
     if not has_balance(result):
         return None
-    scale = energy_scale(result)
-    if scale <= LITTLE * kinetic_energy(result.scene):
+    scale, kinetic = energy_scale(result), kinetic_energy(result.scene)
+    if scale <= LITTLE * kinetic:
         return None
     put_in, stored, dissipated = _balance(result).values()
+    if max(np.abs(put_in).max(), np.abs(dissipated).max()) <= LITTLE * kinetic:
+        scale = kinetic
     return float(np.abs(put_in - stored - dissipated).max()) / scale
 
 
@@ -77,7 +80,7 @@ BALANCE = (
     Quantity("energy.input_per_stroke", "J",
              "energy that drive, loads and pumps put in per revolution, over whole revolutions",
              FLOW, _per_stroke("input"),
-             title="per stroke", is_detail=True, signed=True),
+             title="per revolution", is_detail=True, signed=True),
     Quantity("energy.stored", "J", "change of the stored energy",
              ENERGY, _end("stored"),
              signed=True, cumulative=True),
@@ -89,7 +92,7 @@ BALANCE = (
              "energy that joints, guides and flexible bodies dissipate per revolution, over whole "
              "revolutions",
              ENERGY, _per_stroke("dissipated"),
-             title="per stroke", is_detail=True, law_error=dissipation_error),
+             title="per revolution", is_detail=True, law_error=dissipation_error),
     Quantity("energy.residual", "",
              "largest misfit of the energy balance, over the largest energy in it",
              MEASURE, lambda run, _: energy_residual(run.result),

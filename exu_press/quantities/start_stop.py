@@ -11,7 +11,7 @@ from exu_press.quantities.reading import Reading
 from exu_press.scene import Scene
 from exu_press.scene.start_stop import Clutch
 
-__all__ = ["START_STOP", "still_turns"]
+__all__ = ["START_STOP", "commands_to_come", "still_turns"]
 
 SAME = 1e-9
 """s: an instant that a step ends on."""
@@ -96,6 +96,16 @@ def still_turns(run: Reading) -> bool:
     """Return whether the press does not stand at its end, although it was told to stop."""
     standstills = list(_standstills(run))
     return bool(standstills) and standstills[-1][1] is None
+
+
+def commands_to_come(run: Reading) -> Iterator[str]:
+    """Yield the commands that a run with a clutch ends before."""
+    stop, end, angle = _clutch_of(run).stop, run.time[-1], np.degrees(run["crank_angle"][-1])
+    times = {"start_time": _starts_of(run), "stop_time": (stop and stop.stop_time) or ()}
+    for name, instants in times.items():
+        yield from (f"drive.{name} = {at:g} s" for at in instants if at > end)
+    if stop is not None and stop.stop_angle_deg is not None and angle < stop.stop_angle_deg:
+        yield f"drive.stop_angle_deg = {stop.stop_angle_deg:g} deg"
 
 
 def _over_stops(run: Reading, amount: Array) -> float | None:

@@ -13,7 +13,7 @@ from exu_press.quantities.kind import COST
 from exu_press.quantities.oil import oil_warnings
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.slopes import slope_warnings
-from exu_press.quantities.start_stop import still_turns
+from exu_press.quantities.start_stop import commands_to_come, still_turns
 from exu_press.quantities.value import values_of
 from exu_press.result import JointRecord, Result
 from exu_press.scene import DryJoint, LubricatedJoint, Scene, mechanism_of
@@ -118,8 +118,8 @@ def run_warnings(run: Reading) -> list[str]:
     if centred := _centred_joints(run):
         texts.append(
             f"{', '.join(centred)}: started centred, not loaded: without an equilibrium position, "
-            "as the load is changing sides or the film hardly turns. First peaks may be those of a "
-            "fall; settle = 1 leaves them out"
+            "as the load is changing sides, the film hardly turns, or ideal joints and guides bear "
+            "a part of the load. First peaks may be those of a fall; settle = 1 leaves them out"
         )
     if scene.drive is not None and scene.drive.stops and still_turns(run):
         speed = float(result["crank_speed"][-1]) * 30.0 / math.pi
@@ -127,6 +127,13 @@ def run_warnings(run: Reading) -> list[str]:
             f"the press does not stand behind its last stop: the crank turns at {speed:.3g} rpm at "
             "the end; try a larger drive.brake_torque, or more revolutions"
         )
+    if scene.drive is not None and scene.drive.clutch is not None and result.completed:
+        texts += [
+            f"{command}: the run ends at {result.time[-1]:.4g} s and "
+            f"{math.degrees(result['crank_angle'][-1]):.4g} deg, before the command comes; try "
+            "more revolutions"
+            for command in commands_to_come(run)
+        ]
     return [
         *texts,
         *oil_warnings(run),

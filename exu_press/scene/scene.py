@@ -161,10 +161,11 @@ class Scene(Table):
                 f"revolutions = {self.revolutions:g} at speed_rpm = {self.speed_rpm:g} is a run of "
                 f"{self.duration:g} s: allowed are {SHORTEST_RUN:g} to {LONGEST_RUN:g} s"
             )
-        if self.settle is not None and self.settle >= self.revolutions:
+        shortest = SHORTEST_RUN * self.speed_rpm / 60.0
+        if self.settle is not None and self.revolutions - self.settle < shortest:
             raise InputError(
-                f"settle = {self.settle:g}: allowed is a number < revolutions = "
-                f"{self.revolutions:g}, or nothing is left to read"
+                f"settle = {self.settle!r}: allowed is a number < revolutions = "
+                f"{self.revolutions!r} by {shortest:.2g} or more, or nothing is left to read"
             )
         shown_name = repr(self.mechanism) if self.shipped_name else "the scene's own"
         dimensions = {"press", "slider_crank"} - {self.shipped_name}

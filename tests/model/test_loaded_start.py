@@ -31,6 +31,12 @@ SCENES = {
         "joints": {name: {"kind": "dry", **PIN} for name in ("rod_pin", "wrist_pin")},
     },
     "a film": {"mechanism": "slider_crank"},
+    "a contact on a line": {
+        "mechanism": "elliptic_trammel",
+        "speed_rpm": 180.0,
+        "joints": {"crank_pin": {"kind": "dry", **PIN, "clearance": 2e-4}},
+        "friction": {"mu_kinetic": 0.01},
+    },
     "a mixed film": {
         "mechanism": "slider_crank",
         "film": {"at_contact": "mixed", "viscosity": 0.01},
@@ -116,6 +122,17 @@ def test_a_strong_film_starts_with_its_force_and_rings_in_no_constraint(angle, f
     size = np.linalg.norm(film[0])
     assert np.linalg.norm(film[:20] - film[0], axis=1).max() < 0.1 * size
     assert np.abs(guide[:20]).max() < 0.2 * size
+
+
+def test_a_film_that_a_slot_keeps_from_its_equilibrium_starts_centred():
+    """Slots let the crank pin of a trammel move along a line alone, and its film has two forces."""
+    film = {"law": "finite", "viscosity": 0.1, "length": 0.05, "at_contact": "mixed"}
+    pin = {"kind": "lubricated", "clearance": 5e-5, "radius": 0.03, "film": film}
+    scene = Scene(mechanism="elliptic_trammel", speed_rpm=180.0, joints={"crank_pin": pin})
+    result = simulate(scene.replace({"start_angle_deg": 110.0, "revolutions": 0.02}))
+    peak = np.linalg.norm(result["crank_pin_force"], axis=1).max()
+    assert peak < 200.0, "141 N at the start with ideal joints"
+    assert any("started centred" in text for text in result.summary()["warnings"])
 
 
 @pytest.mark.parametrize(("angle", "pressed"), [(0.0, True), (62.1, False)])

@@ -28,6 +28,7 @@ def test_a_press_that_its_brake_holds_stays(angle):
     held = np.abs(result["brake_torque"][result.time > 0.2])
     assert held.min() > 100.0 and np.ptp(held) < 1e-3 * held.min()
     assert result.quantity("drive.starting_time").value is None
+    assert any("drive.start_time = 9 s: the run" in text for text in result.summary()["warnings"])
 
 
 def test_a_brake_too_weak_to_stop_is_told():
@@ -42,6 +43,9 @@ def test_a_cam_stops_at_its_angle_and_the_run_ends_when_the_press_stands():
     cam = press(2.0, stop_time=None, stop_angle_deg=60.0, ends_after=0.03)
     result = simulate(cam)
     assert result.completed and result.time[-1] < 0.5
+    assert not any("the run ends" in text for text in result.summary()["warnings"])
+    early = simulate(cam.replace({"revolutions": 0.02})).summary()["warnings"]
+    assert any("drive.stop_angle_deg = 60 deg: the run ends at 0.02 s" in text for text in early)
     stops = result.quantity("drive.stopping_time").value
     begun = float(np.interp(math.radians(60.0), result["crank_angle"], result.time))
     assert result.time[-1] == pytest.approx(begun + stops + 0.03, abs=0.02)  # shafts untwist

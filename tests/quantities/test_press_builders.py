@@ -164,7 +164,7 @@ def test_one_revolution_where_a_run_has_two_and_none_in_the_paper_s_press():
     assert crank(revolutions=1.9).settle_revolutions == 0.0
     assert crank(revolutions=1.9, settle=0.5).settle_revolutions == 0.5
     assert Scene(revolutions=5.0).settle_revolutions == 0.0
-    with pytest.raises(InputError, match=r"settle = 2: allowed is a number < revolutions = 1"):
+    with pytest.raises(InputError, match=r"settle = 2.0: allowed is a number < revolutions = 1.0"):
         crank(revolutions=1.0, settle=2.0)
 
 

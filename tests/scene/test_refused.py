@@ -34,6 +34,7 @@ film.grooves = [{width_deg = 9}] -> film.grooves = [{'angle_deg': 0.0, 'width_de
 film = {at_contact = 'mixed', roughness = 4e-5} -> film.roughness * film.asperity_onset = 0.00012
 friction.velocity = 1.0 -> allowed are law, mu_kinetic, regularisation_velocity, mu_static, strib
 revolutions = 2e-4; speed_rpm = 2.4e5 -> revolutions = 0.0002 at speed_rpm = 240000 is a run of
+revolutions = 2; settle = 1.9999999 -> settle = 1.9999999: allowed is a number < revolutions = 2.0
 solver = {step = 1e-5, tolerance = 1e-3} -> solver.tolerance = 0.001: not used .. (solver.step is
 solver = {step = 1e-5, max_step_deg = 1.5} -> solver.max_step_deg = 1.5: not used .. solver.step
 friction.mu_static = 0.005 -> friction.mu_static = 0.005: allowed is a number >= friction.mu_kin

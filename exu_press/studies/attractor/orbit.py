@@ -19,7 +19,7 @@ from exu_press.result import Result, record
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.joint import oil_of
 
-__all__ = ["NoMotion", "Orbit"]
+__all__ = ["NoMotion", "Orbit", "require_orbit"]
 
 MOST_REVOLUTIONS = 10.0
 """Revolutions at the scene's speed in which a motor turns the crank once, or not at all."""
@@ -29,6 +29,33 @@ class NoMotion(InputError):  # noqa: N818  an end, as that of a run
     """A motion does not reach the next section."""
 
     exit_status = 3
+
+
+def require_orbit(scene: Scene) -> None:
+    """Raise InputError unless a scene has an orbit: see `Orbit`."""
+    motor = scene.drive is not None
+    if any(oil_of(joint) is not None for joint in scene.joints.values()):
+        raise InputError(
+            "film.oil: warms from revolution to revolution, while an orbit is one of the same "
+            "press in each; allowed is film.viscosity, as joints.NAME.film.viscosity of a run "
+            "has it"
+        )
+    if scene.drive is not None and scene.drive.has_schedule:
+        raise InputError(
+            "[drive] starts or stops: an orbit is one of a press that runs; allowed is a drive "
+            "that begins 'turning', without start_time, stop_time and stop_angle_deg"
+        )
+    if motor and scene.solver.tolerance is None:
+        raise InputError(
+            "solver.step: a motor gets to its section at any instant; allowed is "
+            "solver.tolerance, whose steps end there"
+        )
+    has_guideways = any(guide.guideways is not None for guide in scene.guides.values())
+    if not (scene.joints.with_clearance or has_guideways or motor):
+        raise InputError(
+            "joints: none has clearance, so that the crank alone determines the motion: its "
+            "period is one revolution; allowed is a scene with clearance in joints or guides"
+        )
 
 
 class Orbit:
@@ -50,23 +77,8 @@ class Orbit:
             InputError: nothing is free, oil warms, the press starts or stops, or the scene has a
                 motor and fixed steps.
         """
+        require_orbit(scene)
         motor = scene.drive is not None
-        if any(oil_of(joint) is not None for joint in scene.joints.values()):
-            raise InputError(
-                "film.oil: warms from revolution to revolution, while an orbit is one of the same "
-                "press in each; allowed is film.viscosity, as joints.NAME.film.viscosity of a run "
-                "has it"
-            )
-        if scene.drive is not None and scene.drive.has_schedule:
-            raise InputError(
-                "[drive] starts or stops: an orbit is one of a press that runs; allowed is a drive "
-                "that begins 'turning', without start_time, stop_time and stop_angle_deg"
-            )
-        if motor and scene.solver.tolerance is None:
-            raise InputError(
-                "solver.step: a motor gets to its section at any instant; allowed is "
-                "solver.tolerance, whose steps end there"
-            )
         length = {"revolutions": MOST_REVOLUTIONS if motor else 1.0, "settle": 0.0}
         self.scene = scene.replace(length)
         self._model = model = build(self.scene)
@@ -81,11 +93,6 @@ class Orbit:
             go_on_from(model, state)
         self._aim_at_section()
         self._free = self._free_coordinates()
-        if not self._joints and not motor:
-            raise InputError(
-                "joints: none has clearance, so that the crank alone determines the motion: its "
-                "period is one revolution; allowed is a scene with clearance in joints or guides"
-            )
 
     @property
     def state(self) -> State:

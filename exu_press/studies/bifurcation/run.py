@@ -13,6 +13,7 @@ from exu_press.model.state import State
 from exu_press.parallel import Chain
 from exu_press.scene import Scene
 from exu_press.studies.attractor import attractor
+from exu_press.studies.attractor.orbit import require_orbit
 from exu_press.studies.base import Row, Runs, arguments_of, scene_from
 from exu_press.studies.base.command import StudyCommand
 from exu_press.studies.bifurcation.report import BifurcationReport, Branch
@@ -28,9 +29,11 @@ def bifurcation(study: Bifurcation, directory: str | Path, **how: Any) -> Bifurc
     hysteresis shows. Both ways, and the values of a second key, run side by side. After a run that
     failed, the next one starts as the scene does.
 
-    Arguments and errors are those of `exu_press.studies.base.Runs`.
+    Arguments and errors are those of `exu_press.studies.base.Runs`, and InputError of a scene
+    without an orbit, as `require_orbit` raises it.
     """
     values = study.values
+    require_orbit(study.scene_at(study.point_at(values[0], study.seconds[0])))
     with Runs(study, directory, report=BifurcationReport, function=run_point, **how) as runs:
         ways = {"up": values, "down": values[::-1], FROM_THE_START: values}
         names = [name for name in ways if name in study.bifurcation.way]

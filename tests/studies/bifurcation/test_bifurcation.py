@@ -81,6 +81,13 @@ def test_refused(keys, own, words):
         Bifurcation(scene=FILM, keys=keys, bifurcation=own)
 
 
+def test_a_scene_without_an_orbit_is_refused_before_its_runs(tmp_path):
+    ideal = FILM.replace({"joints.crank_pin": "ideal", "film": None})
+    with pytest.raises(InputError, match="joints: none has clearance"):
+        bifurcation(Bifurcation(scene=ideal, keys=SPEEDS, bifurcation=SHORT), tmp_path)
+    assert not any(tmp_path.iterdir())
+
+
 KEYS = {"joints.crank_pin.clearance": [5e-5, 1e-4, 2e-4], "speed_rpm": [200.0, 240.0]}
 
 

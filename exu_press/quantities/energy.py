@@ -80,7 +80,7 @@ BALANCE = (
     Quantity("energy.input_per_stroke", "J",
              "energy that drive, loads and pumps put in per revolution, over whole revolutions",
              FLOW, _per_stroke("input"),
-             title="per revolution", is_detail=True, signed=True),
+             title="per stroke", is_detail=True, signed=True),
     Quantity("energy.stored", "J", "change of the stored energy",
              ENERGY, _end("stored"),
              signed=True, cumulative=True),
@@ -92,7 +92,7 @@ BALANCE = (
              "energy that joints, guides and flexible bodies dissipate per revolution, over whole "
              "revolutions",
              ENERGY, _per_stroke("dissipated"),
-             title="per revolution", is_detail=True, law_error=dissipation_error),
+             title="per stroke", is_detail=True, law_error=dissipation_error),
     Quantity("energy.residual", "",
              "largest misfit of the energy balance, over the largest energy in it",
              MEASURE, lambda run, _: energy_residual(run.result),

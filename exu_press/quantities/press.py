@@ -206,7 +206,7 @@ LOADS = (
     Quantity("work_per_stroke", "J",
              "work that the load puts in per revolution, over whole revolutions",
              FLOW, lambda run, load: run.per_stroke(run[f"load_{load}_work"]), Owner.LOAD,
-             title="per revolution", is_detail=True, signed=True),
+             title="per stroke", is_detail=True, signed=True),
 )  # fmt: skip
 
 GUIDES = (
@@ -234,7 +234,7 @@ GUIDES = (
     Quantity("dissipated_per_stroke", "J",
              "energy that the guide dissipates per revolution, over whole revolutions",
              ENERGY, lambda run, body: run.per_stroke(_guide_loss(run, body)), Owner.GUIDE,
-             _can_dissipate, title="per revolution", is_detail=True, signed=True),
+             _can_dissipate, title="per stroke", is_detail=True, signed=True),
     Quantity("mean_power", "W", "mean power that the guide dissipates, over whole revolutions",
              RESULTANT, lambda run, body: run.rate(_guide_loss(run, body)), Owner.GUIDE,
              _can_dissipate, signed=True),

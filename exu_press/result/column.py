@@ -26,11 +26,8 @@ def column_of(result: Result, name: str) -> tuple[Array, str]:
     if not columns:
         raise InputError(f"channel {channel!r}: allowed is one with a value, or columns, a step")
     if name not in columns:
-        what = (
-            f"{channel} has no columns; allowed is"
-            if channel in columns
-            else ("allowed is a column of it:")
-        )
+        none = f"{channel} has no columns; allowed is"
+        what = none if channel in columns else "allowed is a column of it:"
         raise InputError(f"channel {name!r}: {what} {', '.join(columns)}")
     return columns[name], recorded.unit
 

@@ -188,7 +188,8 @@ def test_a_measurement_that_fits_no_run_is_refused_before_others(
     measured.write_text("\n".join([head, *(f"{place},1.0" for place in places)]))
     given = [str(first), str(mine), str(measured)]
     assert main(["compare", *given, *QUICK, "--out", str(tmp_path / "out")]) == 2
-    assert said in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert told.startswith(f"exu-press: first: {measured}: ") and said in told
     assert not (tmp_path / "out").exists()
 
 

@@ -81,9 +81,12 @@ def test_an_ideal_drawing_has_no_force_per_point_and_says_why():
     assert "[guide]" in reason
 
 
-def test_friction_of_an_undetermined_force_is_refused():
-    with pytest.raises(InputError, match=r"guide\.friction: the force of guides\.slide"):
-        simulate(two_point(guide={"friction": "coulomb", "mu_kinetic": 0.1}))
+def test_friction_of_an_undetermined_force_is_refused(tmp_path):
+    """Of a file with its name, as it may be one of several."""
+    file = tmp_path / "scene.toml"
+    two_point(guide={"friction": "coulomb", "mu_kinetic": 0.1}).save(file)
+    with pytest.raises(InputError, match=r"scene\.toml: guide\.friction: the force of guides\.sl"):
+        simulate(Scene.load(file))
 
 
 def test_a_gear_on_a_flexible_body_is_refused():

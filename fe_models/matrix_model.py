@@ -1,6 +1,7 @@
 """The full model of a body from the Matrix Market files of another code, checked. For a child."""
 
 from collections.abc import Mapping
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from fe_models.arrays import Array
 from fe_models.elasticity import FullModel, mean_motion, rigid_motions
 from fe_models.errors import InputError
 from fe_models.matrices import Description, MatrixPart, NodeSet
+from fe_models.part import MOTIONS, Interface
 from fe_models.saddle import SEED, Cholesky, held_unknowns
 
 __all__ = ["matrix_model"]
@@ -49,15 +51,18 @@ def matrix_model(solid: MatrixPart) -> FullModel:
     held = held_unknowns(nodes)
     rigid = rigid_motions(nodes, nodes.mean(axis=0))
     _refuse_singular(stiffness, held, description.files["stiffness"], rigid)
+    motions = {
+        interface.face: _set_motion(where, interface.face, description.interfaces, nodes)
+        for interface in solid.interfaces
+    }
+    for pair in combinations(solid.interfaces, 2):
+        _refuse_dependent(where, pair, motions)
     return FullModel(
         solid.name,
         nodes,
         stiffness,
         nodal_mass,
-        {
-            interface.face: _set_motion(where, interface.face, description.interfaces, nodes)
-            for interface in solid.interfaces
-        },
+        motions,
         _surface(description, nodes),
         np.zeros((0, 10), dtype=np.int64),
     )
@@ -197,6 +202,23 @@ def _set_motion(where: str, name: str, sets: Mapping[str, NodeSet], nodes: Array
     diagonal = np.zeros(len(nodes))
     diagonal[numbers] = weights
     return mean_motion(sp.csr_matrix(sp.diags_array(diagonal)), nodes, numbers)
+
+
+def _refuse_dependent(
+    where: str, pair: tuple[Interface, Interface], motions: Mapping[str, Any]
+) -> None:
+    """Refuse two interfaces of whose motions one follows from the others, as with one set twice."""
+    rows = [
+        motions[interface.face].rows[[MOTIONS.index(motion)]].toarray()[0]
+        for interface in pair
+        for motion in interface.motions
+    ]
+    directions = [row / np.linalg.norm(row) for row in rows]
+    if np.linalg.matrix_rank(directions, tol=ROUNDED) < len(rows):
+        raise InputError(
+            f"{where}: interfaces.{pair[0].face} and interfaces.{pair[1].face}: their nodes move "
+            "together; allowed are sets of different nodes"
+        )
 
 
 def _surface(description: Description, nodes: Array) -> NDArray[np.int64]:

@@ -79,3 +79,18 @@ def test_only_methods_for_users_ask_the_face_of_the_package():
         "exu_press.scene.scene",
         "exu_press.studies.comparison",
     }
+
+
+def test_no_name_of_a_package_is_that_of_its_module():
+    """Whoever imports the module would hide the name behind it."""
+    for path in FILES:
+        if path.name == "__init__.py" and "lazy_names(" in path.read_text(encoding="utf-8"):
+            package = name_of(path)
+            hidden = {name for name in names_handed_on(path) if f"{package}.{name}" in MODULES}
+            assert not hidden, package
+
+
+def names_handed_on(path):
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom):
+            yield from (alias.name for alias in node.names)

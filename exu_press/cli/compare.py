@@ -15,7 +15,7 @@ from exu_press.cli.options import (
     shipped_names,
     show_warnings,
 )
-from exu_press.errors import InputError
+from exu_press.errors import InputError, error_prefix
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import (
     COMPARED,
@@ -214,12 +214,14 @@ def _compare_curves(
 ) -> dict[str, dict[str, CurveComparison]]:
     """Return measured curves beside runs by label, by the names of their files."""
     stems = [file.stem for file in curves]
-    return {
-        file.stem if stems.count(file.stem) == 1 else str(file): {
-            label: compare_curve(file, curve, result) for label, result in results.items()
-        }
-        for file, curve in curves.items()
-    }
+    comparisons: dict[str, dict[str, CurveComparison]] = {}
+    for file, curve in curves.items():
+        name = file.stem if stems.count(file.stem) == 1 else str(file)
+        comparisons[name] = {}
+        for label, result in results.items():
+            with error_prefix(f"{label}: "):
+                comparisons[name][label] = compare_curve(file, curve, result)
+    return comparisons
 
 
 def _load_items(

@@ -182,7 +182,9 @@ class Drawing:
     def _check_connections(self) -> None:
         """Refuse bodies on nothing, rods without two ends, and a crank that is not in the frame."""
         crank, of_guides = self.crank, [guide.bodies for guide in self.guides]
-        moves_guides = any(crank in pair and GROUND not in pair for pair in of_guides)
+        moves_others = any(crank in pair and GROUND not in pair for pair in of_guides) or any(
+            gear.to == crank for gear in self.gears
+        )
         if self.size == 0.0:
             raise InputError(
                 f"crank = {crank!r}: all joints and pins lie on its shaft, so that it moves "
@@ -199,9 +201,10 @@ class Drawing:
                     f"{len(points)}"
                 )
         pairs = [joint.bodies for joint in self.joints]
-        if not (moves_guides or any(crank in pair and GROUND not in pair for pair in pairs)):
+        if not (moves_others or any(crank in pair and GROUND not in pair for pair in pairs)):
             raise InputError(
-                f"crank = {crank!r}: has no joint with another body, which it could move"
+                f"crank = {crank!r}: has no joint, guide or gear with another body, which it could "
+                "move"
             )
         shafts, is_guided = pairs.count(frozenset((crank, GROUND))), {crank, GROUND} in of_guides
         if shafts != 1 or is_guided:
@@ -210,7 +213,7 @@ class Drawing:
                 f"{' and a guide' if is_guided else ''}; allowed is one joint, its shaft"
             )
         pins = (joint.at for joint in self.joints_of(crank))
-        if len(distinct_points(pins, self.size)) == 1 and not moves_guides:
+        if len(distinct_points(pins, self.size)) == 1 and not moves_others:
             raise InputError(
                 f"crank = {crank!r}: all of its joints lie on its shaft, so that it moves nothing; "
                 "allowed is a joint beside the shaft"

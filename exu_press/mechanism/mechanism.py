@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -85,10 +86,20 @@ class Mechanism(Drawing):
 
     @property
     def crank_radius(self) -> float:
-        """Largest distance of the crank's pins from its shaft, m; its size where it has none."""
+        """Largest distance of the crank's pins from its shaft, m.
+
+        Where it has none, the largest one of two pins of a body that it turns by a gear, times the
+        ratio; else the size of the drawing.
+        """
         slots = [g.at for g in self.guides if g.body == self.crank and g.at is not None]
         pins = [*self.crank_pins.values(), *(math.dist(self.shaft.at, at) for at in slots)]
-        return max(pins, default=self.size)
+        geared = (
+            abs(gear.ratio) * math.dist(*ends)
+            for gear in self.gears
+            if gear.to == self.crank
+            for ends in combinations(self.held_points(gear.body), 2)
+        )
+        return max(pins or geared, default=self.size)
 
     def body(self, name: str) -> Body:
         """Return a body by its name, also the frame."""

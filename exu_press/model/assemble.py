@@ -8,6 +8,7 @@ import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import LoadForceVector, SensorNode
 
+from exu_press.errors import error_prefix
 from exu_press.integrate.modal_mass import follow_modes
 from exu_press.joints.joint import States
 from exu_press.mechanism import Body, Motion
@@ -44,6 +45,12 @@ def build(scene: Scene, *, quiet: bool = True) -> Model:
         from exu_press.model.placement import placed_parts
 
         parts = placed_parts(scene, quiet=quiet)
+    with error_prefix(scene.origin):  # the parts have it
+        return _model_at_start(scene, parts)
+
+
+def _model_at_start(scene: Scene, parts: "Mapping[str, PlacedPart]") -> Model:
+    """Return the assembled model of a scene with flexible bodies, in its start."""
     start: dict[str, Motion] = {}
     frames: dict[str, FrameStart] = {}
     if any(placed.reduced.mode_count for placed in parts.values()):

@@ -54,7 +54,7 @@ def _page(file: Path, report: dict[str, Any]) -> str:
     ]
     drawn = "\n".join(pictures) or paragraph("None was drawn.")
     scene = report["scene"]
-    about = [] if scene is None else scene_parts(Scene.from_dict(scene, resolve=False))
+    about = [] if scene is None else scene_parts(Scene.from_result(scene, ()))
     return page(
         report["title"],
         "; ".join(filter(None, [report["subtitle"], f"{file.parent.name}/{file.name}"])),

@@ -18,7 +18,7 @@ from exu_press.model.warm_film import Heat
 from exu_press.numerics.piecewise import integral
 from exu_press.result.checkpoint import open_checkpoint, write_checkpoint
 from exu_press.result.info import Info
-from exu_press.result.record import record
+from exu_press.result.record_run import record
 from exu_press.result.result import Result
 from exu_press.scene import Scene
 from exu_press.scene.scene import SHORTEST_RUN

@@ -8,7 +8,7 @@ from exu_press.errors import error_prefix
 from exu_press.model import build
 from exu_press.model.continuation import go_on_from
 from exu_press.model.state import State
-from exu_press.result.record import record
+from exu_press.result.record_run import record
 from exu_press.result.result import Result
 from exu_press.scene import Scene
 from exu_press.scene.provenance import provenance_of

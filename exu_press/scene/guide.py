@@ -98,12 +98,29 @@ _of_guides: Callable[[Any], type[GuideFriction]] = functools.cache(_keys_of_guid
 
 
 @dataclass(frozen=True)
+class BeddingLength(Table):
+    """An even bedding along the guide's length, whose tilting stiffness is k L^2 / 12."""
+
+    table: ClassVar[str] = "guide"
+    length: float = key(0.5, "of every guide with stiffness", "m", above=0, at_most=100)
+
+
+@dataclass(frozen=True)
+class TiltingStiffness(Table):
+    """A tilting stiffness of its own."""
+
+    table: ClassVar[str] = "guide"
+    tilting_stiffness: float = key(
+        None, "of every guide; from its length unless given", "N m/rad", above=0
+    )
+
+
+@dataclass(frozen=True)
 class ElasticSupport(Table):
     """Springs across the guide and against tilting, in the body's centre of mass.
 
-    The tilting stiffness is that of an even bedding along the guide's length, k L^2 / 12, and each
-    damping a part of the critical one of the guided mass or inertia alone, 2 D sqrt(k m), unless
-    they are given.
+    Each damping is a part of the critical one of the guided mass or inertia alone, 2 D sqrt(k m),
+    unless it is given; of two that are given there is no damping ratio, which is None then.
     """
 
     table: ClassVar[str] = "guide"
@@ -113,9 +130,8 @@ class ElasticSupport(Table):
         "N/m",
         above=0,
     )
-    length: float = key(0.5, "of every guide with stiffness", "m", above=0, at_most=100)
-    tilting_stiffness: float | None = key(
-        None, "of every guide; from its length unless given", "N m/rad", above=0
+    tilting: BeddingLength | TiltingStiffness = alternatives(
+        {"tilting_stiffness": "scene.guide:TiltingStiffness", "": "scene.guide:BeddingLength"}
     )
     damping_ratio: float = key(0.05, "of the guided body alone on its guide", at_least=0)
     lateral_damping: float | None = key(
@@ -124,6 +140,22 @@ class ElasticSupport(Table):
     tilting_damping: float | None = key(
         None, "of every guide, instead of the damping ratio's", "N m s/rad", at_least=0
     )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if None in (self.lateral_damping, self.tilting_damping):
+            return
+        if "damping_ratio" in self.given_values:
+            reason = "guide.lateral_damping and guide.tilting_damping are given"
+            self.refuse_unused(("damping_ratio",), reason)
+        object.__setattr__(self, "damping_ratio", None)
+
+    @property
+    def stiffness_against_tilting(self) -> float:
+        """N m/rad."""
+        if isinstance(self.tilting, TiltingStiffness):
+            return self.tilting.tilting_stiffness
+        return self.lateral_stiffness * self.tilting.length**2 / 12
 
 
 @dataclass(frozen=True)

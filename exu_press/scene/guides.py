@@ -21,7 +21,6 @@ from exu_press.schema.table import (
     plain,
     plain_value,
     table_from,
-    used_names,
 )
 
 __all__ = ["fields_of", "guides_of", "with_elastic_guides"]
@@ -70,20 +69,25 @@ def guides_of(
         demand_known(f"guide.{name}: {mechanism.name} has no such guide", name, names)
         with _with_guide_named(name):
             by_name[name], guides[name] = _own_guide(shared, own)
-    _refuse_overridden(table, names)
+    _refuse_overridden(table, guides)
     return replace(table, by_name=by_name), {n: guide for n, guide in guides.items() if guide}
 
 
-def _refuse_overridden(table: ElasticGuide, names: Collection[str]) -> None:
+def _refuse_overridden(table: ElasticGuide, guides: Mapping[str, ElasticGuide | None]) -> None:
     """Raise UnusedKeyError for a key of [guide] that no guide, and no other key, has use for."""
-    own = [table.by_name.get(name, {}) for name in names]
+    used = {
+        key
+        for name, guide in guides.items()
+        if guide is not None
+        for key in {key for key, _, _ in key_values(guide)} - {*table.by_name.get(name, ())}
+    }
     shared = {
         name: plain_value(value)
         for name, value, field in key_values(table)
         if name not in table.by_name and value not in (None, field.default)
     }
     for name, value in shared.items():
-        if not all(name in keys or name in KINDS.get(keys.get("kind", ""), ()) for keys in own):
+        if name in used:
             continue
         try:
             table_from(ElasticGuide, "guide", {n: v for n, v in shared.items() if n != name})
@@ -104,9 +108,15 @@ def _own_guide(
         key: value for key, value in shared.items() if key not in KINDS.get(kind or "", ())
     }
     keys = changed_table(ElasticGuide, inherited, own)
-    used = used_names(ElasticGuide, "guide", keys)
-    keys = {key: value for key, value in keys.items() if key in used or key in own}
-    guide = table_from(ElasticGuide, "guide", keys)
+    while True:
+        try:
+            guide = table_from(ElasticGuide, "guide", keys)
+            break
+        except UnusedKeyError as error:
+            unused = error.name.removeprefix("guide.")
+            if unused in own:
+                raise
+            del keys[unused]
     for name in guide.by_name:
         demand_known(f"guide.{name}: unknown key", name, fields_of())
     if kind is not None and guide.kind != kind:
@@ -177,12 +187,13 @@ def _elastic(guide: Guide, inertia: tuple[float, float], elastic: ElasticGuide) 
         guideway = Guideway(support.clearance, support.length, half_width, 0.5 * lateral)
         return replace(guide, guideway=guideway)
     mass, about_centre = inertia
-    tilting = support.tilting_stiffness or lateral * support.length**2 / 12
     ratio = support.damping_ratio
     return replace(
         guide,
         lateral=_spring(lateral, support.lateral_damping, ratio, mass),
-        tilting=_spring(tilting, support.tilting_damping, ratio, about_centre),
+        tilting=_spring(
+            support.stiffness_against_tilting, support.tilting_damping, ratio, about_centre
+        ),
     )
 
 

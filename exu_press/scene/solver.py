@@ -13,6 +13,9 @@ __all__ = ["DEFAULT_TOLERANCE", "RPM", "Solver"]
 DEFAULT_TOLERANCE = 1e-3
 RPM = math.pi / 30.0  # rad/s
 
+LEAST_STEP = 1e-8
+"""s; fixed steps begin a film with ten times as much, at least."""
+
 
 @dataclass(frozen=True)
 class FixedSteps(Table):
@@ -36,6 +39,9 @@ class ControlledSteps(Table):
     max_step_deg: float = key(
         1.5, "tolerance: largest step, in degrees of the crank", "deg", above=0, at_most=15
     )
+    min_step: float = key(
+        LEAST_STEP, "tolerance: a run that would need a smaller step stops", "s", above=0
+    )
 
 
 @dataclass(frozen=True)
@@ -47,7 +53,6 @@ class Solver(Table):
     steps: FixedSteps | ControlledSteps = alternatives(
         {"step": "scene.solver:FixedSteps", "": "scene.solver:ControlledSteps"}
     )
-    min_step: float = key(1e-8, "a run that would need a smaller step stops", "s", above=0)
     spectral_radius: float = key(
         0.8, "spectral radius at infinity of generalized-alpha", at_least=0.5, at_most=0.95
     )
@@ -65,6 +70,11 @@ class Solver(Table):
         """Largest step of those that follow a tolerance, degrees of the crank."""
         assert isinstance(self.steps, ControlledSteps)
         return self.steps.max_step_deg
+
+    @property
+    def min_step(self) -> float:
+        """Smallest step of those that follow a tolerance, s."""
+        return self.steps.min_step if isinstance(self.steps, ControlledSteps) else LEAST_STEP
 
     @property
     def accuracy(self) -> tuple[str, float]:

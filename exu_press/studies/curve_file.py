@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from exu_press.errors import InputError
+from exu_press.errors import InputError, error_prefix
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import eno_cubic, evaluate, hermite
 from exu_press.result import Result
-from exu_press.schema.checks import nearest
+from exu_press.result.column import column_of
 from exu_press.schema.two_columns import read_two_columns
 
 __all__ = ["OVER", "CurveFile", "channel_polynomials", "factor_to", "line_over_rows", "read_curve"]
@@ -91,25 +91,19 @@ def channel_polynomials(where: str, curve: CurveFile, result: Result) -> tuple[A
 
     Args:
         where: the file, said of a fault.
-        curve: whose second column names a channel.
+        curve: whose second column names a channel, or NAME.x, a column of one.
 
     Returns:
         the run's times, s, or crank angles, deg, (n,); coefficients of the polynomials between
         them, for `numerics.piecewise.evaluate`; their SI unit.
 
     Raises:
-        InputError: the run has no such channel, or one of several values at a time, or its crank
+        InputError: the run has no such channel, or the channel no such column, or its crank
             stands or turns back where the curve is over the crank angle.
     """
     name = curve.name
-    if name not in result.units:
-        raise InputError(
-            f"{where}: column {name!r}{nearest(name, result.units)}; allowed are channels of a "
-            f"run, as {', '.join(list(result.units)[:8])}"
-        )
-    values = result[name]
-    if values.ndim != 1:
-        raise InputError(f"{where}: column {name!r} has several values at a time; allowed is one")
+    with error_prefix(f"{where}: "):
+        values, unit = column_of(result, name)
     angle = curve.over == "crank_angle"
     at = np.degrees(result["crank_angle"]) if angle else result.time
     back = (at[1:] <= at[:-1]) & (at[1:] <= curve.at[-1]) & (at[:-1] >= curve.at[0])
@@ -120,12 +114,12 @@ def channel_polynomials(where: str, curve: CurveFile, result: Result) -> tuple[A
             f"{at[first]:.6g} deg, t = {result.time[first]:.6g} s; allowed is a curve over time"
         )
     if name not in RATES:
-        return at, eno_cubic(at, values), result.units[name]
+        return at, eno_cubic(at, values), unit
     rate = result[RATES[name]]
     if angle:
         with np.errstate(divide="ignore", invalid="ignore"):  # where the crank stands
             rate = rate / np.degrees(result["crank_speed"])
-    return at, hermite(at, values, rate), result.units[name]
+    return at, hermite(at, values, rate), unit
 
 
 def line_over_rows(

@@ -7,20 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from exu_press.errors import InputError
 from exu_press.mechanism import GROUND
 from exu_press.numerics.arrays import Array, lengths
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
-from exu_press.result.channel import AXES
+from exu_press.result.column import column_of
 from exu_press.result.windows import settled_part
 from exu_press.scene import mechanism_of
 from exu_press.scene.joint import TouchingJoint
-from exu_press.schema.checks import demand_known
 from exu_press.signals.spectrum import Spectrogram, Spectrum, amplitude_spectrum, spectrogram
 from exu_press.terminal.columns import columns
 
-__all__ = ["DEFAULT", "Mark", "Spectra", "column_of", "marks_of", "spectra"]
+__all__ = ["DEFAULT", "Mark", "Spectra", "marks_of", "spectra"]
 
 DEFAULT = "slider_acceleration"
 
@@ -110,28 +108,6 @@ def _strongest(spectrum: Spectrum, every_line: bool) -> list[int]:
     peaks = peaks[spectrum.amplitude[peaks] > spectrum.error]
     highest = peaks[np.argsort(spectrum.amplitude[peaks])[::-1][:STRONGEST]]
     return sorted(highest.tolist())
-
-
-def column_of(result: Result, name: str) -> tuple[Array, str]:
-    """Return the values (n,) and the unit of a channel, or of NAME.COLUMN of one with columns.
-
-    Raises:
-        InputError: the run has no such channel, or the channel no such column.
-    """
-    channel, _, column = name.partition(".")
-    demand_known(f"channel {channel!r}: this run has none of that name", channel, sorted(result))
-    values = result.channels[channel]
-    allowed = AXES.get(values.axis) or tuple(str(k) for k in range(values.values.shape[-1]))
-    if values.values.ndim > 2:
-        raise InputError(f"channel {channel!r}: allowed is one with a value, or columns, a step")
-    if values.values.ndim == 1:
-        if column:
-            raise InputError(f"channel {name!r}: {channel} has no columns; allowed is {channel}")
-        return values.values, values.unit
-    if column not in allowed:
-        columns = ", ".join(f"{channel}.{column_name}" for column_name in allowed)
-        raise InputError(f"channel {name!r}: allowed is a column of it: {columns}")
-    return values.values[:, allowed.index(column)], values.unit
 
 
 def spectra(

@@ -172,9 +172,10 @@ def test_a_measurement_beside_runs(mine, tmp_path, capsys, monkeypatch):
 @pytest.mark.parametrize(
     ("head", "last", "said"),
     [
-        ("time (s),slider_speed (m/s)", 1e-5, "column 'slider_speed' (did you mean"),
+        ("time (s),slider_speed (m/s)", 1e-5, "'slider_speed': this run has none"),
         ("time (s),slider_velocity (N)", 1e-5, "in N: allowed is m/s"),
-        ("time (s),body_position (m)", 1e-5, "several values at a time"),
+        ("time (s),crank_pin_force (N)", 1e-5, "a column of it: crank_pin_force.x, crank_pin_f"),
+        ("time (s),crank_pin_force.y (kN)", 1.0, "allowed is a part of the run, from 0 to 0.0025"),
         ("time (s),slider_velocity (m/s)", 1.0, "allowed is a part of the run, from 0 to 0.0025"),
     ],
 )
@@ -187,7 +188,8 @@ def test_a_measurement_that_fits_no_run_is_refused_before_others(
     measured.write_text("\n".join([head, *(f"{place},1.0" for place in places)]))
     given = [str(first), str(mine), str(measured)]
     assert main(["compare", *given, *QUICK, "--out", str(tmp_path / "out")]) == 2
-    assert said in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert told.startswith(f"exu-press: first: {measured}: ") and said in told
     assert not (tmp_path / "out").exists()
 
 

@@ -9,7 +9,7 @@ from exu_press.model import build
 from exu_press.model.placement import placed_parts
 from exu_press.model.system import System
 from exu_press.result.flexible import guided_motion
-from exu_press.result.record import record
+from exu_press.result.record_run import record
 from exu_press.scene import mechanism_of
 
 pytest.importorskip("ngsolve")

@@ -19,7 +19,7 @@ from exu_press.model import build
 from exu_press.model.placement import placed_parts
 from exu_press.result.channel import guide_channel
 from exu_press.result.motion import sensor
-from exu_press.result.record import record
+from exu_press.result.record_run import record
 from exu_press.scene import mechanism_of
 
 pytest.importorskip("ngsolve")

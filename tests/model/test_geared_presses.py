@@ -1,10 +1,14 @@
 """Geared presses in runs: torque of the gear, force per point, and what no run can tell."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from exu_press import InputError, Scene, simulate
+from exu_press.mechanism import GROUND, Body, Gear, Joint
 from exu_press.quantities.summary import summary
+from exu_press.scene import mechanism_of
 
 OFF_CENTRE = {
     "press": {"kind": "table", "time": [0.0, 1e3], "force": [6e5, 6e5], "offset": [0.1, 0.0]}
@@ -77,11 +81,31 @@ def test_an_ideal_drawing_has_no_force_per_point_and_says_why():
     assert "[guide]" in reason
 
 
-def test_friction_of_an_undetermined_force_is_refused():
-    with pytest.raises(InputError, match=r"guide\.friction: the force of guides\.slide"):
-        simulate(two_point(guide={"friction": "coulomb", "mu_kinetic": 0.1}))
+def test_friction_of_an_undetermined_force_is_refused(tmp_path):
+    """Of a file with its name, as it may be one of several."""
+    file = tmp_path / "scene.toml"
+    two_point(guide={"friction": "coulomb", "mu_kinetic": 0.1}).save(file)
+    with pytest.raises(InputError, match=r"scene\.toml: guide\.friction: the force of guides\.sl"):
+        simulate(Scene.load(file))
 
 
 def test_a_gear_on_a_flexible_body_is_refused():
     with pytest.raises(InputError, match=r"gears\.pair: bodies\.second_crank is flexible"):
         two_point(bodies={"second_crank": {"flexible": "any.step", "density": 7850.0}})
+
+
+def test_a_crank_may_drive_by_a_gear_alone():
+    """Against its wheel, and with the torque that the wheel would need."""
+    direct = Scene(mechanism="slider_crank", joints={}, revolutions=0.1, start_angle_deg=30.0)
+    drawn = mechanism_of(direct)
+    geared = dataclasses.replace(
+        drawn,
+        bodies=(*drawn.bodies, Body("motor", 5.0, 0.1, (-1.0, 0.0))),
+        joints=(*drawn.joints, Joint("motor_shaft", (-1.0, 0.0), "motor", GROUND)),
+        gears=(Gear("pair", "crank", -1.0, "motor"),),
+        crank="motor",
+    )
+    runs = [simulate(direct), simulate(direct.replace({"mechanism": geared, "joints": {}}))]
+    for name in ("slider_position", "drive_torque"):
+        ends = [run[name][-1] for run in runs]
+        assert ends[1] == pytest.approx(ends[0], rel=1e-4)

@@ -184,6 +184,12 @@ def test_a_set_without_rotation_is_refused(bar_files, sets, numbers, count):
         matrix_model(MatrixPart(bar_files(), ENDS))
 
 
+def test_one_set_for_two_interfaces_is_refused(bar_files, sets):
+    sets["right"] = sets["left"]
+    with pytest.raises(InputError, match=r"interfaces.left and interfaces.right: their nodes move"):
+        matrix_model(MatrixPart(bar_files(), ENDS))
+
+
 def test_exudyn_reads_what_abaqus_writes(bar_model, sets, bar_files, tmp_path):
     """*MATRIX OUTPUT, FORMAT=COORDINATE: row, column and value, from 1."""
     for name in ("stiffness", "mass"):

@@ -17,7 +17,7 @@ IDEAL = {"mechanism": "slider_crank", "joints": {}}
 def test_on_and_off_by_replace():
     scene = Scene().replace({"guide.lateral_stiffness": 2e8})
     assert scene.guide.support.lateral_stiffness == 2e8
-    assert scene.guide.support.length == 0.5
+    assert scene.guide.support.tilting.length == 0.5
     assert Scene(guide=scene.guide) == scene
     assert scene.replace({"guide": None}) == Scene()
     other = scene.replace({"guide": None, "mechanism": "slider_crank"})
@@ -42,7 +42,7 @@ def test_a_guides_own_table_has_its_keys_over_those_of_all(tmp_path):
         "counterweight": "elastic",
     }
     assert scene.guides["counterweight"].support.lateral_stiffness == 5e8
-    assert scene.guides["counterweight"].support.length == 0.8
+    assert scene.guides["counterweight"].support.tilting.length == 0.8
     assert scene.guides["plunger_left"].rubs
     assert not scene.guides["plunger_right"].rubs
     said = assumed_values(scene)
@@ -66,6 +66,11 @@ OILED = {"clearance": 1e-4, "viscosity": 0.1, "face_width": 0.1, "contact_gap": 
             {"friction": "coulomb", "mu_kinetic": 0.2},
             {"friction": "stribeck", "mu_static": 0.3},
             "mu_kinetic",
+        ),
+        (
+            {"lateral_stiffness": 1e9, "lateral_damping": 9.0, "damping_ratio": 0.1},
+            {"tilting_damping": 9.0, "length": 0.3},
+            "lateral_damping",
         ),
     ],
 )

@@ -37,6 +37,7 @@ revolutions = 2e-4; speed_rpm = 2.4e5 -> revolutions = 0.0002 at speed_rpm = 240
 revolutions = 2; settle = 1.9999999 -> settle = 1.9999999: allowed is a number < revolutions = 2.0
 solver = {step = 1e-5, tolerance = 1e-3} -> solver.tolerance = 0.001: not used .. (solver.step is
 solver = {step = 1e-5, max_step_deg = 1.5} -> solver.max_step_deg = 1.5: not used .. solver.step
+solver = {step = 1e-5, min_step = 1.0} -> solver.min_step = 1.0: not used .. (solver.step is given)
 friction.mu_static = 0.005 -> friction.mu_static = 0.005: allowed is a number >= friction.mu_kin
 press.linkage_length = 0.02 -> press: linkage and slide lock .. deg
 press.link_5_length = 0.1655 -> press.link_5_length .. deg
@@ -121,6 +122,12 @@ guide.viscosity = 0.1 -> guide.viscosity needs guide.face_width .. no default
 guide = {viscosity = 0.1, face_width = 0.1} -> guide.viscosity needs guide.contact_gap
 guide = {viscosity = 0.1, face_width = 0.1, contact_gap = 3e-5} -> gap = 3e-05: allowed is .. < guid
 guide = {viscosity = 0.1, face_width = 1e-3, contact_gap = 2e-6} -> face_width = 0.001: allowed are
+= mechanism = 'slider_crank'; joints = {}; guide = {lateral_stiffness = 1e9, damping_ratio = 0.1, \
+lateral_damping = 9.0}
+guide.tilting_damping = 9.0 -> guide.damping_ratio = 0.1: not used .. lateral_damping and
+guide.slider = {damping_ratio = 0.2, tilting_damping = 9.0} -> guide.slider.damping_ratio = 0.2: not
+guide = {length = 0.3, tilting_stiffness = 1e6} -> guide.length = 0.3: not used .. tilting_stiffn
+guide.slider.tilting_stiffness = 1e6; guide.length = 0.3 -> guide.length = 0.3: not used .. its own
 =
 guide.ram.clearance = 1e-5 -> guide.ram: press has no such guide; allowed are slide,
 guide.length.clearance = 1e-5 -> guide.length: is a key of [guide], so that

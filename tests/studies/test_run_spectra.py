@@ -5,8 +5,9 @@ import pytest
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
+from exu_press.result.column import column_of
 from exu_press.result.windows import window
-from exu_press.studies.spectrum import column_of, marks_of, spectra
+from exu_press.studies.spectrum import marks_of, spectra
 
 PIN = {"clearance": 1e-4, "radius": 0.03}
 DRY = Scene(
@@ -85,8 +86,8 @@ def test_the_command(run, tmp_path, capsys):
 
 
 def test_names_that_are_refused(run):
-    with pytest.raises(InputError, match=r"channel 'slider_velocty': this run has none of that na"):
-        column_of(run, "slider_velocty")
+    with pytest.raises(InputError, match=r"none of that name \(did you mean 'crank_pin_force.x'"):
+        column_of(run, "crankpin_force.x")
     with pytest.raises(InputError, match=r"a column of it: crank_pin_force.x, crank_pin_force.y"):
         column_of(run, "crank_pin_force")
     with pytest.raises(InputError, match="slider_velocity has no columns"):

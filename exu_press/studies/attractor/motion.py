@@ -14,13 +14,13 @@ from exu_press.numerics.arrays import Array
 from exu_press.quantities import quantities_of
 from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
+from exu_press.result.column import column_of
 from exu_press.result.run import SHORT, run_once
 from exu_press.scene import Scene
 from exu_press.schema.checks import nearest
 from exu_press.studies.attractor.lyapunov import BATCHES, Exponent, combine_exponents
 from exu_press.studies.attractor.orbit import NoMotion, Orbit
 from exu_press.studies.attractor.period import MOST, Period, period_of
-from exu_press.studies.spectrum import column_of
 from exu_press.terminal.progress import Progress
 from exu_press.verification.distribution import Distribution, discretization_error, finer
 

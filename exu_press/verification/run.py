@@ -36,7 +36,7 @@ from exu_press.verification.reading import (
 )
 from exu_press.verification.refinement import RefinementRuns, plan
 
-__all__ = ["errors_of", "simulate_with_errors", "with_errors"]
+__all__ = ["errors_of", "largest_values", "simulate_with_errors", "with_errors"]
 
 Numbers = Mapping[float, Mapping[str, float]]
 """Quantities of the run and its refinements, by the ratio of their errors to the run's."""
@@ -182,7 +182,7 @@ def errors_of(
     sums = {name: q for name, q in declared.items() if q.quantity.cumulative}
     oscillating = {name: q for name, q in sums.items() if q.quantity.signed}
     late = _late_values(runs, horizon, oscillating) if diverging.distances else []
-    sizes, arm = _largest_values(whole[1.0], declared), mechanism_of(result.scene).size
+    sizes, arm = largest_values(whole[1.0], declared), mechanism_of(result.scene).size
     errors: dict[str, Error] = {}
     for name, value in whole[1.0].items():
         quantity = declared[name].quantity
@@ -285,7 +285,7 @@ def _is_extreme_over_parts(
     )
 
 
-def _largest_values(
+def largest_values(
     values: Mapping[str, float], declared: Mapping[str, QuantityAt]
 ) -> dict[tuple[str, Extreme], float]:
     """Return the largest value of each unit and extreme in a run, but for sums that cancel."""

@@ -10,6 +10,7 @@ from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.verification.distribution import Distribution, distributions
+from exu_press.verification.refine import negligible
 from exu_press.verification.run import simulate_with_errors
 
 __all__ = ["AchievedAccuracy", "accuracy_lines", "find_tolerance", "headline"]
@@ -83,8 +84,9 @@ def find_tolerance(
         names = headline(result, name)
         if not result.completed:
             return AchievedAccuracy(result, tolerance, dict.fromkeys(names))
-        error_ratios = {key: _error(result, key) / required for key in names}
-        largest_ratio = max(error_ratios.values())
+        known = negligible(result, required) if name is None else set()
+        error_ratios = {key: _error(result, key) / required for key in names if key not in known}
+        largest_ratio = max(error_ratios.values(), default=0.0)
         if largest_ratio <= 1.0:
             best = AchievedAccuracy(result, tolerance, {})
             next_tolerance = tolerance * min(AIM / max(largest_ratio, 1e-3), 20.0)

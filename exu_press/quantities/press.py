@@ -198,7 +198,7 @@ SHAKING = tuple(_resultants())
 
 LOADS = (
     Quantity("peak_force", "N", "largest force of the load",
-             LOAD, lambda run, load: peak(run[f"load_{load}_force"]), Owner.LOAD,
+             MOTION, lambda run, load: peak(run[f"load_{load}_force"]), Owner.LOAD,
              title="load, max", display_unit="kN", extreme=Extreme.LARGEST, curve="force"),
     Quantity("work", "J", "work that the load puts in",
              FLOW, lambda run, load: float(run[f"load_{load}_work"][-1]), Owner.LOAD,

@@ -86,6 +86,11 @@ class AppliedLoad:
         c, s = np.cos(angle), np.sin(angle)
         return np.asarray(force * ((c * x - s * y) * v - (s * x + c * y) * u))
 
+    @property
+    def largest(self) -> float:
+        """Magnitude, N, that the force never exceeds: infinity where damping adds to its curve."""
+        return math.inf if self.damping else self.curve.peak
+
     def shortest_edge(self, mechanism: Mechanism, angular_speed: float) -> float:
         """Return how long the steepest part of the curve takes from zero to the peak, s."""
         if self.sheet is not None:

@@ -45,9 +45,15 @@ def average_neighbours(run: Result) -> Result:
     The constraints of generalized-alpha leave loads that alternate from step to step, most so at
     the start and in the small steps of impacts; averaging removes that oscillation. A peak between
     steps loses twice the height by which it may exceed the steps. So the change of a quantity
-    bounds its reading error.
+    bounds its reading error. Forces of applied loads do not alternate, and are no larger than their
+    curve: one that meets its peak is exact.
     """
-    return _transform_units(run, LOADS | SPEEDS, _neighbour_average)
+    averaged, largest = _transform_units(run, LOADS | SPEEDS, _neighbour_average), _largest(run)
+    return averaged.map_values(
+        lambda name, values: (
+            _limited_average(run.time, values, largest[name]) if name in largest else values
+        )
+    )
 
 
 def add_start_overshoot(run: Result) -> Result:
@@ -163,11 +169,28 @@ def with_next_temperatures(run: Result) -> Result:
 def _transform_units(
     run: Result, units: frozenset[str], change: Callable[[Array, Array], Array]
 ) -> Result:
-    """Return a run whose channels of these units are change(time (n,), values (n, ...))."""
-    time, unit_of = run.time, run.units
+    """Return a run whose channels of these units are change(time (n,), values (n, ...)).
+
+    Forces of applied loads are left as they are: curves prescribe them.
+    """
+    time, unit_of, applied = run.time, run.units, _largest(run)
     return run.map_values(
-        lambda name, values: change(time, values) if unit_of[name] in units else values
+        lambda name, values: (
+            change(time, values) if unit_of[name] in units and name not in applied else values
+        )
     )
+
+
+def _largest(run: Result) -> dict[str, float]:
+    """Return what applied loads never exceed, N, by the channels of their forces."""
+    return {f"load_{name}_force": load.largest for name, load in run.scene.applied_loads.items()}
+
+
+def _limited_average(time: Array, force: Array, largest: float) -> Array:
+    """Return a force (n,) averaged with its neighbours, by twice what it misses of `largest`."""
+    change = _neighbour_average(time, force) - force
+    missed = np.maximum(largest - np.abs(force), 0.0)
+    return force + np.copysign(np.fmin(np.abs(change), 2.0 * missed), change)
 
 
 def _neighbour_average(time: Array, values: Array) -> Array:

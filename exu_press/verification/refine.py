@@ -6,14 +6,20 @@ from pathlib import Path
 
 from exu_press.model.state import State
 from exu_press.quantities import quantities_of, values_of
+from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
 from exu_press.scene import Scene
-from exu_press.verification.run import simulate_with_errors
+from exu_press.verification.run import largest_values, simulate_with_errors
 
-__all__ = ["doubtful", "refinements"]
+__all__ = ["doubtful", "negligible", "refinements"]
 
 ENOUGH = 0.05
 """Largest relative error of a headline quantity that needs no finer run."""
+
+OF_LARGEST = 0.02
+"""Part of a required error, times the largest figure of a kind: a smaller error leaves a figure
+known, as that of an energy which is dissipated beside what is exchanged. Ideal joints dissipate
+rounding."""
 
 FINER = 4.0
 """Factor from one tolerance to the next finer one."""
@@ -29,13 +35,28 @@ FINEST = 1e-6
 
 def doubtful(result: Result) -> list[str]:
     """Return the headline quantities that are not determined, or known to worse than ENOUGH."""
-    values = values_of(result)
+    values, known = values_of(result), negligible(result, ENOUGH)
     names = []
     for name, placed in quantities_of(result.scene).items():
-        value = values[name]
-        if placed.quantity.headline and value.value and value.error is not None:
+        value, looked_at = values[name], placed.quantity.headline and name not in known
+        if looked_at and value.value and value.error is not None:
             is_known = value.determined and value.error <= ENOUGH * abs(value.value)
             names += [] if is_known else [name]
+    return names
+
+
+def negligible(result: Result, required: float) -> set[str]:
+    """Return the quantities with an error below OF_LARGEST of a required relative one.
+
+    It is relative to the largest figure of the unit, an extreme to the largest extreme.
+    """
+    declared, names = quantities_of(result.scene), set()
+    largest = largest_values(numbers_of(result, declared), declared)
+    for name, stated in result.info["errors"].items():
+        quantity = declared[name].quantity
+        size = largest.get((quantity.unit, quantity.extreme), 0.0)
+        if stated["error"] <= OF_LARGEST * required * size:
+            names.add(name)
     return names
 
 

@@ -12,6 +12,7 @@ from exu_press.integrate import SolverStatus
 from exu_press.model.state import State
 from exu_press.quantities import Extreme, Quantity, QuantityAt, quantities_of
 from exu_press.quantities.kind import RESULTANT, SHARE
+from exu_press.quantities.reading import Reading
 from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
 from exu_press.result.info import Error, Errors
@@ -36,7 +37,7 @@ from exu_press.verification.reading import (
 )
 from exu_press.verification.refinement import RefinementRuns, plan
 
-__all__ = ["errors_of", "simulate_with_errors", "with_errors"]
+__all__ = ["errors_of", "largest_values", "simulate_with_errors", "with_errors"]
 
 Numbers = Mapping[float, Mapping[str, float]]
 """Quantities of the run and its refinements, by the ratio of their errors to the run's."""
@@ -192,7 +193,7 @@ def errors_of(
     sums = {name: q for name, q in declared.items() if q.quantity.cumulative}
     oscillating = {name: q for name, q in sums.items() if q.quantity.signed}
     late = _late_values(runs, horizon, oscillating) if diverging.distances else []
-    sizes, arm = _largest_values(whole[1.0], declared), mechanism_of(result.scene).size
+    sizes, arm = largest_values(whole[1.0], declared), mechanism_of(result.scene).size
     errors: dict[str, Error] = {}
     for name, value in whole[1.0].items():
         quantity = declared[name].quantity
@@ -269,10 +270,16 @@ def _error(
 def _late_values(
     runs: Mapping[float, Result], horizon: float, declared: Mapping[str, QuantityAt]
 ) -> list[Numbers]:
-    """Return quantities at INSTANTS late in the settled part, before the horizon (s)."""
+    """Return quantities at INSTANTS late in the settled part, before the horizon (s).
+
+    None of whole revolutions, at whose ends no energy is lent: sums there are as exact as those per
+    stroke, and errors within a stroke are larger.
+    """
     parts = {ratio: settled_part(run) for ratio, run in runs.items()}
     begin, end = parts[1.0].time[0], min(parts[1.0].time[-1], horizon)
-    if end <= begin or min(len(run.time) for run in parts.values()) < 4:
+    whole = Reading(runs[1.0]).whole
+    ends_whole = whole is not None and whole - begin <= SAME * (end - begin)
+    if end <= begin or ends_whole or min(len(run.time) for run in parts.values()) < 4:
         return []
     instants = np.linspace(begin + LATE * (end - begin), end, INSTANTS, endpoint=False)
     return [
@@ -295,7 +302,7 @@ def _is_extreme_over_parts(
     )
 
 
-def _largest_values(
+def largest_values(
     values: Mapping[str, float], declared: Mapping[str, QuantityAt]
 ) -> dict[tuple[str, Extreme], float]:
     """Return the largest value of each unit and extreme in a run, but for sums that cancel."""

@@ -1,7 +1,7 @@
 """The loosest tolerance at which quantities are within a required error."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from exu_press.errors import InputError
 from exu_press.quantities import quantities_of, quantity_of, value_of
@@ -10,6 +10,8 @@ from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
 from exu_press.scene import Scene
 from exu_press.verification.distribution import Distribution, distributions
+from exu_press.verification.fixed_errors import FixedError, fixed_errors
+from exu_press.verification.refine import negligible
 from exu_press.verification.run import simulate_with_errors
 
 __all__ = ["AchievedAccuracy", "accuracy_lines", "find_tolerance", "headline"]
@@ -40,12 +42,14 @@ class AchievedAccuracy:
     Attributes:
         result: of the run, with its errors.
         unmet: quantities that no tolerance determines within the required error, with their
-            distribution over revolutions; None where there is none.
+            distribution over revolutions, where the motion is chaotic and they have one, else None.
+        fixed: errors of those whose error exceeds the required one at any tolerance.
     """
 
     result: Result
     tolerance: float
     unmet: dict[str, Distribution | None]
+    fixed: dict[str, FixedError] = field(default_factory=dict)
 
 
 def headline(result: Result, name: str | None = None) -> list[str]:
@@ -83,8 +87,12 @@ def find_tolerance(
         names = headline(result, name)
         if not result.completed:
             return AchievedAccuracy(result, tolerance, dict.fromkeys(names))
-        error_ratios = {key: _error(result, key) / required for key in names}
-        largest_ratio = max(error_ratios.values())
+        known = negligible(result, required) if name is None else set()
+        error_ratios = {key: _error(result, key) / required for key in names if key not in known}
+        fixed = fixed_errors(result, error_ratios)
+        if exceeding := {key: e for key, e in fixed.items() if e.relative > required}:
+            return AchievedAccuracy(result, tolerance, dict.fromkeys(exceeding), exceeding)
+        largest_ratio = max(error_ratios.values(), default=0.0)
         if largest_ratio <= 1.0:
             best = AchievedAccuracy(result, tolerance, {})
             next_tolerance = tolerance * min(AIM / max(largest_ratio, 1e-3), 20.0)
@@ -109,7 +117,8 @@ def find_tolerance(
     if best is not None:
         return best
     unmet = [key for key, error in error_ratios.items() if error > 1.0]
-    alternatives = distributions(scene, unmet, required, quiet=quiet)
+    is_chaotic = result.info["horizon"] is not None
+    alternatives = distributions(scene, unmet, required, quiet=quiet) if is_chaotic else {}
     return AchievedAccuracy(result, tolerance, {key: alternatives.get(key) for key in unmet})
 
 
@@ -132,13 +141,22 @@ def accuracy_lines(achieved: AchievedAccuracy, required: float) -> list[str]:
     tolerance = achieved.tolerance
     if not achieved.unmet:
         return [f"every figure asked for within {100 * required:.3g} %: tolerance {tolerance:.2g}"]
-    lines = _horizon_lines(achieved.result)
+    lines = [] if achieved.fixed else _horizon_lines(achieved.result)
     for name, distribution in achieved.unmet.items():
+        if name in achieved.fixed:
+            fixed = achieved.fixed[name]
+            lines.append(
+                f"{name}: not within {100 * required:.3g} % at any tolerance: {fixed.cause} alone "
+                f"leaves {100 * fixed.relative:.2g} %; allow more, or take {fixed.cure}"
+            )
+            continue
         lines.append(
             f"{name}: not within {100 * required:.3g} %, down to a tolerance of {tolerance:.2g}"
         )
         if distribution is None:
-            lines.append("  no distribution: it adds up, or one revolution does not have it")
+            is_chaotic = achieved.result.info["horizon"] is not None
+            why = "it adds up, or one revolution does not have it"
+            lines.append(f"  no distribution: {why if is_chaotic else 'motion is not chaotic'}")
             continue
         text = "; ".join(
             f"{percent:.0f} % below {value:.4g} ({low:.4g} to {high:.4g})"

@@ -70,6 +70,18 @@ def test_energy_and_mean_power_are_as_unsure_as_the_balance(run):
     assert np.trapezoid(power, run.time) == pytest.approx(residual)
 
 
+@pytest.mark.parametrize("missed", [0.0, 100.0])
+def test_a_load_is_read_as_exactly_as_its_curve_is_met(missed):
+    """Runs that share their steps pass over the peak of a pulse alike, or end a step at it."""
+    pulse = {"kind": "blanking", "force": 1e4, "start_angle_deg": 10.0}
+    run = simulate(SCENE.replace({"load": {"press": pulse}}))
+    force = run["load_press_force"]
+    assert force.max() == pytest.approx(1e4, rel=1e-12)
+    read = run.with_values({"load_press_force": np.minimum(force, 1e4 - missed)})
+    stated = errors_of(read, [(4.0, read), (8.0, read)])["errors"]["loads.press.peak_force"]
+    assert missed <= stated["error"] < 1.6 * missed + 1e-4
+
+
 def test_a_peak_velocity_between_steps_is_stated(run):
     """Runs that share their steps pass over it alike, and agree."""
     peak = run.time[100] + 0.5 * (run.time[101] - run.time[100])

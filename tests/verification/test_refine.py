@@ -4,6 +4,7 @@ import re
 import time
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from exu_press import Result, Scene, simulate
@@ -41,12 +42,23 @@ def fake(monkeypatch, bare, part, seconds=0.0):
 def test_doubtful_is_what_is_off_by_more_than_a_twentieth_or_not_determined(bare):
     assert refine.doubtful(stated(bare, 0.04)) == []
     assert refine.doubtful(stated(bare, 0.06)) == ["stroke"]
-    open_ = stated(bare, 0.0)
+    open_ = stated(bare, 0.04)
     open_.info["errors"]["stroke"]["determined"] = False
     assert refine.doubtful(open_) == ["stroke"]
     name = "peak_acceleration.differentiated_1khz"  # a reading that nobody asked for
     unknown = {**open_.info["errors"]["stroke"], "error": 1e3}
     assert refine.doubtful(replace(bare, info={**bare.info, "errors": {name: unknown}})) == []
+
+
+def test_what_ideal_joints_dissipate_is_rounding_beside_what_is_exchanged(bare):
+    balance = {"energy_input": -1e3, "energy_dissipated": 1e-6}
+    run = bare.with_values(
+        {name: np.full(len(bare.time), value) for name, value in balance.items()}
+    )
+    for error, names in ((0.9, []), (1.1, ["energy.dissipated"])):
+        stated = {"error": error, "determined": True, "low": 0.0, "high": error}
+        run.info["errors"] = {"energy.dissipated": stated}
+        assert refine.doubtful(run) == names
 
 
 def test_it_goes_on_until_it_is_known(bare, monkeypatch):

@@ -208,6 +208,20 @@ def test_energies_that_agree_at_the_end_by_chance_are_not_known_so_well(result):
     assert expected <= 1.1 * found[1] <= 1.2 * expected
 
 
+def test_a_sum_over_whole_revolutions_is_known_as_well_as_per_stroke():
+    """What runs differ by within a stroke, as in energy that flows back, is no error of either."""
+    film = {"law": "short", "viscosity": 0.1, "length": 0.05}
+    joints = {"crank_pin": "lubricated"}
+    run = simulate(Scene(mechanism="slider_crank", joints=joints, film=film, revolutions=1.0))
+    swing = np.sin(20.0 * np.pi * run.time / run.time[-1])
+    away = run["crank_pin_eccentricity"] * (1.0 + 1e-3 * swing[:, None])
+    values = {"crank_pin_eccentricity": away, "energy_input": run["energy_input"] + 9.0 * swing}
+    other = run.with_values(values)
+    errors = errors_of(run, [(0.5, other), (8.0, other)])["errors"]
+    total, per_stroke = (errors[f"energy.input{of}"]["error"] for of in ("", "_per_stroke"))
+    assert total == pytest.approx(per_stroke) and 0.0 < total < 1.0
+
+
 def test_what_energies_differ_by_while_a_run_settles_is_no_error():
     run = simulate(Scene(**DRY, revolutions=0.1, settle=0.04))
     early = np.where(run.time > 0.2 * run.time[-1], 5.0, 0.0)

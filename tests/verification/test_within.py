@@ -37,11 +37,44 @@ def test_where_no_tolerance_delivers_the_distribution_is_told(monkeypatch):
     few = functools.partial(distributions, minimum=14, maximum=14)
     monkeypatch.setattr(within, "distributions", few)
     monkeypatch.setattr(within, "FINEST", 1e-2)
+
+    def chaotic(scene, **_):
+        run = simulate(scene, errors=True)
+        return dataclasses.replace(run, info={**run.info, "horizon": 0.01})
+
+    monkeypatch.setattr(within, "simulate_with_errors", chaotic)
     scene = Scene(mechanism="slider_crank", joints={"crank_pin": "dry"}, revolutions=0.05)
     found = find_tolerance(scene.replace({"solver.tolerance": 2e-2}), 1e-5)
     assert found.tolerance == 1e-2
     assert found.unmet[NAME].revolutions == 14
     assert found.unmet["energy.dissipated"] is None
+
+
+def test_what_no_tolerance_makes_smaller_is_named_at_once(monkeypatch):
+    """The table of a film's law leaves half a percent of the film, of which 0.6 are left here."""
+    scene = Scene(
+        mechanism="slider_crank",
+        joints={"crank_pin": "lubricated"},
+        film={"law": "finite", "viscosity": 0.1, "length": 0.05},
+        revolutions=0.02,
+    )
+    run = simulate(scene, errors=True)
+    monkeypatch.setattr(within, "simulate_with_errors", lambda *_, **__: run)
+    found = find_tolerance(scene, 1e-3, name := "joints.crank_pin.max_eccentricity_ratio")
+    ratio = run.quantity(name).value
+    assert found.tolerance == 1e-3 and found.unmet == {name: None}
+    assert found.fixed[name].relative == pytest.approx(0.005 * (1.0 - ratio) / ratio)
+    (line,) = accuracy_lines(found, 1e-3)
+    assert "the table of its film law alone leaves" in line
+
+
+def test_a_motion_that_is_not_chaotic_has_no_distribution(calm, monkeypatch):
+    run = dataclasses.replace(calm, info={**calm.info, "errors": {}})
+    monkeypatch.setattr(within, "simulate_with_errors", lambda *_, **__: run)
+    monkeypatch.setattr(within, "distributions", lambda *_, **__: pytest.fail("it was computed"))
+    found = find_tolerance(calm.scene, 0.01, NAME)
+    assert found.unmet == {NAME: None}
+    assert accuracy_lines(found, 0.01)[-1] == "  no distribution: motion is not chaotic"
 
 
 def test_a_run_that_stops_early_ends_the_search():

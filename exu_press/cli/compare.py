@@ -74,7 +74,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         help="write every quantity of every run, in SI, with its error and bounds",
     )
-    add_run_arguments(parser)
+    add_run_arguments(parser, "compare; of one scene alone out/SCENE")
     add_error_argument(parser)
 
 

@@ -45,10 +45,10 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
     add_run_arguments(parser)
 
 
-def add_run_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add --set, --allow-code, --out, --quiet and those of pictures."""
+def add_run_arguments(parser: argparse.ArgumentParser, folder: str = "SCENE") -> None:
+    """Add --set, --allow-code, --out, which is out/FOLDER, --quiet and those of pictures."""
     add_set_argument(parser, "the scene, as in film.viscosity=0.1")
-    _add_output_arguments(parser, "SCENE")
+    _add_output_arguments(parser, folder)
 
 
 def add_code_argument(parser: argparse.ArgumentParser) -> None:
@@ -76,7 +76,7 @@ def add_error_argument(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--no-error",
         action="store_true",
-        help="leave out the errors of the figures, and the coarser runs that they need",
+        help="leave out the errors of the figures, and the finer and coarser runs that they need",
     )
 
 

@@ -65,7 +65,8 @@ def record(run: Recording) -> Record:
             normal_force = [s * end.rubbing[:, 0] for s, end in zip(on_right, ends, strict=True)]
             sliding = [end.rubbing[:, 1] for end in ends]
             names = ("wall_force", "pin_sliding") if guide.is_slot else ("normal_force", "sliding")
-            values = (np.squeeze(np.column_stack(v)) for v in (normal_force, sliding))
+            pairs = (normal_force, sliding)
+            values = (v[0] if guide.is_slot else np.column_stack(v) for v in pairs)
             channels |= guide_channels(
                 model.mechanism, guide.name, **dict(zip(names, values, strict=True))
             )

@@ -122,6 +122,11 @@ class GroovedLaw(FilmLaw):
                 "grooves: missing; allowed is one [[film.grooves]] at least, as in angle_deg = 90, "
                 "width_deg = 10, or film.tilt > 0; without both: film.law = 'finite'"
             )
+        if self.tilt_direction_deg and "tilt" not in self.given_values:
+            raise InputError(
+                f"tilt_direction_deg = {self.tilt_direction_deg!r}: not used without film.tilt, "
+                "the angle by which the journal leans there; remove it, or give both"
+            )
         for k, groove in enumerate(grooves):
             if groove.length is not None and groove.length > length:
                 raise InputError(

@@ -150,3 +150,8 @@ def test_a_pin_without_a_diameter_does_not_wear():
     changes = {"guide.width": 0.0, "wear.guides": {"yoke_slot": {"coefficient": 1e-5}}}
     with pytest.raises(InputError, match=r"guide\.width = 0"):
         SLOTTED.replace(changes)
+
+
+def test_a_run_that_stops_at_its_start_has_both_ends_of_its_guides():
+    run = simulate(SLOTTED.replace({"solver.min_step": 0.5}))
+    assert (run["guide_sliding"].shape, run["yoke_slot_slot_pin_sliding"].shape) == ((1, 2), (1,))

@@ -179,6 +179,7 @@ film.grooves = [{width_deg = 359.9999}] -> <= 359, which leaves 1 deg of bearing
 film.grooves = [{width_deg = 10.0, length = 0.051}] -> film.grooves.0.length = 0.051
 film.grooves = [{width_deg = 9, pressure = 1e5}] -> film.grooves.0.pressure = 100000.0: .. length <
 film.grooves = [{width_deg = 360.0}] -> film.grooves: .. shorter than the bearing
+film = {grooves = [{width_deg = 9}], tilt_direction_deg = 9} -> film.tilt_direction_deg = 9.0: not
 film.tilt = 4e-3 -> film.tilt = 0.004: allowed is a number < 2 * clearance .. = 0.004
 film = {tilt = 1e-3, at_contact = 'mixed'} -> 'mixed' with film.tilt: allowed is 'stop'
 film.grooves = [{width_deg = 360, length = 5e-3, pressure = 1e5}]; film.tilt = 1e-3 -> with pressure

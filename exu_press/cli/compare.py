@@ -53,6 +53,9 @@ COMPARISON = "comparison.json"
 CURVES = ".csv"
 """Ending of the files of measured curves."""
 
+SCENES = "", ".toml"
+"""Endings of the files of scenes."""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
@@ -201,6 +204,11 @@ def _load_items(
         file = find_run(path) if path.is_dir() else path
         if file.suffix == ".nc":
             item: Scene | Result = Result.load(file)
+        elif path.is_file() and path.suffix not in SCENES:
+            raise InputError(
+                f"{name}: allowed is a scene (.toml), a {RESULT} or the directory of one, or a "
+                f"measurement ({CURVES})"
+            )
         else:
             item = Scene.load(scene_path(name), assignments, allow_code=allow_code)
         label = file.resolve().parent.name if file.name == RESULT else path.stem

@@ -150,10 +150,10 @@ def _refuse_held(stiffness: sp.csr_matrix, nodes: Array, file: Path) -> None:
     force, size = abs(stiffness @ motions), abs(stiffness) @ abs(motions)
     shares = (force.max(axis=0) / size.max(axis=0)).round(9)
     if shares.max() > ROUNDED:
-        motion = ("moved along x", "along y", "along z", "turned about x", "about y", "about z")
         worst = int(shares.argmax())
+        motion = f"{'turned about' if worst > 2 else 'moved along'} {'xyz'[worst % 3]}"
         raise InputError(
-            f"{file}: rigid modes are missing: the body resists when it is {motion[worst]} as a "
+            f"{file}: rigid modes are missing: the body resists when it is {motion} as a "
             f"whole ({shares[worst]:.2g} of its largest forces); "
             "allowed is the stiffness of the free body, without supports and constraints, with the "
             "nodes' positions that belong to it"

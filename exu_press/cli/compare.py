@@ -55,6 +55,9 @@ COMPARISON = "comparison.json"
 CURVES = ".csv"
 """Ending of the files of measured curves, and of a table of all quantities."""
 
+SCENES = "", ".toml"
+"""Endings of the files of scenes."""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
@@ -238,6 +241,11 @@ def _load_items(
         file = _file_of(name)
         if file.suffix == ".nc":
             item: Scene | Result = Result.load(file)
+        elif path.is_file() and path.suffix not in SCENES:
+            raise InputError(
+                f"{name}: allowed is a scene (.toml), a {RESULT} or the directory of one, or a "
+                f"measurement ({CURVES})"
+            )
         else:
             item = Scene.load(scene_path(name), assignments, allow_code=allow_code)
         label = file.resolve().parent.name if file.name == RESULT else Path(name).stem

@@ -15,6 +15,7 @@ __all__ = [
     "locate",
     "note_content",
     "note_digests",
+    "note_file",
     "recorded_files",
 ]
 
@@ -50,6 +51,12 @@ def note_content(path: Path, content: bytes) -> None:
     """Record a file's content as read."""
     if _READ.get() is not None:
         note_digests({_name_of(path): hashlib.sha256(content).hexdigest()})
+
+
+def note_file(path: Path) -> None:
+    """Record a file as read, as it is now; one that has not changed is hashed once."""
+    if _READ.get() is not None:
+        note_digests({_name_of(path): file_digest(path)})
 
 
 def note_digests(digests: Mapping[str, str]) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TypedDict
 
 from exu_press.errors import InputError
+from exu_press.files.digests import note_content
 from exu_press.files.output_directory import refuse_link, writing
 from exu_press.parallel.task import FAILED, TIME_LIMIT, WORKER_DIED, Row
 from exu_press.schema.stored import from_json
@@ -52,6 +53,8 @@ class RowFile(AbstractContextManager["RowFile", None]):
         try:
             self._file = _open_own_file(path)
             text = self._file.read()
+            if text:
+                note_content(path, text)
             *lines, torn = text.split(b"\n")
             for number, line in enumerate(lines, start=1):
                 self._read(number, line)

@@ -59,8 +59,8 @@ def uncertain(
     '1010 +- 170'
     >>> uncertain(1014.2, {**stated, "determined": False, "low": 860.1, "high": 1084.6})
     '860 to 1080, not determined'
-    >>> uncertain(5, {**stated, "error": 1e-9})
-    '5 exact'
+    >>> uncertain(5, {**stated, "error": 0.0}), uncertain(5, {**stated, "error": 1.0})
+    ('5 exact', '5 +- 1')
     >>> uncertain(5, {**stated, "determined": False, "low": 4, "high": 7})
     '5 (4 to 7, not determined)'
     >>> uncertain(-9.41e-94, None), uncertain(9.41e-94, {**stated, "error": 1e-95})
@@ -76,9 +76,11 @@ def uncertain(
         if isinstance(value, int):
             return f"{value} ({low:.3g} to {high:.3g}, not determined)"
         return f"{_bound_text(low, high)} to {_bound_text(high, high)}, not determined"
-    if _is_exact(value, error):
+    if error["error"] == 0.0:
         return f"{value if isinstance(value, int) else significant(value * scale, digits)} exact"
     spread, scaled = error["error"] * scale, value * scale
+    if isinstance(value, int):
+        return f"{value} +- {math.ceil(spread)}"
     places = 1 - _exponent(spread)
     most = MOST_PLACES - _exponent(scaled)
     if places > most:
@@ -99,7 +101,7 @@ def bracket_text(
     ('857.3(9)', '26.3839(1)')
     >>> bracket_text(1014.2, {**stated, "determined": False, "low": 830.4, "high": 1535.0})
     '830..1540'
-    >>> bracket_text(5, {**stated, "error": 1e-9}), bracket_text(5, None), bracket_text(None, None)
+    >>> bracket_text(5, {**stated, "error": 0.0}), bracket_text(5, None), bracket_text(None, None)
     ('=5', '5', '-')
     """
     if value is None:
@@ -108,7 +110,7 @@ def bracket_text(
     scaled, whole = value * scale, isinstance(value, int)
     if error is not None and error["error"] is None:
         error = None
-    if error is None or _is_exact(value, error):
+    if error is None or error["error"] == 0.0:
         digits = digits if error is None else MOST_DIGITS
         text = _narrow(scaled, 0 if whole else max(digits - 1 - _exponent(scaled), 0))
         return text if error is None else f"={text}"
@@ -157,11 +159,6 @@ def _with_last_digit(value: float, spread: float, most: int, power: bool) -> str
         return f"{_places(value, places)}({last * 10 ** max(-places, 0)})"
     exponent = max(_exponent(value), -places)
     return f"{value / 10.0**exponent:.{exponent + places}f}({last})e{exponent}"
-
-
-def _is_exact(value: float, error: Mapping[str, Any]) -> bool:
-    """Return whether an error leaves a figure no other value: a count has whole ones alone."""
-    return bool(error["error"] < 0.5 if isinstance(value, int) else error["error"] == 0.0)
 
 
 def _range(low: float, high: float, *, whole: bool) -> str:

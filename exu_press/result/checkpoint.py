@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TypedDict, TypeVar
 
 from exu_press.errors import InputError, error_prefix
+from exu_press.files.digests import note_file
 from exu_press.files.lock import LOCK, lock_directory
 from exu_press.files.output_directory import checkpoint_directory, refuse_link, writing
 from exu_press.result import netcdf
@@ -129,21 +130,27 @@ def read(path: Path, kind: type[Kind]) -> Kind:
     if has_blocks(path):
         return _read_checkpoint(path, kind)
     beside = checkpoint_directory(path)
-    if not has_blocks(beside):
-        return netcdf.read(path, kind)
-    if not path.is_file():
-        return _read_checkpoint(beside, kind)
-    warnings.warn(
-        f"{path}: an earlier run's; what the last one left, which goes on or was killed, is "
-        f"{beside}",
-        stacklevel=3,
-    )
-    return netcdf.read(path, kind)
+    if has_blocks(beside):
+        if not path.is_file():
+            return _read_checkpoint(beside, kind)
+        warnings.warn(
+            f"{path}: an earlier run's; what the last one left, which goes on or was killed, is "
+            f"{beside}",
+            stacklevel=3,
+        )
+    return _read_file(path, kind)
+
+
+def _read_file(path: Path, kind: type[Kind]) -> Kind:
+    """Return the result in a file, which is recorded as read; of blocks their checksums are."""
+    run = netcdf.read(path, kind)
+    note_file(path)
+    return run
 
 
 def _read_checkpoint(directory: Path, kind: type[Kind]) -> Kind:
     """Return the run in a directory, as one of the revolutions that it has made."""
-    run = netcdf.read(directory / HEAD, kind)
+    run = _read_file(directory / HEAD, kind)
     with error_prefix(f"{directory / HEAD}: damaged: "):
         blocks = from_json(Blocks, netcdf.read_text(directory / HEAD, "blocks"), "blocks")
     warnings.warn(

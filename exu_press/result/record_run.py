@@ -93,14 +93,14 @@ def _info(model: Model, outcome: Outcome) -> Info:
         "coordinates": mbs.systemData.ODE2Size(),
         "bodies": len(model.nodes),
         "connectors": mbs.systemData.NumberOfObjects() - len(model.nodes) - 1,
-        "versions": dict(_versions()),
+        "versions": dict(_versions(flexible=bool(model.parts))),
         "state": state_of(model),
     }
 
 
 @functools.cache
-def _versions() -> Mapping[str, str]:
+def _versions(*, flexible: bool) -> Mapping[str, str]:
     """Return the versions of Python and packages; looking them up takes a tenth of a short run."""
-    packages = ("exu-press", "exudyn", "numpy", "scipy")
+    packages = ("exu-press", "exudyn", "numpy", "scipy", *(["ngsolve"] if flexible else []))
     installed = {name: importlib.metadata.version(name) for name in packages}
     return {"python": platform.python_version(), **installed}

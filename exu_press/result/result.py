@@ -181,7 +181,8 @@ class Result(Contents):
             labels: of this run and those; their kinds of bodies and joints unless given.
 
         Raises:
-            InputError: the runs have no revolutions in common, or labels are not one for each.
+            InputError: a run is none, the runs have no revolutions in common, or labels are not
+                one for each.
         """
         from exu_press import compare_results
 

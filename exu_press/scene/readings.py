@@ -1,6 +1,6 @@
 """The table [output] readings: windows and rates at which peaks are read beside the usual ones."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -53,6 +53,20 @@ class Readings(Table):
     def rates(self) -> list[str]:
         """Rates of samples by their names, as "5khz"."""
         return list(self._labels("sampled", RATES))
+
+    def too_long(self, turns: float, speed_rpm: float) -> Iterator[str]:
+        """Yield in words the readings that a record of so many revolutions is too short for."""
+        record = 60.0 * turns / speed_rpm
+        spans = [("average", value, value, "s") for value in self.average or ()]
+        spans += [("average_deg", v, v / (6.0 * speed_rpm), "deg") for v in self.average_deg or ()]
+        spans += [("sampled", rate, 2.0 / rate, "Hz") for rate in self.sampled or ()]
+        for name, value, span, unit in spans:
+            if span > (1.0 + ROUNDED) * record:
+                yield (
+                    f"{self.table}.{name} has {value:g} {unit}, which reads {span:.3g} s at least; "
+                    f"the record from which quantities are read has {record:.3g} s, so that it has "
+                    "no value"
+                )
 
     def _labels(self, name: str, units: Mapping[str, float]) -> Iterable[str]:
         """Return values as whole numbers of the largest of some units that makes them so."""

@@ -49,6 +49,7 @@ def scene_warnings(scene: Scene) -> list[str]:
         *_forming(scene),
         *_wear(scene),
         *_brake(scene),
+        *_readings(scene),
     ]
 
 
@@ -232,6 +233,13 @@ def _forming(scene: Scene) -> Iterator[str]:
                 f"load.{name} acts while the output closes, and pushes the way it goes: it puts "
                 "energy in. A forming force is positive in the output's direction."
             )
+
+
+def _readings(scene: Scene) -> Iterator[str]:
+    """Yield readings that are longer than the record, whose length a schedule decides else."""
+    readings = None if scene.output is None else scene.output.readings
+    if readings is not None and not (scene.drive is not None and scene.drive.has_schedule):
+        yield from readings.too_long(scene.revolutions - scene.settle_revolutions, scene.speed_rpm)
 
 
 def _outside(

@@ -141,8 +141,14 @@ def compare_results(results: Sequence[Result], labels: Sequence[str]) -> Compari
     """Return runs beside each other, labelled by their kinds of bodies and joints unless told.
 
     Raises:
-        InputError: there are as many labels as runs, or two are the same.
+        InputError: a run is none, or labels are not as many as runs, or two are the same.
     """
+    for result in results:
+        if not isinstance(result, Result):
+            raise InputError(
+                f"compare: {result!r:.200} is no run; allowed are results, as simulate or "
+                "Result.load returns them"
+            )
     names = list(labels)
     if not names:
         kinds = [_kind(result) for result in results]

@@ -12,12 +12,14 @@ from exu_press.result.info import Error
 from exu_press.scene import Scene
 
 __all__ = [
+    "OF_COUNTS",
     "ORDERS",
     "convergent_error",
     "error_ratio",
     "extreme_over_parts",
     "prediction_interval",
     "single_difference_factor",
+    "whole_error",
 ]
 
 ORDERS = {"tolerance": 0.6, "step": 0.8}
@@ -30,6 +32,9 @@ step itself. scripts/calibrate_errors.py measures what such powers cover."""
 PREDICTION_FACTORS = {1: 11.0, 2: 3.85, 3: 2.9, 4: 2.55}
 """Number of differences -> half the width of the interval that holds 95 % of further samples, over
 the root mean square of a normal sample's differences (tests/verification/test_estimate.py)."""
+
+OF_COUNTS = 1.0
+"""Least root mean square difference of counts in diverged runs: they may agree by chance."""
 
 DETERMINED = 0.05
 """Relative error within which a quantity is determined, however chaotic the motion is."""
@@ -89,7 +94,11 @@ def single_difference_factor(ratio: float) -> float:
 
 
 def prediction_interval(
-    values: Sequence[float], least: float = 0.0, shares: Sequence[float] | None = None
+    values: Sequence[float],
+    least: float = 0.0,
+    shares: Sequence[float] | None = None,
+    *,
+    scatter: float = 0.0,
 ) -> Error:
     """Return the 95 % prediction interval of a quantity whose motions have diverged.
 
@@ -98,13 +107,33 @@ def prediction_interval(
         least: error, in the quantity's unit, on top.
         shares: distance of each further run from the first, over that of the exact motion: half of
             it shows half of the scatter; None: all are as far.
+        scatter: least root mean square of the differences.
     """
     differences = np.asarray(values[1:]) - values[0]
     if shares is not None:
         differences = differences / np.minimum(shares, 1.0)
     factor = PREDICTION_FACTORS.get(len(differences), 2.4)
-    error = factor * float(np.sqrt(np.mean(differences**2))) + ROUNDING * abs(values[0]) + least
+    scatter = max(scatter, float(np.sqrt(np.mean(differences**2))))
+    error = factor * scatter + ROUNDING * abs(values[0]) + least
     return _about(values[0], error, determined=error <= DETERMINED * abs(values[0]))
+
+
+def whole_error(value: float, error: Error, doubtful: bool) -> Error:
+    """Return the error of a count, which is none or one at least.
+
+    Args:
+        value: whole.
+        error: from other runs.
+        doubtful: whether one more or less is possible although they agree.
+
+    >>> one = {"error": 0.77, "determined": True, "low": 11.23, "high": 12.77}
+    >>> whole_error(12.0, one, doubtful=False)["high"]
+    13.0
+    >>> whole_error(12.0, {**one, "error": 1e-8}, doubtful=False)["error"]
+    0.0
+    """
+    most = float(max(math.ceil(error["error"] - ROUNDING * (1.0 + abs(value))), doubtful))
+    return _about(value, most, determined=error["determined"])
 
 
 def extreme_over_parts(value: float, first: Error, second: Error, extreme: Extreme) -> Error:

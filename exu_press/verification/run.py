@@ -11,7 +11,8 @@ from exu_press.errors import DiskFullError
 from exu_press.integrate import SolverStatus
 from exu_press.model.state import State
 from exu_press.quantities import Extreme, Quantity, QuantityAt, quantities_of
-from exu_press.quantities.kind import RESULTANT, SHARE
+from exu_press.quantities.joints import IMPACTS
+from exu_press.quantities.kind import COUNT, RESULTANT, SHARE
 from exu_press.quantities.reading import Reading
 from exu_press.quantities.value import numbers_of
 from exu_press.result import Result
@@ -21,11 +22,14 @@ from exu_press.result.windows import at_instant, settled_part, up_to, window
 from exu_press.scene import Scene, mechanism_of
 from exu_press.verification.divergence import Divergence, divergence
 from exu_press.verification.estimate import (
+    OF_COUNTS,
     convergent_error,
     error_ratio,
     extreme_over_parts,
     prediction_interval,
+    whole_error,
 )
+from exu_press.verification.impacts import are_doubtful
 from exu_press.verification.reading import (
     add_energy_residual,
     add_start_overshoot,
@@ -202,9 +206,11 @@ def errors_of(
         reading = max(weight * abs(value - values[name]) for weight, values in rereadings)
         reading += quantity.law_error(result.scene, declared[name].owner, value)
         begin = [until_horizon, *late] if name in oscillating else [until_horizon]
-        error = _error(
-            name, quantity.extreme, whole, begin, beyond_horizon, least + reading, diverging
-        )
+        error = _error(name, quantity, whole, begin, beyond_horizon, least + reading, diverging)
+        if quantity.kind is COUNT:
+            is_impacts = quantity.name == IMPACTS.name
+            doubtful = is_impacts and are_doubtful(declared[name].owner, result, complete)
+            error = whole_error(value, error, doubtful)
         if value >= 0.0 and not quantity.signed:
             error["low"] = max(error["low"], 0.0)
             is_known = error["error"] <= max(value, OF_FLOOR * least)
@@ -227,7 +233,7 @@ def errors_of(
 
 def _error(
     name: str,
-    extreme: Extreme,
+    quantity: Quantity,
     whole: Numbers,
     until_horizon: Sequence[Numbers],
     beyond_horizon: Numbers,
@@ -259,12 +265,14 @@ def _error(
         [list(numbers.values()) for numbers in instants],
     )
     distances = [diverging.distances.get(r, 1.0) for r in values if r != 1.0]
+    extreme = quantity.extreme
     if second and _is_extreme_over_parts(extreme, values, first, second):
         interval = prediction_interval(list(second.values()), least, distances)
         return extreme_over_parts(values[1.0], convergent, interval, extreme)
     if all(abs(first[r] - value) <= SAME * abs(value) for r, value in values.items()):
         return convergent
-    return prediction_interval(list(values.values()), least, distances)
+    scatter = OF_COUNTS if quantity.kind is COUNT and quantity.cumulative else 0.0
+    return prediction_interval(list(values.values()), least, distances, scatter=scatter)
 
 
 def _late_values(

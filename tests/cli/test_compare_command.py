@@ -218,6 +218,7 @@ def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
         (["press", "no_such_file.toml"], "no_such_file.toml: cannot be read"),
         (["press", str(tmp_path)], "has none of run.nc; allowed is a directory that has one"),
         (["press", str(tmp_path / "none.nc")], "none.nc: cannot be read"),
+        (["press", str(result / "summary.json")], "summary.json: allowed is a scene (.toml), a r"),
         ([str(result)], "a result alone; allowed are two or more, or a scene alone"),
         ([str(curve)], "a measurement alone; allowed are scenes or results beside it"),
         ([str(result)] * 2 + ["--set", "gravity=0"], "--set gravity=0: changes scenes, and none"),

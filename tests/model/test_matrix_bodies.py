@@ -73,6 +73,7 @@ def test_matrices_of_ngsolve_give_the_run_of_the_step_file(matrices, compare):
         expected = from_step.quantity(name).value
         compare(name, expected, result.quantity(name).value, error=None, rel=1e-4, unit="N")
     assert not [name for name in result.channels if "stress" in name]
+    assert result.info["versions"]["ngsolve"]
 
 
 @pytest.mark.validation(

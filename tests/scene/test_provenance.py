@@ -8,6 +8,7 @@ import pytest
 
 from exu_press import Result, Scene
 from exu_press.cli import main
+from exu_press.files.digests import recorded_files
 from exu_press.scene.provenance import changed_inputs, provenance_of
 
 MECHANISM = Path(__file__).parents[2] / "exu_press" / "mechanism" / "files" / "six_bar.toml"
@@ -62,7 +63,9 @@ def test_summary_result_and_study_say_where_they_come_from(folder):
     words = ["run", "scene.toml", "--no-error", "--no-pictures", "--quiet", "--out", "o"]
     assert main(words) == 0
     summary = json.loads(Path("o/summary.json").read_text())["provenance"]
-    assert summary == Result.load("o/run.nc").info["provenance"]
+    with recorded_files() as files:
+        assert summary == Result.load("o/run.nc").info["provenance"]
+    assert files == {"o/run.nc": digest(folder / "o/run.nc")}
     assert summary["command"] == " ".join(["exu-press", *words])
     assert summary["files"].keys() == {"scene.toml", "mine.toml", "cut.csv"}
     Path("study.toml").write_text('scene = "scene.toml"\n[keys]\nspeed_rpm = [100.0]\n')
@@ -71,3 +74,9 @@ def test_summary_result_and_study_say_where_they_come_from(folder):
     report = json.loads(Path("s/report.json").read_text())["provenance"]
     assert report["files"].items() > summary["files"].items()
     assert report["files"]["study.toml"] == digest(folder / "study.toml")
+    rows = {"s/runs.jsonl": digest(folder / "s/runs.jsonl")}
+    Path("scene.toml").write_text(f"# a comment{SCENE}")
+    assert main(["sweep", "study.toml", *more]) == 0
+    again = json.loads(Path("s/report.json").read_text())["provenance"]
+    changed = {"scene.toml": digest(folder / "scene.toml")}
+    assert again["files"] == {**report["files"], **changed, **rows}, "rows are an earlier command's"

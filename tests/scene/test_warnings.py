@@ -26,6 +26,10 @@ def worn(coefficient, **more):
     }  # fmt: skip
 
 
+def readings(**given):
+    return {"speed_rpm": 240.0, "revolutions": 2.0, "settle": 1.0, "output": {"readings": given}}
+
+
 def pins(film=FINITE, **joints):
     return {"joints": joints, "film": film}
 
@@ -76,6 +80,9 @@ SLIPS = [
     (worn(0.06), ["wear.coefficient"]),
     (worn(1e-4, joints={"crank_pin": {"coefficient": 0.06}}), ["joints.crank_pin.coefficient"]),
     ({"bodies": {"linkage": {"flexible": "linkage", "modes": 500}}}, ["takes minutes"]),
+    (readings(average=[10.0]), ["average has 10 s", "has 0.25 s, so that it has no value"]),
+    (readings(average_deg=[361.0]), ["average_deg has 361 deg, which reads 0.251 s at least"]),
+    (readings(sampled=[7.0]), ["sampled has 7 Hz, which reads 0.286 s at least"]),
 ]  # fmt: skip
 """Scenes that are hardly meant, and what is said of each."""
 
@@ -96,6 +103,7 @@ USUAL = [
     crank(rod_mass=2.0),
     worn(0.04),
     {"bodies": {"linkage": {"flexible": "linkage", "modes": 100}}},
+    readings(average=[0.25], average_deg=[360.0], sampled=[8.0]),
 ]
 
 

@@ -82,6 +82,8 @@ def test_runs_are_labelled_by_what_they_are(result):
     assert list(comparison.results) == ["rigid dry 1", "rigid dry 2"]
     with pytest.raises(InputError, match="labels"):
         result.compare(result, labels=("a",))
+    with pytest.raises(InputError, match="compare: 5 is no run; allowed are results, as simulate"):
+        result.compare(5)
 
 
 def test_energies_per_stroke_are_those_of_whole_revolutions(scene):

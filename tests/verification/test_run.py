@@ -76,6 +76,27 @@ def test_motions_that_part_leave_bounds(result):
     assert stated["errors"]["joints.crank_pin.share_contact"]["high"] == 1.0
 
 
+@pytest.mark.parametrize(
+    ("shift", "side", "error"), [(3e-7, 1.0, 0.0), (5e-7, 1.0, 1.0), (0.0, -1.0, 4.0)]
+)
+def test_a_count_is_exact_where_its_errors_make_or_lose_no_impact(result, shift, side, error):
+    """Five touches and the flights between them are 1 um high; the runs have as many of them.
+
+    The gap's error is 1 / (1 - 0.5**0.6) = 2.9 times the shift. Motions that have parted say least.
+    """
+    part = result.time / result.time[-1]
+    joint = result.scene.joints["crank_pin"]
+    runs = []
+    for moved in (0.0, shift):
+        distance = joint.clearance - joint.onset - 1e-6 * np.cos(10.0 * np.pi * part) + moved
+        sides = np.where((part > 0.5) & (len(runs) > 0), side, 1.0)
+        place = np.column_stack([sides * distance, 0.0 * part])
+        runs.append(result.with_values({"crank_pin_eccentricity": place}))
+    stated = errors_of(runs[0], [(0.5, runs[1]), (4.0, runs[1])])
+    told = stated["errors"]["joints.crank_pin.impacts"]
+    assert (told["error"], told["low"], told["high"]) == (error, 5.0 - error, 5.0 + error)
+
+
 def test_errors_go_with_the_tolerance_until_journals_are_apart(result):
     """The same forces count otherwise once their journals have nothing in common."""
     clearance = result.scene.joints["crank_pin"].clearance

@@ -14,6 +14,7 @@ from exu_press.errors import InputError
 from exu_press.numerics.arrays import Array
 from exu_press.parallel.task import COMPLETED, Row
 from exu_press.result import Result
+from exu_press.result.netcdf import read
 from exu_press.scene import Scene
 from exu_press.studies.base import Range
 from exu_press.studies.base.evaluation import Evaluation, Point, error_in, numbers_in
@@ -166,7 +167,7 @@ class Problem:
             path = self._directory / file_of(scenes[condition])
             if not path.exists():
                 raise InputError(f"{curve.file}: the run at the start failed")
-            result = Result.load(path)
+            result = read(path, Result)
             if self._fit_sensor(curve, scenes[condition])[1] is None:
                 raise InputError(
                     f"{curve.file}: reaches from {curve.read.at[0]:g} to {curve.read.at[-1]:g} "
@@ -202,7 +203,7 @@ class Problem:
 
     def _fit_sensor(self, curve: Curve, scene: Scene) -> tuple[Array, RecordedCurve | None]:
         """Return a curve as measured, and as the sensor would record that of a scene's run."""
-        result = Result.load(self._directory / file_of(scene))
+        result = read(self._directory / file_of(scene), Result)
         at, values, unit = channel_polynomials(curve.file, curve.read, result)
         measured = curve.values(unit)
         model = fit_sensor(curve, measured, at, values)

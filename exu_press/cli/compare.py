@@ -241,7 +241,7 @@ def _load_items(
         file = _file_of(name)
         if file.suffix == ".nc":
             item: Scene | Result = Result.load(file)
-        elif path.is_file() and path.suffix not in SCENES:
+        elif Path(name).is_file() and Path(name).suffix not in SCENES:
             raise InputError(
                 f"{name}: allowed is a scene (.toml), a {RESULT} or the directory of one, or a "
                 f"measurement ({CURVES})"

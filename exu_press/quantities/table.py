@@ -17,6 +17,7 @@ from exu_press.quantities.uncertain import bracket_legend, bracket_text, uncerta
 from exu_press.quantities.value import Value, values_of
 from exu_press.result import Result
 from exu_press.result.info import Error
+from exu_press.result.windows import NEARLY
 from exu_press.scene import mechanism_of
 from exu_press.terminal.columns import columns
 
@@ -202,7 +203,7 @@ def run_lines(result: Result) -> list[str]:
 def span_text(run: Reading) -> str:
     """Return the revolutions from which quantities are read."""
     begin, end = (f"{round(turn, 4):g}" for turn in run.span)
-    return f"{begin} to {end}{'' if run.span[0] > 1e-3 else ', with the start'}"
+    return f"{begin} to {end}{'' if run.span[0] > NEARLY else ', with the start'}"
 
 
 def _lines(

@@ -78,13 +78,17 @@ class Reading:
         return mechanism_of(self.result.scene)
 
     @property
-    def _starts_or_stops(self) -> bool:
+    def starts_or_stops(self) -> bool:
+        """Whether the press starts or stops within the run."""
         motor = self.result.scene.drive
         return motor is not None and motor.has_schedule
 
     @property
     def span(self) -> tuple[float, float]:
         """Return the first and the last revolution that are read."""
+        if "figures" in self.run.info:
+            read_from = self.run.info["figures"]["read_from"]
+            return read_from["from"], read_from["to"]
         first, *_, last = self["crank_angle"] if len(self.time) > 1 else [0.0, 0.0]
         begin = self.run.scene.start_angle
         return self._turns(first - begin), self._turns(last - begin)
@@ -105,7 +109,7 @@ class Reading:
 
         0 of a press that starts or stops: its mean is not that of operation.
         """
-        if self._starts_or_stops:
+        if self.starts_or_stops:
             return 0
         angle = self["crank_angle"]
         return whole_revolutions(float(angle[-1] - angle[0]) / (2.0 * np.pi))
@@ -125,7 +129,7 @@ class Reading:
         They are the last whole ones; where a motor lags in a run of one, a nominal one.
         """
         period = 60.0 / self.result.scene.speed_rpm
-        if self._starts_or_stops:
+        if self.starts_or_stops:
             return None
         duration = float(self.time[-1] - self.time[0])
         if self.whole is None and whole_revolutions(duration / period):

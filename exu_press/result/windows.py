@@ -79,9 +79,7 @@ def settled_part(run: Result) -> Result:
     )
     part = interpolated_window(run, float(begin), float(end))
     energies = [name for name, unit in run.units.items() if unit == "J"]
-    return part.map_values(
-        lambda name, values: values - values[0] if name in energies else values
-    )
+    return part.map_values(lambda name, values: values - values[0] if name in energies else values)
 
 
 def interpolated_window(run: Result, begin: float, end: float) -> Result:

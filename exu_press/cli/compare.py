@@ -40,9 +40,12 @@ from exu_press.studies.curve_comparison import (
     comparison_rows,
 )
 from exu_press.studies.curve_file import CurveFile, read_curve
-from exu_press.studies.equal_windows import require_common_window, with_equal_windows
+from exu_press.studies.equal_windows import (
+    require_common_window,
+    simulate_equal_windows,
+    with_equal_windows,
+)
 from exu_press.terminal.columns import columns
-from exu_press.verification.side_by_side import simulate_side_by_side
 
 __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
@@ -70,7 +73,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "measurement with a head as time (s),slider_acceleration (m/s^2); one scene alone is "
         "compared with ideal, dry and lubricated joints, with rigid and with flexible bodies",
     )
-    parser.add_argument("--wide", action="store_true", help="print all digits, in wider columns")
+    parser.add_argument(
+        "--wide",
+        action="store_true",
+        help="print names in full and two digits of every error, in wider columns, and in which "
+        "figures runs surely differ; --csv has all digits",
+    )
     parser.add_argument(
         "--csv",
         metavar="FILE",
@@ -185,7 +193,7 @@ def _run_all(
     summaries: dict[str, dict[str, Any]] = {}
     scenes = {label: item for label, item in compared.items() if isinstance(item, Scene)}
     stored = ((label, item) for label, item in compared.items() if isinstance(item, Result))
-    runs = simulate_side_by_side(scenes, errors=not options.no_error, quiet=options.quiet)
+    runs = simulate_equal_windows(scenes, errors=not options.no_error, quiet=options.quiet)
     for label, result in itertools.chain(stored, runs):
         results[label], summaries[label] = result, result.summary()
         remove_pictures(folders[label], "run")

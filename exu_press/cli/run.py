@@ -28,7 +28,7 @@ from exu_press.files.output_directory import (
     write_json,
 )
 from exu_press.model.state import State
-from exu_press.quantities.table import run_lines
+from exu_press.quantities.remarks import run_lines
 from exu_press.result import Result
 from exu_press.result.checkpoint import refuse_blocks, remove, set_aside
 from exu_press.scene import Scene

@@ -12,7 +12,7 @@ from exu_press.quantities.dead_centre import bottom_dead_centres
 from exu_press.quantities.joints import contact_onsets
 from exu_press.quantities.value import values_of
 from exu_press.result import Result
-from exu_press.result.windows import settled_part
+from exu_press.result.windows import NEARLY, settled_part
 from exu_press.scene import mechanism_of
 
 __all__ = ["dead_centres", "impacts", "peaks", "values_on"]
@@ -56,9 +56,9 @@ def dead_centres(result: Result) -> list[dict[str, Any]]:
     if ends is None or len(result.time) < 2:
         return []
     angle = result["crank_angle"]
-    turns = np.arange(np.ceil((angle[0] - ends[0]) / (2 * np.pi) - 1e-9), angle[-1] / 6.0 + 2)
+    turns = np.arange(np.ceil((angle[0] - ends[0]) / (2 * np.pi) - NEARLY), angle[-1] / 6.0 + 2)
     tops = ends[0] + 2 * np.pi * turns
-    times = np.interp(tops[tops <= angle[-1] * (1 + 1e-12)], angle, result.time)
+    times = np.interp(tops[tops <= angle[-1] + 2 * np.pi * NEARLY], angle, result.time)
     marks: list[dict[str, Any]] = [{"kind": "TDC", "at": float(time)} for time in times]
     if {"slider_position", "slider_velocity"} <= set(result.channels):
         marks += [{"kind": "BDC", "at": centre.time} for centre in bottom_dead_centres(result)]

@@ -2,7 +2,7 @@
 
 import math
 import textwrap
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from exu_press.mechanism.press import NoCounterweight
 from exu_press.result import Result
@@ -17,9 +17,6 @@ ONE_LINE = math.inf
 FEW = 3
 """Joints or groups with clearance that are named one by one."""
 
-OF_ALL_LOADS, OF_ALL_SCENES = "load ", ("drive", "guides", "counterweight")
-"""Keys of phrases that are common only where every scene has them."""
-
 SEPARATOR = "  ·  "
 CROSS = "\N{MULTIPLICATION X}"  # as it marks the end of the curves
 
@@ -30,20 +27,10 @@ def describe(scenes: Iterable[Scene], width: float = 130) -> str:
     A joint that only some scenes have with clearance is named with that clearance.
     """
     scenes = list(scenes)
-    joints = dict.fromkeys(name for scene in scenes for name in scene.joints.by_group)
-    same = len({str(_of_many(scene)) for scene in scenes}) == 1
-    phrases_of_scene = [
-        _parts(scene, joints, grouped=same or len(joints) > FEW) for scene in scenes
-    ]
-    keys = dict.fromkeys(key for parts in phrases_of_scene for key in parts)
-    shared: list[str] = []
-    for key in keys:
-        texts = {parts.get(key) for parts in phrases_of_scene}
-        if key not in OF_ALL_SCENES and not key.startswith(OF_ALL_LOADS):
-            texts.discard(None)
-        if len(texts) == 1:
-            shared += filter(None, texts)
-    return _join_wrapped(dict.fromkeys(shared), width)
+    kinds = [_kinds_of_joints(scene) for scene in scenes]
+    joints = kinds[0] if all(kind == kinds[0] for kind in kinds) else _common_of_joints(scenes)
+    first, *others = (dict.fromkeys(_phrases(scene, joints)) for scene in scenes)
+    return _join_wrapped((text for text in first if all(text in other for other in others)), width)
 
 
 def early_stops(results: Mapping[str, Result], width: int = 130) -> str:
@@ -70,26 +57,21 @@ def joint_in_words(name: str) -> str:
     return name.replace("_", " ").capitalize()
 
 
-def _parts(scene: Scene, joints: Collection[str], *, grouped: bool) -> dict[str, str]:
-    """Return phrases by their subject; joints of one kind and clearance in one, or each alone."""
-    parts = {
-        "mechanism": mechanism_of(scene).name.replace("_", " ").capitalize(),
-        "bodies": _of_bodies(scene),
-        "speed": f"{scene.speed_rpm:g} rpm",
-    }
-    if not joints:
-        parts["joints"] = "all joints ideal"
-    parts |= _of_many(scene) if grouped else _of_each(scene, joints)
-    parts |= _of_loads(scene)
+def _phrases(scene: Scene, joints: Iterable[str]) -> Iterator[str]:
+    """Yield what there is to say about a scene, with phrases about its joints."""
+    yield mechanism_of(scene).name.replace("_", " ").capitalize()
+    yield _of_bodies(scene)
+    yield f"{scene.speed_rpm:g} rpm"
+    yield from joints
+    yield from _of_loads(scene)
     if scene.drive is not None:
         motor = scene.drive
         torque = motor.torque.shown_torque
-        parts["drive"] = f"motor of {torque:g} N m, flywheel {motor.inertia:g} kg m²"
+        yield f"motor of {torque:g} N m, flywheel {motor.inertia:g} kg m²"
     if scene.guides:
-        parts["guides"] = _of_guides(scene)
+        yield _of_guides(scene)
     if scene.press is not None and isinstance(scene.press.counterweight, NoCounterweight):
-        parts["counterweight"] = "no counterweight"
-    return parts
+        yield "no counterweight"
 
 
 def _of_guides(scene: Scene) -> str:
@@ -121,8 +103,7 @@ def _of_bodies(scene: Scene) -> str:
     return f"flexible {names}" if names else "rigid bodies"
 
 
-def _of_loads(scene: Scene) -> dict[str, str]:
-    parts = {}
+def _of_loads(scene: Scene) -> Iterator[str]:
     for name, load in scene.applied_loads.items():
         what = "blanking" if load.kind == "blanking" else f"{name.replace('_', ' ')}"
         words = f"{what} force {load.curve.peak / 1e3:g} kN"
@@ -133,33 +114,47 @@ def _of_loads(scene: Scene) -> dict[str, str]:
         arm = load.point[0] * load.direction[1] - load.point[1] * load.direction[0]
         if arm:
             words += f", {arm * 1e3:g} mm off centre"
-        parts[f"load {name}"] = words
-    return parts
+        yield words
 
 
-def _of_each(scene: Scene, joints: Iterable[str]) -> dict[str, str]:
-    parts = {}
-    for name in joints:
-        members = [scene.joints[n] for n in scene.joints.members(name) if n in scene.joints]
+def _common_of_joints(scenes: Sequence[Scene]) -> list[str]:
+    """Return the kinds that joints have in all scenes, and the clearances of those that have one.
+
+    Joints that are alike are in one phrase where more than FEW have clearance.
+    """
+    names = dict.fromkeys(name for scene in scenes for name in scene.joints.by_group)
+    common: list[tuple[str, str]] = []
+    for name in names:
+        members = [
+            scene.joints.get(member) for scene in scenes for member in scene.joints.members(name)
+        ]
         words = name.replace("_", " ")
-        if len({joint.kind for joint in members}) == 1:
-            parts[name] = f"{words} {members[0].kind}"
-        if len({joint.clearance for joint in members}) == 1 and members[0].clearance:
-            clearance = members[0].clearance * 1e3
-            singular = words.removesuffix("s") if name in scene.joints.groups else words
-            parts[f"{name} clearance"] = f"{singular} radial clearance {clearance:g} mm"
-    return parts
+        kinds = {None if joint is None else joint.kind for joint in members}
+        if len(kinds) == 1:
+            common.append((words, str(kinds.pop())))
+        clearances = {joint.clearance for joint in members if joint is not None} - {0.0}
+        if len(clearances) == 1:
+            text = f"radial clearance {clearances.pop() * 1e3:g} mm"
+            is_group = any(name in scene.joints.groups for scene in scenes)
+            one = words.removesuffix("s") if is_group and len(names) <= FEW else words
+            common.append((one, text))
+    if len(names) <= FEW:
+        return [f"{joint} {text}" for joint, text in common]
+    alike: dict[str, list[str]] = {}
+    for joint, text in common:
+        alike.setdefault(text, []).append(joint)
+    return [f"{', '.join(joints)} {text}" for text, joints in alike.items()]
 
 
-def _of_many(scene: Scene) -> dict[str, str]:
+def _kinds_of_joints(scene: Scene) -> list[str]:
     """Return the joints and groups of each kind and clearance in one phrase."""
     alike: dict[tuple[str, float], list[str]] = {}
     for name, joint in scene.joints.by_group.items():
         alike.setdefault((joint.kind, joint.clearance), []).append(name.replace("_", " "))
-    return {
-        f"{kind} {clearance}": f"{', '.join(names)} {kind}, clearance {clearance * 1e3:g} mm"
+    return [
+        f"{', '.join(names)} {kind}, clearance {clearance * 1e3:g} mm"
         for (kind, clearance), names in alike.items()
-    }
+    ] or ["all joints ideal"]
 
 
 def _join_wrapped(phrases: Iterable[str], width: float) -> str:

@@ -9,6 +9,7 @@ from exu_press.mechanism import Mechanism
 from exu_press.numerics.arrays import Array
 from exu_press.numerics.piecewise import hermite
 from exu_press.result import Result
+from exu_press.result.windows import NEARLY
 from exu_press.scene import mechanism_of
 
 __all__ = [
@@ -72,7 +73,8 @@ def behind_cut_centre(crank_angle: Array, about: float) -> int:
     first = float(crank_angle[0])
     past = (first - about + REACH) % (2.0 * np.pi)
     again = first - past + REACH + 2.0 * np.pi
-    if not 1e-9 < past < 2.0 * REACH or crank_angle[-1] < again - 1e-9:
+    near = 2.0 * np.pi * NEARLY
+    if not near < past < 2.0 * REACH or crank_angle[-1] < again - near:
         return 0
     return int(np.searchsorted(crank_angle, first - past + 2.0 * REACH))
 
@@ -89,8 +91,8 @@ def lowest_of_strokes(
         velocity: (n,), m/s.
         about: crank angle at which the ideal slider is lowest, rad.
     """
-    first = np.ceil((crank_angle[0] - about + REACH) / (2 * np.pi) - 1e-9)
-    last = np.floor((crank_angle[-1] - about - REACH) / (2 * np.pi) + 1e-9)
+    first = np.ceil((crank_angle[0] - about + REACH) / (2 * np.pi) - NEARLY)
+    last = np.floor((crank_angle[-1] - about - REACH) / (2 * np.pi) + NEARLY)
     strokes = np.round((crank_angle - about) / (2 * np.pi))
     near = np.abs(crank_angle - about - 2 * np.pi * strokes) <= REACH
     near &= (strokes >= first) & (strokes <= last)

@@ -1,6 +1,5 @@
 """Fatigue life of flexible bodies: rainflow cycles of their stress, an S-N curve, Miner's sum."""
 
-import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -29,7 +28,7 @@ def _peak_stress(run: Reading, body: str) -> float | None:
 
 
 def _of_cycles(
-    read: Callable[[list[tuple[float, float]], float, Flexible], float | None],
+    read: Callable[[list[tuple[float, float]], int, Flexible], float | None],
 ) -> Callable[[Reading, str], float | None]:
     """Return a reader of the cycles of a body's stress in the last whole revolutions.
 
@@ -46,18 +45,16 @@ def _of_cycles(
         stress = run.channel(f"{body}_stress")
         if run.whole is None or stress is None:
             return None
-        angle = run["crank_angle"][run.time >= run.whole]
         stress = stress[run.time > run.whole]
-        revolutions = float(angle[-1] - angle[0]) / (2.0 * math.pi)
         first = int(np.argmax(stress))
         cycles = require_rainflow().extract_cycles([*stress[first:], *stress[: first + 1]])
         amplitudes = [(0.5 * width, count) for width, _, count, *_ in cycles]
-        return read(amplitudes, revolutions, run.result.scene.bodies[body])
+        return read(amplitudes, run.revolutions, run.result.scene.bodies[body])
 
     return value
 
 
-def _life(cycles: list[tuple[float, float]], revolutions: float, body: Flexible) -> float | None:
+def _life(cycles: list[tuple[float, float]], revolutions: int, body: Flexible) -> float | None:
     taken = damage(cycles, body)
     return revolutions / taken if taken else None
 

@@ -12,7 +12,7 @@ from exu_press.numerics.piecewise import integral
 from exu_press.quantities.alternating import Peaks, peaks
 from exu_press.quantities.dead_centre import DeadCentre, bottom_dead_centres
 from exu_press.result import Result
-from exu_press.result.windows import settled_part
+from exu_press.result.windows import settled_part, whole_revolutions
 from exu_press.scene import mechanism_of
 
 __all__ = ["Reading"]
@@ -78,13 +78,17 @@ class Reading:
         return mechanism_of(self.result.scene)
 
     @property
-    def _starts_or_stops(self) -> bool:
+    def starts_or_stops(self) -> bool:
+        """Whether the press starts or stops within the run."""
         motor = self.result.scene.drive
         return motor is not None and motor.has_schedule
 
     @property
     def span(self) -> tuple[float, float]:
         """Return the first and the last revolution that are read."""
+        if "figures" in self.run.info:
+            read_from = self.run.info["figures"]["read_from"]
+            return read_from["from"], read_from["to"]
         first, *_, last = self["crank_angle"] if len(self.time) > 1 else [0.0, 0.0]
         begin = self.run.scene.start_angle
         return self._turns(first - begin), self._turns(last - begin)
@@ -100,19 +104,23 @@ class Reading:
         return bottom_dead_centres(self.result)
 
     @cached_property
-    def whole(self) -> float | None:
-        """Begin of the whole revolutions at the end, s, or None.
+    def revolutions(self) -> int:
+        """Number of whole revolutions at the end.
 
-        None of a press that starts or stops: its mean is not that of operation.
+        0 of a press that starts or stops: its mean is not that of operation.
         """
-        if self._starts_or_stops:
+        if self.starts_or_stops:
+            return 0
+        angle = self["crank_angle"]
+        return whole_revolutions(float(angle[-1] - angle[0]) / (2.0 * np.pi))
+
+    @cached_property
+    def whole(self) -> float | None:
+        """Begin of the whole revolutions at the end, s, or None."""
+        if not self.revolutions:
             return None
         angle = self["crank_angle"]
-        turns = np.floor((angle[-1] - angle[0]) / (2 * np.pi) + 1e-6)
-        if turns < 1.0:
-            return None
-        begin = float(np.interp(angle[-1] - 2 * np.pi * turns, angle, self.time))
-        return max(float(self.time[0]), begin)
+        return float(np.interp(angle[-1] - 2.0 * np.pi * self.revolutions, angle, self.time))
 
     @cached_property
     def speed_from(self) -> float | None:
@@ -121,10 +129,11 @@ class Reading:
         They are the last whole ones; where a motor lags in a run of one, a nominal one.
         """
         period = 60.0 / self.result.scene.speed_rpm
-        if self._starts_or_stops:
+        if self.starts_or_stops:
             return None
-        if self.whole is None and self.time[-1] - self.time[0] >= period * (1.0 - 1e-9):
-            return float(self.time[-1] - period)
+        duration = float(self.time[-1] - self.time[0])
+        if self.whole is None and whole_revolutions(duration / period):
+            return float(max(self.time[-1] - period, self.time[0]))
         return self.whole
 
     def mean(self, values: Array) -> float | None:
@@ -136,16 +145,14 @@ class Reading:
 
         None without one: over a fraction of a revolution the stored energy would count.
         """
-        return None if self.whole is None else self._change_over(self.time, amount)
+        if self.whole is None:
+            return None
+        return self._change(amount, self.whole) / float(self.time[-1] - self.whole)
 
     def per_stroke(self, amount: Array) -> float | None:
         """Return the mean change of a channel (n,) in a revolution, over the last whole ones."""
-        if self.whole is None:
-            return None
-        return self._change_over(self["crank_angle"] / (2.0 * np.pi), amount)
+        return None if self.whole is None else self._change(amount, self.whole) / self.revolutions
 
-    def _change_over(self, across: Array, amount: Array) -> float:
-        """Return the change of one channel (n,) over that of another, in the whole revolutions."""
-        assert self.whole is not None
-        first, begin = (np.interp(self.whole, self.time, values) for values in (amount, across))
-        return float((amount[-1] - first) / (across[-1] - begin))
+    def _change(self, amount: Array, begin: float) -> float:
+        """Return by how much a channel (n,) changes from an instant, s, to the end."""
+        return float(amount[-1] - np.interp(begin, self.time, amount))

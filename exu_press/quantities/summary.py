@@ -16,6 +16,7 @@ from exu_press.quantities.slopes import slope_warnings
 from exu_press.quantities.start_stop import commands_to_come, still_turns
 from exu_press.quantities.value import values_of
 from exu_press.result import JointRecord, Result
+from exu_press.result.windows import whole_revolutions
 from exu_press.scene import DryJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.assumptions import assumed_values
 from exu_press.scene.joint import Joint
@@ -58,9 +59,7 @@ def summary(result: Result) -> dict[str, Any]:
         "end_time": info["end_time"],
         "warnings": figures["warnings"] if figures else run_warnings(run),
         "assumed": assumed_values(result.scene),
-        "read_from": figures["read_from"]
-        if figures
-        else dict(zip(("from", "to"), run.span, strict=True)),
+        "read_from": dict(zip(("from", "to"), run.span, strict=True)),
         "quantities": {n: value.to_dict() for n, value in values.items() if n not in costs},
         "horizon": info.get("horizon"),
         "lyapunov_exponent": info.get("lyapunov_exponent"),
@@ -136,12 +135,29 @@ def run_warnings(run: Reading) -> list[str]:
         ]
     return [
         *texts,
+        *_lag_warnings(run),
         *oil_warnings(run),
         *slope_warnings(run),
         *_redundancy_warnings(scene),
         *_solid_warnings(result),
         *scene_warnings(scene),
     ]
+
+
+def _lag_warnings(run: Reading) -> Iterator[str]:
+    """Yield that a motor's crank has not turned all whole revolutions that were asked for."""
+    scene = run.run.scene
+    if scene.drive is None or run.starts_or_stops or not run.run.completed:
+        return
+    angle = run.run["crank_angle"]
+    turned = float(angle[-1] - angle[0]) / (2.0 * math.pi)
+    missing = whole_revolutions(scene.revolutions - scene.settle_revolutions) - run.revolutions
+    if missing > 0 and turned > 0.0:
+        needed = math.ceil(100.0 * scene.revolutions**2 / turned) / 100.0
+        yield (
+            "the motor turns the crank more slowly than speed_rpm: whole revolutions asked for "
+            f"{run.revolutions + missing}, read {run.revolutions}; try revolutions = {needed:g}"
+        )
 
 
 def _centred_joints(run: Reading) -> list[str]:

@@ -1,36 +1,25 @@
 """Quantities of runs beside each other: a line for each quantity and owner, a column a run."""
 
-import itertools
-import textwrap
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from exu_press.quantities.catalogue import CATALOGUE, GROUPS
-from exu_press.quantities.dead_centre import ideal_angles
 from exu_press.quantities.kind import LOAD
 from exu_press.quantities.observed import with_observed
 from exu_press.quantities.quantity import Owner, Quantity
-from exu_press.quantities.reading import Reading
-from exu_press.quantities.uncertain import bracket_legend, bracket_text, uncertain
+from exu_press.quantities.uncertain import bracket_text, uncertain
 from exu_press.quantities.value import Value, values_of
 from exu_press.result import Result
-from exu_press.result.info import Error
 from exu_press.scene import mechanism_of
-from exu_press.terminal.columns import columns
 
 __all__ = [
-    "WIDTH",
     "QuantityLine",
-    "difference_lines",
+    "in_words",
     "lines_by_heading",
     "narrow_cell",
     "quantity_cells",
-    "remarks",
-    "run_lines",
     "shown_value",
-    "span_text",
+    "titled_quantities",
     "with_headings",
 ]
 
@@ -49,21 +38,7 @@ SINGULAR = {
     Owner.BODY: "body",
 }
 
-NEAR_CENTRE = 2e-3
-"""Revolutions within which a dead centre of the ideal slider is known."""
-
-CENTRES = {
-    "stroke": (2, "both dead centres"),
-    "swing": (2, "both dead centres"),
-    "bottom_dead_centre": (1, "the dead centre itself"),
-    "least_angle": (1, "the dead centre itself"),
-}
-"""Of a quantity, the number of dead centres that it needs, the bottom one first, and their name."""
-
 HORIZON = "predictability horizon, ms"
-
-WIDTH = 100
-"""Letters of a line."""
 
 Cell = Callable[[Quantity, Value], str]
 
@@ -105,18 +80,8 @@ def lines_by_heading(results: Mapping[str, Result]) -> dict[str, list[QuantityLi
     does. Members of a group whose values are alike have one heading and the larger values.
     """
     runs = [values_of(result) for result in results.values()]
-    in_group = {quantity for quantities in GROUPS.values() for quantity in quantities}
-    own = [quantity for quantity in CATALOGUE if quantity not in in_group]
     lines: dict[str, list[QuantityLine]] = {}
-    for heading, quantities in {**GROUPS, OWN: own}.items():
-        titled = [
-            observed
-            for quantity in quantities
-            for observed in dict.fromkeys(
-                o for run in results.values() for o in with_observed([quantity], run.scene)
-            )
-            if observed.title
-        ]
+    for heading, titled in titled_quantities(results).items():
         of_run = [quantity for quantity in titled if quantity.owner is Owner.RUN]
         lines[heading] = _lines(of_run, runs, [""])
         for kind in dict.fromkeys(q.owner for q in titled if q.owner is not Owner.RUN):
@@ -124,6 +89,31 @@ def lines_by_heading(results: Mapping[str, Result]) -> dict[str, list[QuantityLi
             for name, owners in _shown_owners(kind, of_kind, results, runs).items():
                 lines.setdefault(name, []).extend(_lines(of_kind, runs, owners))
     return {heading: rows for heading, rows in lines.items() if rows}
+
+
+def titled_quantities(results: Mapping[str, Result]) -> dict[str, list[Quantity]]:
+    """Return the quantities that have lines, by the heading of their group."""
+    in_group = {quantity for quantities in GROUPS.values() for quantity in quantities}
+    own = [quantity for quantity in CATALOGUE if quantity not in in_group]
+    return {
+        heading: [
+            observed
+            for quantity in quantities
+            for observed in dict.fromkeys(
+                o for run in results.values() for o in with_observed([quantity], run.scene)
+            )
+            if observed.title
+        ]
+        for heading, quantities in {**GROUPS, OWN: own}.items()
+    }
+
+
+def in_words(quantities: Iterable[Quantity]) -> Iterator[str]:
+    """Yield the titles of quantities in their order, a detail's behind that of its quantity."""
+    main = ""
+    for quantity in quantities:
+        main = main if quantity.is_detail else quantity.title
+        yield f"{main}, {quantity.title}" if quantity.is_detail else main
 
 
 def quantity_cells(
@@ -147,62 +137,6 @@ def with_headings(cells: Mapping[str, Sequence[Sequence[str]]]) -> list[list[str
         table.append([heading, *[""] * (len(rows[0]) - 1)])
         table += [[f"  {row[0]}", *row[1:]] for row in rows]
     return table
-
-
-def remarks(results: Mapping[str, Result]) -> list[str]:
-    """Return what the table of runs by label does not show: strokes of parts, and what none has."""
-    values = {label: values_of(result) for label, result in results.items()}
-    texts = []
-    for name, (centres, without) in CENTRES.items():
-        parts = [
-            label
-            for label, result in results.items()
-            if name in values[label]
-            and "crank_angle" in result
-            and _is_part(Reading(result), centres)
-        ]
-        if parts:
-            runs = f" ({', '.join(parts)})" if len(results) > 1 else ""
-            title = name.replace("_", " ")
-            texts.append(f"{title}: of the part that was run, without {without}{runs}.")
-    titled = {
-        quantity.name
-        for result in results.values()
-        for quantity in with_observed(CATALOGUE, result.scene)
-        if quantity.owner is Owner.RUN and quantity.title
-    }
-    read = {name for v in values.values() for name in v if v[name].value is not None}
-    declared = dict.fromkeys(name for of_run in values.values() for name in of_run)
-    missing = [name for name in declared if name in titled - read]
-    if missing and len(results) > 1:
-        why = "too short, or without what they are read from"
-        texts.append(f"No run has {', '.join(missing)} ({why}).")
-    return texts
-
-
-def _is_part(run: Reading, centres: int) -> bool:
-    """Return whether a run misses the output's bottom dead centre or, of two centres, any."""
-    first, last = run["crank_angle"][[0, -1]] / (2.0 * np.pi)
-    return any(
-        np.ceil(first - about - NEAR_CENTRE) > last - about + NEAR_CENTRE
-        for about in np.array(ideal_angles(run.mechanism)[:centres]) / (2.0 * np.pi)
-    )
-
-
-def run_lines(result: Result) -> list[str]:
-    """Return one run's quantities, a line each, below its status and its window."""
-    head = f"{result.info['status']}; read from revolutions {span_text(Reading(result))}"
-    rows = quantity_cells({"": result}, narrow_cell)
-    legend = bracket_legend(itertools.chain(*rows.values()))
-    table = with_headings(rows)
-    texts = [legend, *remarks({"": result})]
-    return [head, *columns(table), *(x for text in texts for x in textwrap.wrap(text, WIDTH))]
-
-
-def span_text(run: Reading) -> str:
-    """Return the revolutions from which quantities are read."""
-    begin, end = (f"{round(turn, 4):g}" for turn in run.span)
-    return f"{begin} to {end}{'' if run.span[0] > 1e-3 else ', with the start'}"
 
 
 def _lines(
@@ -278,35 +212,3 @@ def _are_alike(
             if values and max(values) - min(values) > ALIKE * max(sizes):
                 return False
     return True
-
-
-def difference_lines(results: Mapping[str, Result]) -> list[str]:
-    """Return in which quantities two runs may be the same, pair by pair, where errors are known."""
-    lines = []
-    for (name, first), (second_name, second) in itertools.combinations(results.items(), 2):
-        stated = [run.info.get("errors", {}) for run in (first, second)]
-        unknown = [
-            label for label, errors in zip((name, second_name), stated, strict=True) if not errors
-        ]
-        if len(unknown) == 2:
-            continue
-        if unknown:
-            statement = f"{unknown[0]} has no errors, so that no difference is sure"
-        elif all(error == stated[1].get(label, error) for label, error in stated[0].items()):
-            statement = "no figure differs"
-        else:
-            unsure = list(_unsure(*stated))
-            statement = "all differences exceed their errors"
-            statement += f", except in {', '.join(unsure)}" * bool(unsure)
-        lines += textwrap.wrap(f"{name}, {second_name}: {statement}", WIDTH, subsequent_indent="  ")
-    return lines
-
-
-def _unsure(first: Mapping[str, Error], second: Mapping[str, Error]) -> Iterator[str]:
-    """Yield the quantities whose bounds overlap, but are not exactly the same."""
-    for name, a in first.items():
-        b = second.get(name)
-        if b is None or a == b:
-            continue
-        if a["low"] <= b["high"] and b["low"] <= a["high"]:
-            yield name

@@ -18,7 +18,7 @@ from exu_press.quantities.quantity import Extreme, Owner, Quantity
 from exu_press.quantities.reading import Reading
 from exu_press.result import Result
 from exu_press.result.channel import guide_channel
-from exu_press.result.windows import window
+from exu_press.result.windows import interpolated_window
 from exu_press.scene import DryJoint, LubricatedJoint, Scene, mechanism_of
 from exu_press.scene.joint import unworn
 
@@ -241,7 +241,7 @@ def wear_of_a_revolution(result: Result) -> dict[str, Any]:
     depths: dict[str, dict[str, Any]] = {"contacts": {}, "guideways": {}}
     if run.whole is None:
         return depths
-    last, turns = _whole(run, run.whole)
+    last, turns = _whole(run, run.whole), run.revolutions
     for joint in result.scene.wearing["joints"]:
         contacts = dataclasses.asdict(contacts_of(last, joint, turns))
         depths["contacts"][joint] = {
@@ -252,10 +252,9 @@ def wear_of_a_revolution(result: Result) -> dict[str, Any]:
     return depths
 
 
-def _whole(run: Reading, begin: float) -> tuple[Result, float]:
-    """Return the whole revolutions of a run, and how many they are."""
-    last = window(run.result, begin, float(run.time[-1]))
-    return last, float((last["crank_angle"][-1] - last["crank_angle"][0]) / (2.0 * np.pi))
+def _whole(run: Reading, begin: float) -> Result:
+    """Return the whole revolutions of a run."""
+    return interpolated_window(run.result, begin, float(run.time[-1]))
 
 
 def _wears(scene: Scene, joint: str) -> bool:
@@ -274,8 +273,7 @@ def _per_revolution(worn: Callable[[Result, str], float], run: Reading, owner: s
     """Return the mean wear of whole revolutions; None where there is none."""
     if run.whole is None:
         return None
-    last, turns = _whole(run, run.whole)
-    return worn(last, owner) / turns
+    return worn(_whole(run, run.whole), owner) / run.revolutions
 
 
 def _volume(result: Result, joint: str) -> float:

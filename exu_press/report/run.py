@@ -15,13 +15,8 @@ from exu_press.quantities.energy import BALANCE, has_balance
 from exu_press.quantities.kind import LOAD
 from exu_press.quantities.quantity import Owner
 from exu_press.quantities.reading import Reading
-from exu_press.quantities.table import (
-    quantity_cells,
-    remarks,
-    shown_value,
-    span_text,
-    with_headings,
-)
+from exu_press.quantities.remarks import remarks, span_text
+from exu_press.quantities.table import quantity_cells, shown_value, with_headings
 from exu_press.quantities.value import values_of
 from exu_press.report.html import details, page, paragraph, stills, table, warnings
 from exu_press.report.page_file import ALL, Span

@@ -20,6 +20,7 @@ from exu_press.result.checkpoint import open_checkpoint, write_checkpoint
 from exu_press.result.info import Info
 from exu_press.result.record_run import record
 from exu_press.result.result import Result
+from exu_press.result.windows import whole_revolutions
 from exu_press.scene import Scene
 from exu_press.scene.scene import SHORTEST_RUN
 from exu_press.terminal.progress import Progress
@@ -30,9 +31,6 @@ MOST_ADDED = 12
 """Revolutions added at most until films have settled."""
 
 TURN = 2.0 * math.pi
-
-WHOLE = 1e-6
-"""Tolerance of a whole revolution."""
 
 
 def block_by_block(
@@ -145,7 +143,7 @@ def _to_next_revolution(model: Model, remaining: float) -> float:
         model.until += TURN
     else:
         start = model.scene.start_angle
-        completed = math.floor((model.crank_at_start() - start) / TURN + WHOLE)
+        completed = whole_revolutions((model.crank_at_start() - start) / TURN)
         model.until = start + TURN * (completed + 1)
     return remaining  # a motor gets there when it does
 
@@ -160,7 +158,7 @@ def _update_film_temperatures(model: Model, block: Result) -> Result:
     rotation = float(block["crank_angle"][-1] - block["crank_angle"][0])
     if model.until is None:
         rotation = float(block.time[-1] - block.time[0]) * model.scene.angular_speed
-    if rotation < TURN * (1.0 - WHOLE):
+    if not whole_revolutions(rotation / TURN):
         return block
     info, time = block.info, block.time
     for name, film in model.warm.items():

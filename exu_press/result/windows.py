@@ -1,5 +1,7 @@
 """Parts of a run's record."""
 
+import math
+
 import numpy as np
 
 from exu_press.errors import InputError
@@ -8,14 +10,29 @@ from exu_press.numerics.piecewise import evaluate, spline
 from exu_press.result.result import Result
 
 __all__ = [
+    "NEARLY",
     "at_instant",
     "interpolated_window",
     "interval",
     "revolutions_of",
     "settled_part",
     "up_to",
+    "whole_revolutions",
     "window",
 ]
+
+NEARLY = 1e-3
+"""Revolutions that a whole one may lack, and by which equal windows may differ: a flexible crank
+twists, and one that a motor turns lags."""
+
+
+def whole_revolutions(turns: float) -> int:
+    """Return how many whole revolutions there are in some.
+
+    >>> whole_revolutions(1.99999), whole_revolutions(1.99), whole_revolutions(-0.5)
+    (2, 1, 0)
+    """
+    return max(0, math.floor(turns + NEARLY))
 
 
 def window(run: Result, begin: float, end: float) -> Result:
@@ -51,20 +68,18 @@ def settled_part(run: Result) -> Result:
     angle = run["crank_angle"]
     if not settle_revolutions or len(angle) < 2:
         return run
-    completed = (angle[-1] - start) / (2.0 * np.pi) * (1.0 + 1e-9)
+    completed = (angle[-1] - start) / (2.0 * np.pi)
     if completed <= settle_revolutions:
         return run
     settle_revolutions = max(settle_revolutions, (angle[0] - start) / (2.0 * np.pi))
-    whole = np.floor(completed - settle_revolutions + 1e-6)
+    whole = whole_revolutions(completed - settle_revolutions)
     last = settle_revolutions + whole if whole else completed
     begin, end = np.interp(
         start + 2.0 * np.pi * np.array([settle_revolutions, last]), angle, run.time
     )
-    whole_revolutions = interpolated_window(run, float(begin), float(end))
+    part = interpolated_window(run, float(begin), float(end))
     energies = [name for name, unit in run.units.items() if unit == "J"]
-    return whole_revolutions.map_values(
-        lambda name, values: values - values[0] if name in energies else values
-    )
+    return part.map_values(lambda name, values: values - values[0] if name in energies else values)
 
 
 def interpolated_window(run: Result, begin: float, end: float) -> Result:
@@ -107,5 +122,5 @@ def at_instant(run: Result, instant: float) -> Result:
 def revolutions_of(run: Result) -> list[Result]:
     """Return the records of a run's whole revolutions."""
     period = 60.0 / run.scene.speed_rpm
-    count = int((run.time[-1] - run.time[0]) / period * (1.0 + 1e-9))
+    count = whole_revolutions(float(run.time[-1] - run.time[0]) / period)
     return [window(run, k * period, (k + 1) * period) for k in range(count)]

@@ -34,7 +34,8 @@ def variants(scene: Scene) -> tuple[dict[str, Scene], list[str]]:
     with clearance, or those that its mechanism usually has; balls are dry beside lubricated pins,
     as in the paper, unless the scene lubricates them. Flexible bodies are the scene's, or those
     that its mechanism usually has, with modes for FLEXIBILITY_ERROR. Clearances, loads and whatever
-    else a variant uses are the scene's; a dry bearing is as long as its film.
+    else a variant uses are the scene's; a dry bearing is as long as its film. All are read from the
+    same revolutions, also where the oil of some settles longer.
 
     Raises:
         InputError: the scene has no joint with clearance, nor does its mechanism usually have one.
@@ -78,7 +79,13 @@ def variants(scene: Scene) -> tuple[dict[str, Scene], list[str]]:
             scenes_by_label[f"{bodies_kind}lubricated"] = scene_with_film
     if not any(label.endswith("lubricated") for label in scenes_by_label):
         left_out.append("lubricated: left out, as the scene has no film")
-    return scenes_by_label, left_out
+    settle = max(variant.settle_revolutions for variant in scenes_by_label.values())
+    return {
+        label: variant
+        if variant.settle_revolutions == settle
+        else variant.replace({"settle": settle})
+        for label, variant in scenes_by_label.items()
+    }, left_out
 
 
 def _flexible_scene(scene: Scene) -> tuple[Scene | None, str]:

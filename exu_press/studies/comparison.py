@@ -11,22 +11,15 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.plots.words import SEPARATOR, describe
 from exu_press.quantities.reading import Reading
-from exu_press.quantities.table import (
-    WIDTH,
-    difference_lines,
-    narrow_cell,
-    quantity_cells,
-    remarks,
-    shown_value,
-    span_text,
-    with_headings,
-)
+from exu_press.quantities.remarks import WIDTH, difference_lines, remarks, span_text
+from exu_press.quantities.table import narrow_cell, quantity_cells, shown_value, with_headings
 from exu_press.quantities.uncertain import CELL, bracket_legend
 from exu_press.quantities.value import Value, values_of
 from exu_press.result import Result
+from exu_press.result.windows import NEARLY
 from exu_press.schema.csv_table import Value as CsvValue
 from exu_press.studies.compare import different_keys
-from exu_press.studies.equal_windows import NEARLY, with_equal_windows
+from exu_press.studies.equal_windows import with_equal_windows
 from exu_press.terminal.columns import Notes, columns
 
 __all__ = ["Comparison", "compare_results"]
@@ -39,7 +32,7 @@ READ_FROM = "read from revolutions"
 
 @dataclass(frozen=True)
 class Comparison:
-    """Runs beside each other, read from equally long windows."""
+    """Runs beside each other, read from the same revolutions."""
 
     results: Mapping[str, Result]
 
@@ -92,8 +85,10 @@ class Comparison:
         else:
             headers = [("", ""), *(notes.header(label, CELL) for label in labels)]
             head = [list(line) for line in zip(*headers, strict=True)]
-            widths = [TITLE, *[CELL] * len(labels)]
-            fitted = [list(map(notes.cell, row, widths)) for row in table]
+            widths, heading = [TITLE, *[CELL] * len(labels)], [WIDTH] * len(table[0])
+            fitted = [
+                list(map(notes.cell, row, widths if any(row[1:]) else heading)) for row in table
+            ]
             head = head if any(head[0]) else head[1:]
             body = columns([*head, *fitted], right=True, gap=1)
             legend = [bracket_legend(itertools.chain(*cells.values()))]

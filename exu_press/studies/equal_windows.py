@@ -1,6 +1,6 @@
-"""Runs that are read from equally long windows."""
+"""Runs that are read from the same revolutions."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -9,78 +9,113 @@ import numpy as np
 from exu_press.errors import InputError
 from exu_press.quantities.reading import Reading
 from exu_press.result import Result
-from exu_press.result.windows import interpolated_window
+from exu_press.result.windows import NEARLY, interpolated_window, whole_revolutions
 from exu_press.scene import Scene
+from exu_press.verification.side_by_side import simulate_side_by_side
 
-__all__ = ["require_common_window", "with_equal_windows"]
+__all__ = ["require_common_window", "simulate_equal_windows", "with_equal_windows"]
 
-NEARLY = 1e-3
-"""Revolutions by which windows may differ."""
+CURE = "compare runs of the same settle (above 0 where a motor's crank lags) and revolutions"
 
-CURE = "compare runs of the same settle and revolutions"
+Span = tuple[float, float]
+"""First and last revolution that are read."""
 
 
 def require_common_window(items: Mapping[str, Scene | Result]) -> None:
     """Raise InputError unless scenes and results by label have revolutions in common."""
-    spans = {
-        label: (item.settle_revolutions, item.revolutions)
-        if isinstance(item, Scene)
-        else Reading(item).span
-        for label, item in items.items()
+    _common_span(
+        {
+            label: (item.settle_revolutions, item.revolutions)
+            if isinstance(item, Scene)
+            else Reading(item).span
+            for label, item in items.items()
+        }
+    )
+
+
+def simulate_equal_windows(
+    scenes: Mapping[str, Scene], *, errors: bool = True, quiet: bool = True
+) -> Iterator[tuple[str, Result]]:
+    """Yield label and result of each scene, as `simulate_side_by_side` does.
+
+    Scenes whose oil warms are first: where revolutions are added until films have settled, all
+    other scenes with a `settle` get as many, so that all are read from the same ones.
+    """
+    warming = {label: scene for label, scene in scenes.items() if scene.warms}
+    warm = dict(simulate_side_by_side(warming, errors=errors, quiet=quiet))
+    added = {label: run.info.get("added_revolutions", 0) for label, run in warm.items()}
+    most = max(added.values(), default=0)
+    yield from ((label, run) for label, run in warm.items() if added[label] == most)
+    others = {
+        label: _with_added(scene, most)
+        for label, scene in scenes.items()
+        if added.get(label) != most
     }
-    if not _are_equal(list(spans.values())):
-        _common_span(spans)
+    for label, run in simulate_side_by_side(others, errors=errors, quiet=quiet):
+        if others[label] is not scenes[label]:
+            further = most + run.info.get("added_revolutions", 0)
+            run = replace(run, info={**run.info, "added_revolutions": further})
+        yield label, run
+
+
+def _with_added(scene: Scene, revolutions: int) -> Scene:
+    """Return a scene that is read from so many revolutions later, if it has a `settle`."""
+    settle = scene.settle_revolutions
+    if not revolutions or not settle:
+        return scene
+    change = {"settle": settle + revolutions, "revolutions": scene.revolutions + revolutions}
+    return scene.replace(change)
 
 
 def with_equal_windows(results: Mapping[str, Result]) -> tuple[Mapping[str, Result], str]:
-    """Return runs by label with equal windows, and what was done for that, or nothing.
+    """Return runs by label that are read from the same revolutions, and what was cut for that.
 
-    Windows are equal where they are as long and begin whole revolutions apart, as they were read or
-    as scenes ask for them: a motor turns the crank by a little less or more. Others are cut to what
-    all runs have, where errors of figures are not known.
+    The text is empty where nothing was. Of runs that are cut the errors of figures are not known.
+    Presses that start or stop, each in as many revolutions as it takes, are read to their ends.
 
     Raises:
         InputError: the runs have no revolutions in common, or one of them has kept no channels.
     """
-    spans = [Reading(result).span for result in results.values()]
-    if _are_equal(spans) or _are_equal(list(map(_asked_span, results.values(), spans))):
+    spans = {label: Reading(result).span for label, result in results.items()}
+    asked = [_asked_span(run) for run in results.values()]
+    if asked[0] is not None and all(span == asked[0] for span in asked):
         return results, ""
-    begin, end = _common_span(dict(zip(results, spans, strict=True)))
+    begin, end = common = _common_span(spans)
+    cut = [label for label, span in spans.items() if not np.allclose(span, common, 0.0, NEARLY)]
+    if not cut:
+        return results, ""
     text = (
         f"The runs have different windows: figures are read from revolutions {begin:.4g} to "
-        f"{end:.4g}, which all have, and their errors are not known. For errors, {CURE}."
+        f"{end:.4g}, which all have. Errors of {', '.join(cut)} are not known, as these are cut. "
+        f"For errors, {CURE}."
     )
-    return {label: _restrict(label, run, begin, end) for label, run in results.items()}, text
+    return {
+        label: _restrict(label, run, begin, end) if label in cut else run
+        for label, run in results.items()
+    }, text
 
 
-def _common_span(spans: Mapping[str, tuple[float, float]]) -> tuple[float, float]:
-    """Return the revolutions that all runs by label have."""
+def _common_span(spans: Mapping[str, Span]) -> Span:
+    """Return the revolutions that all runs by label have; whole ones behind a settled start."""
     begin, end = max(begin for begin, _ in spans.values()), min(end for _, end in spans.values())
     if end - begin < NEARLY:
         texts = [
             f"{label} is read from {first:g} to {last:g}" for label, (first, last) in spans.items()
         ]
         raise InputError(f"the runs have no revolutions in common: {', '.join(texts)}; {CURE}")
-    return begin, end
+    if begin < NEARLY:
+        return 0.0, end
+    whole = whole_revolutions(end - begin)
+    return begin, begin + whole if whole else end
 
 
-def _are_equal(spans: Sequence[tuple[float, float]]) -> bool:
-    """Return whether spans of revolutions are as long and begin whole ones apart."""
-    first, last = spans[0]
-    shifts = [begin - first for begin, _ in spans]
-    changes = [end - last for _, end in spans]
-    return all(
-        abs(shift - change) < NEARLY and abs(shift - round(shift)) < NEARLY
-        for shift, change in zip(shifts, changes, strict=True)
-    )
-
-
-def _asked_span(run: Result, span: tuple[float, float]) -> tuple[float, float]:
-    """Return the revolutions that a run's scene asks for; those of its span where it stopped."""
-    if not run.completed:
-        return span
-    first = (float(run["crank_angle"][0]) - run.scene.start_angle) / (2.0 * np.pi)
-    return max(run.scene.settle_revolutions, first), first + run.scene.revolutions
+def _asked_span(run: Result) -> Span | None:
+    """Return the revolutions that are asked of a press that starts or stops, None of others."""
+    reading = Reading(run)
+    if not reading.starts_or_stops or not run.completed:
+        return None
+    first = reading.span[0]
+    return first, first + run.scene.revolutions
 
 
 def _restrict(label: str, run: Result, begin: float, end: float) -> Result:

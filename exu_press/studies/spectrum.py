@@ -12,7 +12,7 @@ from exu_press.numerics.arrays import Array, lengths
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
 from exu_press.result.column import column_of
-from exu_press.result.windows import settled_part
+from exu_press.result.windows import settled_part, whole_revolutions
 from exu_press.scene import mechanism_of
 from exu_press.scene.joint import TouchingJoint
 from exu_press.signals.spectrum import Spectrogram, Spectrum, amplitude_spectrum, spectrogram
@@ -130,12 +130,12 @@ def _spectra(result: Result, name: str, window: str | None) -> Spectra:
     time, angle = result.time, result["crank_angle"]
     turns = (angle - angle[0]) / (2.0 * np.pi)
     cells = max(len(time), int(FEWEST_CELLS * abs(turns[-1])))
-    whole = int(turns[-1] + 1e-6)
+    whole = whole_revolutions(float(turns[-1]))
     over_angle = None
     if whole and (np.diff(turns) > 0.0).all():
         last = int(np.searchsorted(turns, whole - 1e-9)) + 1
         x, y = turns[:last], values[:last]
-        if last == len(turns) or x[-1] > whole + 1e-9:  # ends a rounding beside it, or behind it
+        if last >= len(turns) or x[-1] > whole + 1e-9:  # ends a rounding beside it, or behind it
             y = np.append(y[:-1], np.interp(whole, turns, values))
             x = np.append(x[:-1], float(whole))
         over_angle = amplitude_spectrum(

@@ -11,6 +11,8 @@ def columns(
 ) -> list[str]:
     """Return rows of equally many cells as lines, their columns under each other.
 
+    A heading, a row with its first cell alone, may be wider than the first column.
+
     Args:
         rows: the head's first, if there is one.
         right: whether the columns but for the first one end under each other.
@@ -20,7 +22,8 @@ def columns(
     ['        a', 'stroke  26 mm']
     """
     cells = [tuple(row) for row in rows]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    in_columns = [row for row in cells if any(row[1:])] or cells
+    widths = [max(map(len, column)) for column in zip(*in_columns, strict=True)]
     return [
         " " * indent
         + (" " * gap)

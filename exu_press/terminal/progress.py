@@ -42,7 +42,9 @@ class Progress(AbstractContextManager["Progress", None]):
         self._begun = 0.0 if self._part_of is None else self._part_of._done
         if whole:
             Progress._whole = self
-        self.label, self._total, self._unit = label, total, unit
+        self.label, self._total = label, total
+        number = f"{total:.3g}" if total < 1e3 else f"{total:.0f}"
+        self._size = f"of {number} {unit}, " if unit else ""
         self._stream = sys.stderr if stream is None else stream
         self._quiet = quiet
         self._start = self._last_line = time.monotonic()
@@ -60,9 +62,7 @@ class Progress(AbstractContextManager["Progress", None]):
             desc=self.label,
             total=self._total,
             file=self._stream,
-            bar_format="{desc}: {percentage:3.0f} %|{bar}| {n:.3g}/{total:.3g} "
-            + self._unit
-            + ", {remaining} left",
+            bar_format=f"{{desc}}: {{percentage:3.0f}} %|{{bar}}| {self._size}{{remaining}} left",
         )
 
     def update(self, done: float) -> None:
@@ -80,8 +80,8 @@ class Progress(AbstractContextManager["Progress", None]):
             if now - self._last_line >= SECONDS_BETWEEN_LINES and done > 0:
                 self._last_line = now
                 print(
-                    f"{self.label}: {100 * done / self._total:.0f} % of "
-                    f"{self._total:.3g} {self._unit}, {self.time_left(done):.0f} s left",
+                    f"{self.label}: {100 * done / self._total:.0f} % {self._size}"
+                    f"{self.time_left(done):.0f} s left",
                     file=self._stream,
                     flush=True,
                 )

@@ -110,7 +110,7 @@ def test_no_variant_is_dropped_or_overwritten(names, mine, tmp_path, monkeypatch
     run = simulate(Scene.load(mine))
     monkeypatch.setattr(
         compare,
-        "simulate_side_by_side",
+        "simulate_equal_windows",
         lambda scenes, **_: ((name, replace(run, scene=s)) for name, s in scenes.items()),
     )
     assert main(["compare", *names, *QUICK, "--quiet", "--out", "inside"]) == 0
@@ -128,8 +128,8 @@ def test_a_kill_loses_only_the_run_that_is_under_way(mine, tmp_path, monkeypatch
         yield from itertools.islice(simulated(scenes, **options), 2)
         raise KeyboardInterrupt
 
-    simulated = compare.simulate_side_by_side
-    monkeypatch.setattr(compare, "simulate_side_by_side", killed_at_the_third)
+    simulated = compare.simulate_equal_windows
+    monkeypatch.setattr(compare, "simulate_equal_windows", killed_at_the_third)
     monkeypatch.setattr(compare, "_label", lambda name, labels: str(len(labels)))
     monkeypatch.setattr("exu_press.report.comparison.save_comparison", lambda *_: [])
     out = tmp_path / "out"

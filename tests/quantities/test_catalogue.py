@@ -14,7 +14,7 @@ import exu_press
 from exu_press import InputError, Scene, simulate
 from exu_press.quantities import CATALOGUE, add, quantities_of, values_of
 from exu_press.quantities.catalogue import QuantityAt, find_quantity
-from exu_press.quantities.table import run_lines
+from exu_press.quantities.remarks import run_lines
 from exu_press.quantities.units import meaning_of, unit_of
 from exu_press.report.run_report import run_report
 from exu_press.studies.sweep import Sweep, sweep

@@ -1,17 +1,22 @@
 """Runs beside each other in one table, with the keys in which their scenes differ."""
 
 import itertools
-from dataclasses import replace
+import tomllib
+from dataclasses import make_dataclass, replace
+from importlib.resources import files
 
 import numpy as np
 import pytest
+from coarse_parts import COARSE
 
 from exu_press import InputError, Scene, simulate
 from exu_press.cli.options import scene_path, shipped_names
+from exu_press.quantities.reading import Reading
 from exu_press.quantities.value import values_of
-from exu_press.studies import compare
+from exu_press.studies import compare, equal_windows
 from exu_press.studies.compare import different_keys, variants
 from exu_press.studies.comparison import Comparison
+from exu_press.studies.equal_windows import require_common_window
 
 SHARES = (1e-9, 3e-6, 2e-3, 0.04, 0.7, 5.0)
 """Errors over the figures that have them."""
@@ -29,15 +34,30 @@ def with_made_up_errors(result, first):
     return replace(result, info={**result.info, "errors": entries})
 
 
-@pytest.mark.parametrize(
-    "name",
-    [n if "press" in n else pytest.param(n, marks=pytest.mark.long) for n in shipped_names()],
-)
+def with_all_rows(result):
+    """Return a run with its steps spread over 2.5 revolutions: it has means, strokes, all rows."""
+    turns = np.linspace(0.0, 2.5, len(result.time))
+    angle = result.scene.start_angle + 2.0 * np.pi * turns
+    return result.with_values({"time": turns * 60.0 / result.scene.speed_rpm, "crank_angle": angle})
+
+
+ROD = str(scene_path("six_bar_rod").with_suffix(".step"))
+ROWS = {"dead centres differ by", "drive power, mean", "per stroke", "mean over 1 ms"}
+FLEXIBLE = {
+    "press": COARSE,
+    "six_bar_rod": {"rod": {"flexible": ROD, "modes": 2, "mesh_size": 0.1}},
+}
+
+
+@pytest.mark.usefixtures("sound_files")
+@pytest.mark.parametrize("name", shipped_names())
 def test_five_variants_of_every_shipped_scene_fit_100_columns(name):
-    """With errors of all sizes; every cell is whole."""
+    """With errors of all sizes; every cell is whole, headings too."""
     scene = Scene.load(scene_path(name)).replace({"revolutions": 0.002, "settle": 0.0})
-    rigid = {k: s for k, s in variants(scene)[0].items() if not s.bodies}
-    runs = [simulate(variant) for variant in rigid.values()]
+    if name in FLEXIBLE:
+        pytest.importorskip("ngsolve")
+        scene = scene.replace({"bodies": FLEXIBLE[name]})
+    runs = [with_all_rows(simulate(variant)) for variant in variants(scene)[0].values()]
     labels = ["ideal", "rigid dry", "rigid lubricated", "flexible dry", "flexible lubricated"]
     results = {
         label: with_made_up_errors(run, k)
@@ -46,10 +66,36 @@ def test_five_variants_of_every_shipped_scene_fit_100_columns(name):
     comparison = Comparison(results)
     lines = comparison.lines()
     assert max(map(len, lines)) <= 100
-    rows = [row for group in comparison.cells(wide=False).values() for row in group]
+    cells = comparison.cells(wide=False)
+    rows = [row for group in cells.values() for row in group]
     shown = [line.split() for line in lines]
-    for title, *cells in rows:
-        assert max(map(len, cells)) <= 11 and [*title.split(), *cells] in shown
+    for title, *values in rows:
+        assert max(map(len, values)) <= 11 and [*title.split(), *values] in shown
+    expected = ROWS | ({"von Mises stress, max"} if name in FLEXIBLE else set())
+    titles = {title.strip() for title, *_ in rows}
+    assert all(any(title.startswith(row) for title in titles) for row in expected)
+    assert set(cells) <= set(lines)
+
+
+def test_long_names_are_headings_and_above_stands_only_what_all_share():
+    """Kinds of single variants stood there, in nine lines, and headings were numbers of notes."""
+    name = "pin_of_the_long_connecting_rod_at_the_crank"
+    drawing = files("exu_press.mechanism.files").joinpath("two_point_press.toml").read_text()
+    pin = {"kind": "lubricated", "clearance": 5e-5, "radius": 0.05}
+    scene = Scene(
+        mechanism=tomllib.loads(drawing.replace("crank_pin", name)),
+        joints=dict.fromkeys([f"{name}s", "wrist_pins", "shaft", "second_shaft"], pin),
+        film={"length": 0.1, "viscosity": 0.1},
+        speed_rpm=40.0,
+        revolutions=0.002,
+    )
+    results = {label: simulate(variant) for label, variant in variants(scene)[0].items()}
+    comparison = Comparison(results)
+    above = " ".join(comparison.lines()).partition("ideal")[0]
+    assert "second shaft radial clearance 0.05 mm" in above
+    assert "dry" not in above and "lubricated" not in above
+    assert f"joint {name.replace('_', ' ')}s (alike to 1 %)" in comparison.lines()
+    assert str(results["dry"].compare(results["dry"])).count(" dry, clearance 0.05 mm") == 1
 
 
 @pytest.fixture(scope="module")
@@ -62,19 +108,65 @@ def result(scene):
     return simulate(scene)
 
 
-def test_a_run_beside_its_continuation_says_which_revolutions_are_read(scene):
-    turn = scene.replace({"revolutions": 1.0, "joints.crank_pin": "ideal"})
-    first = simulate(turn)
-    second = simulate(turn, start=first.info["state"])
-    comparison = first.compare(second)
-    assert comparison.differences == [["read from revolutions", "0 to 1", "1 to 2"]]
-    assert comparison.common_window == (comparison.results, "")
+@pytest.fixture(scope="module")
+def turn(scene):
+    return simulate(scene.replace({"revolutions": 1.0, "joints.crank_pin": "ideal"}))
 
 
-def test_windows_without_a_common_part_are_refused(scene, result):
+def test_windows_without_a_common_part_are_refused(scene, result, turn):
+    """Equally long ones, too, alone and beside a run of both."""
+    second = simulate(turn.scene, start=turn.info["state"])
     later = simulate(scene, start=result.info["state"])
-    with pytest.raises(InputError, match="no revolutions in common"):
-        str(result.compare(later))
+    both = simulate(turn.scene.replace({"revolutions": 2.0, "settle": 0.0}))
+    for runs in ((result, later), (turn, second), (turn, second, both)):
+        with pytest.raises(InputError, match="no revolutions in common"):
+            str(runs[0].compare(*runs[1:]))
+    with pytest.raises(InputError, match="a is read from 0 to 1, b is read from 1 to 2"):
+        require_common_window(
+            {"a": turn, "b": turn.scene.replace({"revolutions": 2.0, "settle": 1.0})}
+        )
+
+
+def test_a_crank_that_lags_is_read_from_the_revolutions_that_all_have():
+    """The run that is cut loses its errors, the other one keeps them."""
+    scene = Scene(
+        mechanism="slider_crank",
+        joints={},
+        revolutions=3.0,
+        settle=1.0,
+        load={"press": {"kind": "blanking", "force": 2e3}},
+        drive={"rated_torque": 100.0, "inertia": 5.0},
+    )
+    fast, slow = (
+        with_made_up_errors(simulate(variant), 1)
+        for variant in (scene, scene.replace({"drive.rated_torque": 300.0}))
+    )
+    (warning,) = slow.summary()["warnings"]
+    assert "whole revolutions asked for 2, read 1; try revolutions = 3.01" in warning
+    assert not fast.summary()["warnings"]
+    windows, text = fast.compare(slow, labels=("fast", "slow")).common_window
+    assert "read from revolutions 1 to 2" in text and "Errors of fast are not known" in text
+    assert windows["slow"] is slow and "errors" not in windows["fast"].info
+    assert [Reading(run).span for run in windows.values()] == [(1.0, 2.0)] * 2
+
+
+def test_runs_beside_films_that_settle_get_their_further_revolutions(monkeypatch):
+    """All variants of a scene are read from the same revolutions, with errors."""
+    shop = Scene.load(scene_path("drag_link_shop")).replace({"revolutions": 4.0, "settle": None})
+    scenes = variants(shop)[0]
+    assert {scene.settle_revolutions for scene in scenes.values()} == {3.0}
+    stand_in = make_dataclass("Run", ["scene", "info"])
+
+    def settled(scenes, **_):
+        for label, scene in scenes.items():
+            longer = {"settle": 5.0, "revolutions": 6.0} if scene.warms else {}
+            yield label, stand_in(scene.replace(longer), {"added_revolutions": 2} if longer else {})
+
+    monkeypatch.setattr(equal_windows, "simulate_side_by_side", settled)
+    runs = dict(equal_windows.simulate_equal_windows(scenes))
+    asked = {(run.scene.settle_revolutions, run.scene.revolutions) for run in runs.values()}
+    assert runs.keys() == scenes.keys() and asked == {(5.0, 6.0)}
+    assert [run.info["added_revolutions"] for run in runs.values()] == [2, 2, 2]
 
 
 def test_runs_are_labelled_by_what_they_are(result):

@@ -1,6 +1,7 @@
 """How far a long job is, and columns in a terminal."""
 
 import io
+import re
 import threading
 
 import pytest
@@ -28,11 +29,16 @@ def test_a_part_goes_on_from_where_the_whole_is():
             part.update(2.0)
         assert threading.active_count() == before
     assert " 75 %" in stream.getvalue().rpartition("\r")[2]
-    with Progress("run", 1.0, stream=stream) as other:
-        other.update(1.0)
+    with Progress("compare", 15, "runs", stream=stream) as other:
+        other.update(0.0724)
+        assert re.search(r" 0 %\|.*\| of 15 runs, .* left", stream.getvalue())
+        other.update(15)
     assert "100 %" in stream.getvalue().rpartition("\r")[2]
 
 
 def test_columns_of_numbers_end_under_each_other():
     rows = [("axis", "cases"), ("speed", "7"), ("film", "123456")]
-    assert columns(rows, right=True) == ["axis    cases", "speed       7", "film   123456"]
+    table = ["axis    cases", "speed       7", "film   123456"]
+    assert columns(rows, right=True) == table
+    heading = ("a wider heading", "")
+    assert columns([*rows, heading], right=True) == [*table, heading[0]]

@@ -102,7 +102,10 @@ def difference_lines(results: Mapping[str, Result]) -> list[str]:
     bounds_of_rows = [
         (
             words if line.quantity.owner is Owner.RUN else f"{heading.partition(' (')[0]}: {words}",
-            [None if v is None or v.low is None else (v.low, v.high) for v in line.values],
+            [
+                None if v is None or v.low is None or v.high is None else (v.low, v.high)
+                for v in line.values
+            ],
         )
         for heading, rows in lines_by_heading(results).items()
         for line, words in zip(rows, in_words(line.quantity for line in rows), strict=True)

@@ -225,7 +225,7 @@ def test_wrong_input_is_refused_before_anything_is_run(mine, tmp_path, capsys):
         (["press", "--csv", str(tmp_path / "no" / "a.csv")], "no; make it first"),
         (["press", str(curve), "--csv", str(curve)], "measured.csv: is one of the files to"),
         (["press", "--csv", str(result / "run.nc")], "run.nc: allowed is a name that ends in .csv"),
-        (["press", "drag_link_shop"], "press is read from 0 to 2, drag_link_shop is read from 2"),
+        (["press", "drag_link_shop"], "press is read from 0 to 2, drag_link_shop is read from 3"),
     ):
         assert main(["compare", *arguments, "--out", str(out)]) == 2
         error = capsys.readouterr().err

@@ -18,6 +18,7 @@ from exu_press.mechanism.stroke import units_of_output
 from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.numerics.arrays import Array
 from exu_press.plots.format import picture_format
+from exu_press.plots.legends import legend_above
 from exu_press.plots.palette import GREY, RUN, colour_of
 from exu_press.plots.panels import figure_with_panels
 from exu_press.plots.scales import spread
@@ -259,7 +260,7 @@ def _curves(panels: Sequence[Axes], examined: Examination, speed: float | None) 
     transmission.set_yticks([0, 30, 60, 90])
     transmission.set_xlabel("crank angle from the drawing, deg")
     if curves:
-        transmission.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+        legend_above(transmission, columns=2)
     else:
         transmission.text(
             180.0, 45.0, "no dyads: its bodies close in larger groups", ha="center", color=GREY

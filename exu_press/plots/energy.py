@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from exu_press.plots.busiest import joint_titles
 from exu_press.plots.canvas import angle_axis, curve, run_figure
+from exu_press.plots.legends import legend_above
 from exu_press.plots.palette import COLOURS, GREY, colour_of
-from exu_press.plots.panels import legend_above
 from exu_press.plots.scales import note
 from exu_press.plots.style import with_style
 from exu_press.plots.typesetting import shorten

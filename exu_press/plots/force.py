@@ -14,6 +14,7 @@ from exu_press.plots.canvas import (
     curve,
     run_figure,
 )
+from exu_press.plots.legends import legend_outside
 from exu_press.plots.palette import line_of
 from exu_press.plots.panels import grid_rows
 from exu_press.plots.peaks import mark_peak
@@ -72,10 +73,7 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
         axes.set(title=title, ylabel=unit)
     angle_axis(panels, results)
     if len(results) > 1:
-        handles, labels = panels[-1].get_legend_handles_labels()
-        for handle in handles:
-            handle.set(linewidth=1.0)
-        figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
+        legend_outside(figure, panels[-1].get_legend_handles_labels()[0])
     return figure
 
 

@@ -7,8 +7,9 @@ from exu_press.errors import InputError
 from exu_press.plots.busiest import busiest
 from exu_press.plots.canvas import angle_axis, angle_range, curve, run_figure
 from exu_press.plots.clearance_circle import TOUCH_COLOUR, Path, draw_path
+from exu_press.plots.legends import legend_above
 from exu_press.plots.palette import RUN, SHADE
-from exu_press.plots.panels import grid_rows, legend_above
+from exu_press.plots.panels import grid_rows
 from exu_press.plots.peaks import draw_rest
 from exu_press.plots.scales import angle_ticks, note
 from exu_press.plots.style import with_style

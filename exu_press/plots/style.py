@@ -163,12 +163,27 @@ def with_style(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figur
     def inner(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Figure:
         with look():
             figure = draw(*args, **kwargs)
-            FigureCanvasAgg(figure)  # else each text below is measured on a canvas of its own
-            separate_headings(figure)
-            if (engine := figure.get_layout_engine()) is not None:
-                engine.execute(figure)
-                if picture_format().width is not None and wrap_labels(figure):
-                    engine.execute(figure)
+            _lay_out(figure)
             return figure
 
     return inner
+
+
+def _lay_out(figure: Figure) -> None:
+    """Lay a figure out; on paper, where letters are large, in turns with what panels have room for.
+
+    A title that is raised and a label that is wrapped make panels smaller.
+    """
+    if not isinstance(figure.canvas, FigureCanvasAgg):
+        FigureCanvasAgg(figure)  # else each text is measured on a canvas of its own
+    engine = figure.get_layout_engine()
+    if engine is None or picture_format().width is None:
+        separate_headings(figure)
+    else:
+        engine.execute(figure)
+        separate_headings(figure)
+        engine.execute(figure)
+        wrap_labels(figure)
+        separate_headings(figure)
+    if engine is not None:
+        engine.execute(figure)

@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from exu_press.numerics.arrays import Array
+from exu_press.plots.legends import legend_above
 from exu_press.plots.palette import COLOURS, GREY, RUN
 from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import PATH_COLOURS, with_style
@@ -83,6 +84,7 @@ def _portrait(panel: Axes, motion: Attractor) -> None:
         panel.plot(run["slider_acceleration"], run["slider_velocity"], color=RUN, lw=0.5)
     ends = [(run["slider_acceleration"][-1], run["slider_velocity"][-1]) for run in motion.last]
     panel.plot(*zip(*ends, strict=True), "o", color=COLOURS["vermilion"], ms=5, label="section")
+    panel.margins(x=0.05)
     panel.set_title(f"phase portrait, last {len(motion.last)} revolutions")
     panel.set(xlabel=typeset("acceleration, m/s^2"), ylabel="velocity, m/s")
     panel.legend(loc="best")
@@ -102,7 +104,7 @@ def _frequencies(panel: Axes, slider: Spectra) -> None:
     draw_spectrum(panel, slider.over_time, slider.unit)
     panel.set_xscale("log")
     panel.set_xlim(slider.over_time.frequency[0], slider.over_time.frequency[-1])
-    panel.legend(loc="lower left")
+    legend_above(panel)
     panel.set_title("spectrum of the slider's acceleration")
     panel.set_xlabel("frequency, Hz")
 

@@ -15,7 +15,7 @@ from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import crank_degrees
 from exu_press.plots.decimate import visible_segments
 from exu_press.plots.legends import legend_above
-from exu_press.plots.palette import COLOURS, GREY, RUN, SHADE
+from exu_press.plots.palette import COLOURS, GREY, SHADE, colour_of
 from exu_press.plots.style import PATH_COLOURS, points
 from exu_press.result import JointRecord, Result
 
@@ -106,7 +106,7 @@ def draw_path(axes: Axes, path: Path) -> LineCollection | None:
     if path.small:
         half = 1.35 * max(path.reach, 1e-3 * limit)
         inset = axes.inset_axes(corner := _free_corner(path.points, half))
-        side = "left" if corner[0] < 0.5 else "right"  # over which it may be longer than the inset
+        side: Any = "left" if corner[0] < 0.5 else "right"  # the text may be longer than the inset
         inset.set_title("whole clearance", loc=side, color=GREY, **SMALL_TEXT)
         _draw(inset, path, MARGIN * limit, linewidth=0.6)
         inset.set(xticks=[], yticks=[])
@@ -154,7 +154,7 @@ def _draw(axes: Axes, path: Path, half: float, linewidth: float) -> LineCollecti
         zorder=2,
     )
     if path.vertical:
-        lines.set(color=RUN, linewidths=points(2.0))
+        lines.set(color=colour_of(0), linewidths=points(2.0))
     else:
         lines.set(cmap=PATH_COLOURS, array=angle[segments].mean(axis=1))
     axes.add_collection(lines, autolim=False)

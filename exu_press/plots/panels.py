@@ -122,7 +122,7 @@ def _figure(heading: str, text: str, width: float, height: float) -> Figure:
     FigureCanvasAgg(figure)  # else each text is measured on a canvas of its own
     if form.width is not None:
         return figure
-    most = int(LETTERS * figure.get_figwidth())
+    most = int(LETTERS * figure.get_figwidth() / points(1.0))
     lines = [piece for line in text.splitlines() for piece in textwrap.wrap(line, most)]
     text = plain("\n".join(["", *lines]))  # an empty line, where the heading goes
     below = figure.suptitle(text, x=0.012, ha="left", fontsize=points(9.5), linespacing=1.45)

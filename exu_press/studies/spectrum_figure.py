@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from exu_press.plots.file import save_figures
 from exu_press.plots.legends import legend_above
-from exu_press.plots.palette import COLOURS, GREY
+from exu_press.plots.palette import COLOURS, GREY, colour_of
 from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.save import sources_of
 from exu_press.plots.style import PATH_COLOURS, with_style
@@ -31,7 +31,7 @@ HIGHEST_ORDER = 60.0
 
 def draw_spectrum(axes: Axes, spectrum: Spectrum, unit: str) -> None:
     """Draw the amplitudes over a logarithmic scale, the error of the resampling, the resolution."""
-    axes.plot(spectrum.frequency, spectrum.amplitude, color=COLOURS["blue"], linewidth=0.9)
+    axes.plot(spectrum.frequency, spectrum.amplitude, color=colour_of(0), linewidth=0.9)
     lowest, width = spectrum.frequency[0], spectrum.resolution
     if width > lowest:
         label = f"below the resolution, {width:.3g} Hz"

@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.text import Text
 from PIL import Image
 
 from exu_press.cli import main
@@ -131,10 +132,15 @@ def test_words_in_a_circle_stay_inside_it(width, results):
 
 def test_svg_has_text_and_a_style_file_goes_before_our_settings(results, tmp_path):
     style = tmp_path / "journal.mplstyle"
-    style.write_text("axes.titlesize: 6.25\naxes.grid: False\n")
+    cycle = "cycler('color', ['tab:red', 'gray']) + cycler('linestyle', [':', '-.'])"
+    style.write_text(f"axes.titlesize: 6.25\nfont.size: 12\naxes.prop_cycle: {cycle}\n")
     with drawn_as(PictureFormat.from_texts("svg", "84mm", str(style), "default")):
-        figure = force_figure({"": results["ideal"]})
+        figure = force_figure({"first": results["ideal"], "second": results["ideal"]})
         assert {axes._left_title.get_fontsize() for axes in figure.axes} == {6.25}
+        sizes = [text.get_fontsize() for text in figure.findobj(Text)]
+        assert min(size for size in sizes if size != 6.25) == pytest.approx(8.5 / 9.5 * 12)
+        drawn = [(line.get_color(), line.get_linestyle()) for line in figure.axes[0].lines]
+        assert drawn == [("tab:red", ":"), ("gray", "-.")]
         text = save_figure(figure, tmp_path / "force.svg").read_text()
     assert re.search(r"<text[^>]*>Drive torque</text>", text)
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.legends import legend_outside
-from exu_press.plots.palette import COLOURS, GREY
+from exu_press.plots.palette import COLOURS, GREY, colour_of
 from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import with_style
@@ -75,7 +75,7 @@ def _points(
             bars[side] = np.nan_to_num(report.errors[name]) * scale
     several = len(report.study.objective) > 1
     panel.errorbar(
-        across[report.places], up[report.places], **bars, fmt="o", color=COLOURS["blue"],
+        across[report.places], up[report.places], **bars, fmt="o", color=colour_of(0),
         markersize=4.5, ecolor=GREY, elinewidth=1.0,
         label="not worse in everything" if several else "best",
     )  # fmt: skip

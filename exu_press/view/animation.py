@@ -35,6 +35,9 @@ __all__ = ["SIZE", "Animation", "Look"]
 SIZE = (12.8, 7.2)
 """Inch."""
 
+ABOVE = 10
+"""Order of drawing, behind that of all still parts."""
+
 MOST_JOINTS = 2
 """Joints that are magnified, the busiest ones; the rest stand in a table."""
 
@@ -75,6 +78,11 @@ class Animation:
         self._clock.set_text(
             f"t = {self.instants.time[frame] * 1e3:7.2f} ms    crank {degrees:6.1f}°"
         )
+
+    def freeze(self) -> None:
+        """Let the figure draw the moving parts itself, as it stands, over the still ones."""
+        for number, artist in enumerate(self.artists):
+            artist.set(animated=False, zorder=ABOVE + number)
 
     def draw(self, artists: Iterable[Artist]) -> None:
         """Draw some of the moving parts."""

@@ -15,6 +15,7 @@ from exu_press.cli.options import (
     add_code_argument,
     add_picture_arguments,
     add_set_argument,
+    demand_save,
     shipped_names,
     show_warnings,
 )
@@ -90,6 +91,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(options: argparse.Namespace) -> int:
     """Print and draw the examination of a drawing; return 0, or 2 where it does not move."""
+    demand_save(options, "width", "style")
     target = None if options.save is None else Path(options.save)
     if target is not None:
         from exu_press.plots.file import check_picture

@@ -170,7 +170,7 @@ def _execute(arguments: Sequence[str] | None) -> int:
 
 def _drawing(options: argparse.Namespace) -> AbstractContextManager[None]:
     """Return the block in which pictures are drawn as the options say."""
-    if "width" not in options:
+    if "style" not in options:
         return nullcontext()
     from exu_press.cli.options import picture_format_of
     from exu_press.plots.format import drawn_as

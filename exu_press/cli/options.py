@@ -22,6 +22,7 @@ __all__ = [
     "add_set_argument",
     "add_study_arguments",
     "add_worker_arguments",
+    "demand_save",
     "directory_of",
     "picture_format_of",
     "scene_of",
@@ -102,22 +103,26 @@ def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
     where.add_argument("--dask", metavar="ADDRESS", help="a Dask scheduler, as in tcp://host:8786")
 
 
-def add_picture_arguments(parser: argparse.ArgumentParser, *, to_files: bool = True) -> None:
+def add_picture_arguments(
+    parser: argparse.ArgumentParser, *, to_files: bool = True, on_paper: bool = True
+) -> None:
     """Add the arguments of pictures.
 
     Args:
         to_files: whether the command names their files itself, and may leave them out.
+        on_paper: whether they may have a width on paper.
     """
     if to_files:
         parser.add_argument("--no-pictures", action="store_true", help="draw nothing")
         parser.add_argument(
             "--format", default="png", metavar="FORMAT", help="of pictures: png, svg or pdf"
         )
-    parser.add_argument(
-        "--width",
-        metavar="WIDTH",
-        help="of pictures on paper, as in 84mm: without heading, in letters of 7 points",
-    )
+    if on_paper:
+        parser.add_argument(
+            "--width",
+            metavar="WIDTH",
+            help="of pictures on paper, as in 84mm: without heading, in letters of 7 points",
+        )
     parser.add_argument(
         "--style", metavar="FILE.mplstyle", help="a matplotlib style, whose settings go before ours"
     )
@@ -129,11 +134,11 @@ def picture_format_of(options: argparse.Namespace) -> PictureFormat:
     Raises:
         InputError: one of its options is not allowed.
     """
-    if "width" not in options:
+    if "style" not in options:
         return PictureFormat()
     chosen = PictureFormat.from_texts(
         getattr(options, "format", "png"),
-        options.width,
+        getattr(options, "width", None),
         options.style,
         getattr(options, "pictures", "default"),
     )
@@ -142,6 +147,13 @@ def picture_format_of(options: argparse.Namespace) -> PictureFormat:
 
         check_drawable(chosen.style)
     return chosen
+
+
+def demand_save(options: argparse.Namespace, *names: str) -> None:
+    """Raise InputError where one of these options is given, and --save is not."""
+    for name in names:
+        if options.save is None and (value := getattr(options, name)) is not None:
+            raise InputError(f"--{name} {value}: allowed with --save")
 
 
 def scene_of(options: argparse.Namespace) -> Scene:

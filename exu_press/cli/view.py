@@ -5,6 +5,7 @@ import os
 import tempfile
 from pathlib import Path
 
+from exu_press.cli.options import add_picture_arguments, demand_save
 from exu_press.errors import InputError
 from exu_press.report.find import find_output, find_run, report_of
 from exu_press.result import Result
@@ -14,7 +15,8 @@ __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
 EXAMPLE = "exu-press view out/press/run.nc --from 0.03 --to 0.05 --save animation.gif"
 
-ANIMATION_OPTIONS = ("at", "slow", "frames", "fps", "colour", "exaggerate")
+SAVE_OPTIONS = ("at", "slow", "frames", "fps", "colour", "exaggerate", "style")
+"""They go with --save; in the page one chooses what they say."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -27,8 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--save",
         metavar="FILE",
-        help="write .mp4 (needs ffmpeg), .gif, frames as frame_%%04d.png, or one picture as .png; "
-        "an existing file is replaced when the new one is complete",
+        help="write .mp4 (needs ffmpeg), .gif, frames as frame_%%04d.png, or one picture as .png, "
+        ".svg or .pdf; an existing file is replaced when the new one is complete",
     )
     parser.add_argument("--from", dest="start", type=float, metavar="S", help="begin (s)")
     parser.add_argument("--to", dest="stop", type=float, metavar="S", help="end (s)")
@@ -54,6 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="factor of their deformation (default: one that makes it visible)",
     )
+    add_picture_arguments(parser, to_files=False, on_paper=False)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
 
 
@@ -68,7 +71,7 @@ def execute(options: argparse.Namespace) -> int:
     check_target(target)
     is_picture = not is_animation(target)
     if options.at is not None and not is_picture:
-        raise InputError(f"--at {options.at:g}: allowed with --save FILE.png alone")
+        raise InputError(f"--at {options.at:g}: allowed with --save of one picture, as FILE.png")
     for option in ("slow", "frames", "fps"):
         if is_picture and (value := getattr(options, option)) is not None:
             raise InputError(f"--{option} {value:g}: allowed for animations, not for a picture")
@@ -84,9 +87,7 @@ def _open(options: argparse.Namespace) -> int:
     from exu_press.cli.report import name_missing_extra
     from exu_press.report.page_file import open_file, write_page
 
-    for option in ANIMATION_OPTIONS:
-        if (value := getattr(options, option)) is not None:
-            raise InputError(f"--{option} {value}: allowed with --save; in the page it is chosen")
+    demand_save(options, *SAVE_OPTIONS)
     kind, file = find_output(Path(options.path))
     page = write_page(report_of(kind, file, (options.start, options.stop)), _page_path(file))
     if not options.quiet:

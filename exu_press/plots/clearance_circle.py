@@ -14,8 +14,8 @@ from matplotlib.ticker import MaxNLocator
 from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import crank_degrees
 from exu_press.plots.decimate import visible_segments
-from exu_press.plots.palette import COLOURS, GREY, RUN, SHADE
-from exu_press.plots.panels import legend_above
+from exu_press.plots.legends import legend_above
+from exu_press.plots.palette import COLOURS, GREY, SHADE, colour_of
 from exu_press.plots.style import PATH_COLOURS, points
 from exu_press.result import JointRecord, Result
 
@@ -36,7 +36,7 @@ PIXELS = 200
 
 TOUCH_COLOUR = COLOURS["vermilion"]
 
-SMALL_TEXT: dict[str, Any] = {"fontsize": "small", "fontweight": "normal", "pad": 3}
+SMALL_TEXT: dict[str, Any] = {"fontsize": "small", "fontweight": "normal", "pad": 2}
 
 
 @dataclass(frozen=True)
@@ -105,8 +105,9 @@ def draw_path(axes: Axes, path: Path) -> LineCollection | None:
     half = MARGIN * max(path.reach, limit)
     if path.small:
         half = 1.35 * max(path.reach, 1e-3 * limit)
-        inset = axes.inset_axes(_free_corner(path.points, half))
-        inset.set_title("whole clearance", loc="center", color=GREY, **SMALL_TEXT)
+        inset = axes.inset_axes(corner := _free_corner(path.points, half))
+        side: Any = "left" if corner[0] < 0.5 else "right"  # the text may be longer than the inset
+        inset.set_title("whole clearance", loc=side, color=GREY, **SMALL_TEXT)
         _draw(inset, path, MARGIN * limit, linewidth=0.6)
         inset.set(xticks=[], yticks=[])
     lines = _draw(axes, path, half, linewidth=1.0)
@@ -123,9 +124,9 @@ def draw_path(axes: Axes, path: Path) -> LineCollection | None:
         )
     legend_above(axes)
     if path.ball and path.vertical and not path.small:
-        for sign, words in ((1, "ball lifts\nthe slider"), (-1, "ball pushes\nit down")):
+        for sign, words in ((1, "lifts\nslider"), (-1, "pushes\ndown")):
             axes.text(
-                0.1 * limit, 0.5 * sign * limit, words, va="center", fontsize=points(9), color=GREY
+                0.08 * limit, 0.4 * sign * limit, words, va="center", fontsize=points(9), color=GREY
             )
     return None if path.vertical else lines
 
@@ -153,7 +154,7 @@ def _draw(axes: Axes, path: Path, half: float, linewidth: float) -> LineCollecti
         zorder=2,
     )
     if path.vertical:
-        lines.set(color=RUN, linewidths=points(2.0))
+        lines.set(color=colour_of(0), linewidths=points(2.0))
     else:
         lines.set(cmap=PATH_COLOURS, array=angle[segments].mean(axis=1))
     axes.add_collection(lines, autolim=False)
@@ -162,8 +163,8 @@ def _draw(axes: Axes, path: Path, half: float, linewidth: float) -> LineCollecti
 
 def _free_corner(points: Array, half: float) -> tuple[float, float, float, float]:
     """Return the bounds, in parts of the panel, of the corner with the fewest points in it."""
-    size, gap = 0.27, 0.025
-    corners = [(x, y) for y in (1 - gap - size - 0.05, gap) for x in (1 - gap - size, gap)]
+    size, gap, title = 0.27, 0.025, 0.08
+    corners = [(x, y) for y in (1 - gap - size - title, gap) for x in (1 - gap - size, gap)]
     positions = (points / half + 1.0) / 2.0
 
     def crowd(corner: tuple[float, float]) -> int:

@@ -18,7 +18,8 @@ from exu_press.mechanism.stroke import units_of_output
 from exu_press.mechanism.transmission import group_equal_angles
 from exu_press.numerics.arrays import Array
 from exu_press.plots.format import picture_format
-from exu_press.plots.palette import GREY, RUN, colour_of
+from exu_press.plots.legends import legend_above
+from exu_press.plots.palette import GREY, colour_of
 from exu_press.plots.panels import figure_with_panels
 from exu_press.plots.scales import spread
 from exu_press.plots.style import points, with_style
@@ -228,19 +229,21 @@ def _curves(panels: Sequence[Axes], examined: Examination, speed: float | None) 
     output = plain(examined.mechanism.slider)
     position, velocity, advantage, transmission = panels
     units = units_of_output(examined.mechanism)
-    position.plot(angle, units.position_scale * stroke.position, color=RUN)
+    position.plot(angle, units.position_scale * stroke.position, color=colour_of(0))
     position.set(title=f"Position of {output}", ylabel=units.position)
     for centre in stroke.dead_centres:
         at = float(np.degrees(centre.angle))
-        position.plot(at, units.position_scale * centre.position, "o", color=RUN, markersize=4)
+        position.plot(
+            at, units.position_scale * centre.position, "o", color=colour_of(0), markersize=4
+        )
     if speed is None:
-        velocity.plot(angle, units.velocity_scale * stroke.velocity, color=RUN)
+        velocity.plot(angle, units.velocity_scale * stroke.velocity, color=colour_of(0))
         velocity.set(title="Velocity per radian of the crank", ylabel=units.velocity)
     else:
-        velocity.plot(angle, speed * stroke.velocity, color=RUN)
+        velocity.plot(angle, speed * stroke.velocity, color=colour_of(0))
         velocity.set(title=f"Velocity at {speed * 30.0 / np.pi:g} rpm", ylabel=units.speed)
     least = float(stroke.mechanical_advantage.min())
-    advantage.plot(angle, stroke.mechanical_advantage, color=RUN)
+    advantage.plot(angle, stroke.mechanical_advantage, color=colour_of(0))
     kind = units.ratio.partition(" ")[0]
     advantage.set(
         title=wrap_text(f"Mechanical advantage: {kind} per torque of the crank"),
@@ -259,7 +262,7 @@ def _curves(panels: Sequence[Axes], examined: Examination, speed: float | None) 
     transmission.set_yticks([0, 30, 60, 90])
     transmission.set_xlabel("crank angle from the drawing, deg")
     if curves:
-        transmission.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+        legend_above(transmission, columns=2)
     else:
         transmission.text(
             180.0, 45.0, "no dyads: its bodies close in larger groups", ha="center", color=GREY

@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from exu_press.plots.busiest import joint_titles
 from exu_press.plots.canvas import angle_axis, curve, run_figure
-from exu_press.plots.palette import COLOURS, GREY, colour_of
-from exu_press.plots.panels import legend_above
+from exu_press.plots.legends import legend_above
+from exu_press.plots.palette import GREY, colour_of
 from exu_press.plots.scales import note
 from exu_press.plots.style import with_style
 from exu_press.plots.typesetting import shorten
@@ -31,10 +31,12 @@ LEGEND_LETTERS = 26
 """Of a name, of which two stand in a row."""
 
 BALANCE_LINES: dict[str, dict[str, Any]] = {
-    "energy_input": {"label": "put in", "color": COLOURS["blue"]},
-    "energy_stored": {"label": "stored", "color": COLOURS["orange"], "linestyle": (0, (5, 1.5))},
-    "energy_dissipated": {"label": "dissipated", "color": COLOURS["vermilion"]},
+    "energy_input": {"label": "put in"},
+    "energy_stored": {"label": "stored", "linestyle": (0, (5, 1.5))},
+    "energy_dissipated": {"label": "dissipated"},
 }
+COLOUR_NUMBERS = 0, 2, 3
+"""Of these lines in the palette."""
 
 
 @with_style
@@ -55,9 +57,9 @@ def energy_figure(result: Result) -> Figure:
         sharex=True,
     )
     balance, *losses, residual = panels
-    for name, line in BALANCE_LINES.items():
+    for (name, line), number in zip(BALANCE_LINES.items(), COLOUR_NUMBERS, strict=True):
         if dissipates or name != "energy_dissipated":
-            curve(balance, result, result[name], **({"linewidth": 1.6} | line))
+            curve(balance, result, result[name], color=colour_of(number), linewidth=1.6, **line)
     balance.set(title="Balance", ylabel="energy, J")
     legend_above(balance)
     _residual(residual, result)

@@ -14,12 +14,13 @@ from exu_press.plots.canvas import (
     curve,
     run_figure,
 )
+from exu_press.plots.legends import legend_outside
 from exu_press.plots.palette import line_of
 from exu_press.plots.panels import grid_rows
 from exu_press.plots.peaks import mark_peak
 from exu_press.plots.scales import contain_bars, impact_scale, note
-from exu_press.plots.style import with_style
-from exu_press.plots.typesetting import plain, shorten
+from exu_press.plots.style import points, with_style
+from exu_press.plots.typesetting import list_first, plain
 from exu_press.quantities.catalogue import GUIDE_FORCE, JOINT_FORCE, PEAK_TORQUE
 from exu_press.result import Result
 from exu_press.scene import mechanism_of
@@ -30,8 +31,8 @@ MOST_JOINTS = 5
 """Joints whose forces are drawn: those with the largest ones, of the joints with clearance, of the
 crank's pin, and of those in the frame and on the slider; of two sides that do the same, one."""
 
-LETTERS = 60
-"""Of the joints that are not drawn, in the heading."""
+LETTERS = 102
+"""Of the heading with joints that are not drawn, in letters as on a screen."""
 
 
 @with_style
@@ -49,7 +50,9 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
     left_out = {c for c in loaded if not {c, mirror(c)} & drawn_channels}
     if left_out:
         names = joint_titles(everyone, sorted(c.removesuffix("_force") for c in left_out))
-        heading += f" (not drawn: {shorten('; '.join(names.values()).lower(), LETTERS)})"
+        heading += " (not drawn: "
+        letters = int(LETTERS / points(1.0)) - len(heading)
+        heading += f"{list_first([*names.values()], letters).lower()})"
     panel_of = {title: (f"{name}_force", "force, kN", 1e-3) for name, title in drawn.items()}
     panel_of["Drive torque"] = "drive_torque", "torque, N m", 1.0
     rows = [*grid_rows(len(panel_of), 2)]
@@ -72,10 +75,7 @@ def force_figure(results: Mapping[str, Result]) -> Figure:
         axes.set(title=title, ylabel=unit)
     angle_axis(panels, results)
     if len(results) > 1:
-        handles, labels = panels[-1].get_legend_handles_labels()
-        for handle in handles:
-            handle.set(linewidth=1.0)
-        figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
+        legend_outside(figure, panels[-1].get_legend_handles_labels()[0])
     return figure
 
 

@@ -7,11 +7,12 @@ from exu_press.errors import InputError
 from exu_press.plots.busiest import busiest
 from exu_press.plots.canvas import angle_axis, angle_range, curve, run_figure
 from exu_press.plots.clearance_circle import TOUCH_COLOUR, Path, draw_path
-from exu_press.plots.palette import RUN, SHADE
-from exu_press.plots.panels import grid_rows, legend_above
+from exu_press.plots.legends import legend_above
+from exu_press.plots.palette import SHADE, colour_of
+from exu_press.plots.panels import grid_rows
 from exu_press.plots.peaks import draw_rest
 from exu_press.plots.scales import angle_ticks, note
-from exu_press.plots.style import with_style
+from exu_press.plots.style import points, with_style
 from exu_press.result import Result
 
 __all__ = ["MOST_JOINTS", "orbit_figure"]
@@ -47,7 +48,7 @@ def orbit_figure(result: Result) -> Figure:
     heading = "Journal and ball centres in their clearance"
     figure, panels = run_figure(heading, {"": result}, rows, (4.5, 8.5), heights)
     for axes in panels[count:]:
-        draw_rest(axes, result, rest, 9.5)
+        draw_rest(axes, result, rest, points(9.5))
     for circle, over_angle, path in zip(panels[:count:2], panels[1:count:2], paths, strict=True):
         if lines := draw_path(circle, path):
             bar = figure.colorbar(lines, ax=circle, location="left", label="crank angle, deg")
@@ -65,7 +66,7 @@ def _over_angle(axes: Axes, result: Result, path: Path) -> None:
         ("height in its socket", "vertical eccentricity") if path.ball else ("eccentricity",) * 2
     )
     axes.set(title=f"{path.title}: {names[0]}", ylabel=f"{names[1]} ratio")
-    curve(axes, result, values, color=RUN, linewidth=0.9, label="centre")
+    curve(axes, result, values, color=colour_of(0), linewidth=0.9, label="centre")
     reach = 1.3 * max(reach, 1e-3) if path.small else 1.12 * max(reach, 1.0)
     axes.set_ylim(-reach if path.ball else 0.0, reach)
     if path.small:

@@ -2,10 +2,10 @@
 
 import textwrap
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 
@@ -17,7 +17,6 @@ __all__ = [
     "Rows",
     "figure_with_panels",
     "grid_rows",
-    "legend_above",
     "lowest_panels",
     "name_rows",
 ]
@@ -104,20 +103,6 @@ def lowest_panels(panels: Sequence[Axes]) -> list[Axes]:
     ]
 
 
-def legend_above(axes: Axes, columns: int = 4, **legend: Any) -> None:
-    """Put a panel's legend over its right end, where no data is."""
-    columns = min(columns, 2) if picture_format().stacks and columns > 3 else columns
-    axes.legend(
-        loc="lower right",
-        bbox_to_anchor=(1.0, 1.0),
-        ncols=columns,
-        columnspacing=1.3,
-        handletextpad=0.5,
-        borderpad=0.0,
-        **legend,
-    )
-
-
 def name_rows(axes: Axes, rows: Sequence[float], names: Sequence[str]) -> None:
     """Name rows of a panel at its left; on narrow paper in lines of at most ROW_LETTERS."""
     narrow = picture_format().stacks
@@ -130,9 +115,14 @@ def _figure(heading: str, text: str, width: float, height: float) -> Figure:
     form = picture_format()
     if form.width is not None:
         scale = STACKED if form.stacks else TALLER * form.width / width
-        return Figure(figsize=(form.width, scale * height), layout="constrained")
-    figure = Figure(figsize=(max(width, NARROWEST), HEADING + height), layout="constrained")
-    most = int(LETTERS * figure.get_figwidth())
+        size = form.width, scale * height
+    else:
+        size = max(width, NARROWEST), HEADING + height
+    figure = Figure(figsize=size, layout="constrained")
+    FigureCanvasAgg(figure)  # else each text is measured on a canvas of its own
+    if form.width is not None:
+        return figure
+    most = int(LETTERS * figure.get_figwidth() / points(1.0))
     lines = [piece for line in text.splitlines() for piece in textwrap.wrap(line, most)]
     text = plain("\n".join(["", *lines]))  # an empty line, where the heading goes
     below = figure.suptitle(text, x=0.012, ha="left", fontsize=points(9.5), linespacing=1.45)

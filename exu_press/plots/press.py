@@ -18,9 +18,9 @@ from exu_press.plots.canvas import (
     dead_centres,
     run_figure,
 )
-from exu_press.plots.format import picture_format
+from exu_press.plots.legends import legend_above
 from exu_press.plots.palette import GREY, IDEAL, colour_of
-from exu_press.plots.panels import grid_rows, legend_above
+from exu_press.plots.panels import grid_rows
 from exu_press.plots.peaks import mark_peak, with_error
 from exu_press.plots.scales import contain_bars, note, widen
 from exu_press.plots.slider import sliding_mean
@@ -158,7 +158,7 @@ def _draw(
     if len(curves) > 1:
         rows = 1 if len(curves) < 5 else 2  # beside the panel's title
         columns = math.ceil(len(curves) / rows)
-        legend_above(axes, columns=2 if picture_format().stacks else columns)
+        legend_above(axes, columns=columns)
 
 
 def _strokes(axes: Axes, result: Result, centres: list[DeadCentre]) -> None:

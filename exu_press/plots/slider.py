@@ -19,6 +19,7 @@ from exu_press.plots.canvas import (
     run_figure,
 )
 from exu_press.plots.decimate import decimate
+from exu_press.plots.legends import legend_outside
 from exu_press.plots.palette import IDEAL, line_of
 from exu_press.plots.panels import grid_rows
 from exu_press.plots.peaks import mark_peaks
@@ -90,8 +91,7 @@ def slider_figure(results: Mapping[str, Result]) -> Figure:
     contain_bars(panels[2, 1])
     note(panels[2, 1], words, scale)
     angle_axis(grid, results)
-    handles, labels = panels[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6))
+    legend_outside(figure, panels[0, 0].get_legend_handles_labels()[0])
     return figure
 
 

@@ -16,8 +16,9 @@ from matplotlib.figure import Figure
 
 from exu_press.errors import InputError
 from exu_press.files.digests import note_content
-from exu_press.plots.format import picture_format
+from exu_press.plots.format import PictureFormat, drawn_as, picture_format
 from exu_press.plots.headings import separate_headings, wrap_labels
+from exu_press.plots.palette import lines_of
 
 __all__ = ["DPI", "PATH_COLOURS", "check_drawable", "look", "points", "read_style", "with_style"]
 
@@ -81,29 +82,36 @@ LOOK: dict[str, Any] = {
 }
 
 
-def _paper_settings(width: float) -> dict[str, Any]:
-    """Return the settings of a figure of a width on paper, inch."""
-    scale = PRINTED_SIZE / SCREEN_SIZE
-    sizes = {name: scale * LOOK[name] for name in LOOK if name.endswith(("size", "linewidth"))}
-    pads = {f"figure.constrained_layout.{side}_pad": 0.03 for side in "hw"}
-    return {**sizes, **pads, "savefig.dpi": PRINTED_DPI, "legend.handlelength": 1.4}
+ON_PAPER: dict[str, Any] = {
+    **{name: LOOK[name] * PRINTED_SIZE / SCREEN_SIZE for name in LOOK if "linewidth" in name},
+    "figure.constrained_layout.h_pad": 0.03,
+    "figure.constrained_layout.w_pad": 0.03,
+    "legend.handlelength": 1.4,
+    "savefig.dpi": PRINTED_DPI,
+}
+"""What differs in a figure with a width on paper, beside the size of its letters."""
 
 
 @contextmanager
 def look() -> Iterator[None]:
     """Draw with our look inside the block, on matplotlib's defaults; leave the user's alone.
 
-    The settings of a style file that the format names go before ours.
+    The settings of a style file that the format names go before ours; sizes that it does not have
+    follow its `font.size`, and curves have the colours and line styles of its `axes.prop_cycle`.
 
     Raises:
         InputError: the style file is none.
     """
     form = picture_format()
-    styles: list[Any] = ["default", LOOK]
-    styles += [] if form.width is None else [_paper_settings(form.width)]
-    if form.style is not None:
-        styles.append(read_style(form.style))
-    with matplotlib.style.context(styles):
+    style = {} if form.style is None else read_style(form.style)
+    letters, paper = (SCREEN_SIZE, {}) if form.width is None else (PRINTED_SIZE, ON_PAPER)
+    scale = style.get("font.size", letters) / SCREEN_SIZE
+    sizes = {name: scale * LOOK[name] for name in LOOK if name.endswith("size")}
+    settings: Any = {**LOOK, **sizes, **paper, **style}
+    with (
+        matplotlib.style.context(["default", settings]),
+        lines_of(style.get("axes.prop_cycle", ())),
+    ):
         yield
 
 
@@ -133,7 +141,7 @@ def read_style(path: Path) -> dict[str, Any]:
 
 def check_drawable(path: Path) -> None:
     """Raise InputError where matplotlib cannot draw with a style file, as without LaTeX."""
-    with matplotlib.style.context(["default", LOOK, read_style(path)]):
+    with drawn_as(PictureFormat(style=path)), look():
         figure = Figure()
         figure.add_subplot(title="Force, N")
         figure.text(0.0, 0.0, "N")
@@ -163,12 +171,27 @@ def with_style(draw: Callable[Parameters, Figure]) -> Callable[Parameters, Figur
     def inner(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Figure:
         with look():
             figure = draw(*args, **kwargs)
-            FigureCanvasAgg(figure)  # else each text below is measured on a canvas of its own
-            separate_headings(figure)
-            if (engine := figure.get_layout_engine()) is not None:
-                engine.execute(figure)
-                if picture_format().width is not None and wrap_labels(figure):
-                    engine.execute(figure)
+            _lay_out(figure)
             return figure
 
     return inner
+
+
+def _lay_out(figure: Figure) -> None:
+    """Lay a figure out; on paper, where letters are large, in turns with what panels have room for.
+
+    A title that is raised and a label that is wrapped make panels smaller.
+    """
+    if not isinstance(figure.canvas, FigureCanvasAgg):
+        FigureCanvasAgg(figure)  # else each text is measured on a canvas of its own
+    engine = figure.get_layout_engine()
+    if engine is None or picture_format().width is None:
+        separate_headings(figure)
+    else:
+        engine.execute(figure)
+        separate_headings(figure)
+        engine.execute(figure)
+        wrap_labels(figure)
+        separate_headings(figure)
+    if engine is not None:
+        engine.execute(figure)

@@ -2,8 +2,9 @@
 
 import re
 import textwrap
+from collections.abc import Sequence
 
-__all__ = ["plain", "shorten", "typeset", "wrap_name", "wrap_text"]
+__all__ = ["list_first", "plain", "shorten", "typeset", "wrap_name", "wrap_text"]
 
 LETTERS = 44
 """In a line beside a panel."""
@@ -20,6 +21,21 @@ def shorten(words: str, letters: int) -> str:
     ('pivot of…', 'pivot')
     """
     return words if len(words) <= letters else words[: letters - 1].rstrip(" ,") + "…"
+
+
+def list_first(names: Sequence[str], letters: int) -> str:
+    """Return the first names that have at most so many letters, and how many more there are.
+
+    >>> list_first(["counter pin", "knuckle 6, each side", "pivot"], 33)
+    'counter pin; knuckle 6, each side; and 1 more'
+    >>> list_first(["counter pin", "pivot"], 33)
+    'counter pin; pivot'
+    """
+    count = len(names)
+    while count > 1 and len("; ".join(names[:count])) > letters:
+        count -= 1
+    rest = [f"and {len(names) - count} more"] if count < len(names) else []
+    return "; ".join([*names[:count], *rest])
 
 
 def plain(text: str) -> str:

@@ -6,8 +6,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
+from exu_press.plots.legends import legend_above
 from exu_press.plots.palette import GREY, line_of
-from exu_press.plots.panels import figure_with_panels, grid_rows, legend_above
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import with_style
 from exu_press.plots.typesetting import plain, typeset
 from exu_press.studies.curve_comparison import CurveComparison

@@ -9,7 +9,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from exu_press.plots.file import save_figures
-from exu_press.plots.palette import COLOURS, GREY
+from exu_press.plots.legends import legend_above
+from exu_press.plots.palette import COLOURS, GREY, colour_of
 from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.save import sources_of
 from exu_press.plots.style import PATH_COLOURS, with_style
@@ -30,10 +31,7 @@ HIGHEST_ORDER = 60.0
 
 def draw_spectrum(axes: Axes, spectrum: Spectrum, unit: str) -> None:
     """Draw the amplitudes over a logarithmic scale, the error of the resampling, the resolution."""
-    axes.plot(spectrum.frequency, spectrum.amplitude, color=COLOURS["blue"], linewidth=0.9)
-    axes.axhline(
-        spectrum.error, color=GREY, linewidth=0.9, linestyle="--", label="error of the resampling"
-    )
+    axes.plot(spectrum.frequency, spectrum.amplitude, color=colour_of(0), linewidth=0.9)
     lowest, width = spectrum.frequency[0], spectrum.resolution
     if width > lowest:
         label = f"below the resolution, {width:.3g} Hz"
@@ -41,6 +39,11 @@ def draw_spectrum(axes: Axes, spectrum: Spectrum, unit: str) -> None:
     axes.set_yscale("log")
     largest = float(spectrum.amplitude.max()) or 1.0
     axes.set_ylim(DECADES * largest, 2.0 * largest)
+    label = "error of the resampling"
+    if spectrum.error > DECADES * largest:
+        axes.axhline(spectrum.error, color=GREY, linewidth=0.9, linestyle="--", label=label)
+    else:
+        axes.plot([], " ", label=f"{label}: {spectrum.error:.1g}, below the panel")
     axes.set_ylabel(plain(typeset(f"amplitude, {unit}")))
 
 
@@ -64,7 +67,7 @@ def spectrum_figure(spectra: Spectra, scene: Scene, marks: Sequence[Mark] = ()) 
             mark.frequency, color=colour, linewidth=1.2,
             label=plain(f"{mark.name}, {mark.frequency:.0f} Hz"),
         )  # fmt: skip
-    panels[0].legend(loc="lower left", ncols=2)
+    legend_above(panels[0])
     if orders:
         draw_spectrum(panels[1], orders, spectra.unit)
         panels[1].set_xlim(0.0, min(HIGHEST_ORDER, orders.frequency[-1]))

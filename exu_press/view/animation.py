@@ -19,7 +19,7 @@ from exu_press.plots.canvas import angle_words, dead_centres
 from exu_press.plots.palette import GREY
 from exu_press.plots.peaks import draw_rest
 from exu_press.plots.scales import crank_angle_axis, impact_scale, note
-from exu_press.plots.style import look
+from exu_press.plots.style import look, points
 from exu_press.plots.typesetting import plain
 from exu_press.plots.words import describe, early_stops
 from exu_press.result import Result
@@ -34,6 +34,9 @@ __all__ = ["SIZE", "Animation", "Look"]
 
 SIZE = (12.8, 7.2)
 """Inch."""
+
+ABOVE = 10
+"""Order of drawing, behind that of all still parts."""
 
 MOST_JOINTS = 2
 """Joints that are magnified, the busiest ones; the rest stand in a table."""
@@ -76,6 +79,11 @@ class Animation:
             f"t = {self.instants.time[frame] * 1e3:7.2f} ms    crank {degrees:6.1f}°"
         )
 
+    def freeze(self) -> None:
+        """Let the figure draw the moving parts itself, as it stands, over the still ones."""
+        for number, artist in enumerate(self.artists):
+            artist.set(animated=False, zorder=ABOVE + number)
+
     def draw(self, artists: Iterable[Artist]) -> None:
         """Draw some of the moving parts."""
         for artist in artists:
@@ -86,15 +94,16 @@ class Animation:
         figure, result = self.figure, self.result
         width = 150
         lines = [describe([result.scene], width), early_stops({"": result}, width)]
-        figure.text(0.012, 0.975, plain("\n".join(filter(None, lines))), fontsize=9.0, va="top")
+        text = plain("\n".join(filter(None, lines)))
+        figure.text(0.012, 0.975, text, fontsize=points(9.0), va="top")
         self._clock = figure.text(
-            0.988, 0.972, "", fontsize=11, fontweight="bold", va="top", ha="right"
+            0.988, 0.972, "", fontsize=points(11), fontweight="bold", va="top", ha="right"
         )
         slow = self.instants.slow
         factor = f"{slow:.3g} times slower" if slow >= 1.0 else f"{1.0 / slow:.3g} times faster"
         speed = f"{factor} than the machine at {self.instants.fps:g}"
         if not self.instants.still:
-            figure.text(0.012, 0.015, f"{speed} frames a second", fontsize=7.5, color=GREY)
+            figure.text(0.012, 0.015, f"{speed} frames a second", fontsize=points(7.5), color=GREY)
         names = sorted(result.clearance_joints, key=lambda n: (result.joints[n].spherical, n))
         joints, rest = busiest([result], names, "eccentricity", MOST_JOINTS)
         columns = figure.add_gridspec(
@@ -112,7 +121,7 @@ class Animation:
             heights = [1.0] * len(joints) + [0.085 * (len(rest) + 2)] * bool(rest)
             rows = columns[1].subgridspec(len(heights), 1, hspace=0.16, height_ratios=heights)
             if rest:
-                draw_rest(figure.add_subplot(rows[-1]), result, rest, 9.0)
+                draw_rest(figure.add_subplot(rows[-1]), result, rest, points(9.0))
             for index, (name, title) in enumerate(joints.items()):
                 axes = figure.add_subplot(rows[index])
                 self.panels.append(JointPanel(axes, result, name, title, self.instants))

@@ -8,7 +8,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch
 
 from exu_press.numerics.arrays import Array, lengths
-from exu_press.plots.palette import COLOURS, GREY, RUN
+from exu_press.plots.palette import COLOURS, GREY, colour_of
+from exu_press.plots.style import points
 from exu_press.plots.typesetting import shorten
 from exu_press.quantities.uncertain import significant
 from exu_press.result import Result
@@ -66,7 +67,7 @@ class JointPanel:
         axes.set_axis_off()
         axes.set(xlim=(-1.25, 2.15), ylim=(-1.6, 1.5))
         properties = f", {joint.kind}, clearance {radial * 1e6:.4g} µm"
-        axes.set_title(shorten(title, TITLE - len(properties)) + properties, fontsize=8.6)
+        axes.set_title(shorten(title, TITLE - len(properties)) + properties, fontsize=points(8.6))
         axes.add_patch(Circle((0, 0), RIM, facecolor=STEEL, edgecolor=EDGE, linewidth=0.8))
         inside = OIL if joint.kind == "lubricated" else "white"
         axes.add_patch(Circle((0, 0), BORE, facecolor=inside, edgecolor=EDGE, linewidth=0.8))
@@ -74,7 +75,7 @@ class JointPanel:
             -1.22,
             -1.26,
             _legend("ball" if ball else "journal", self._largest, instants.still),
-            fontsize=7.0,
+            fontsize=points(7.0),
             color=GREY,
             va="top",
         )
@@ -84,13 +85,15 @@ class JointPanel:
         circle = axes.add_patch(
             Circle((0, 0), drawn, fill=False, edgecolor=MARKED, linewidth=1.1, linestyle="--")
         )
-        (self._path,) = axes.plot([], [], color=RUN, linewidth=0.8)
-        (self._centre,) = axes.plot([], [], "o", markersize=4.5, color=RUN, markeredgecolor="white")
+        (self._path,) = axes.plot([], [], color=colour_of(0), linewidth=0.8)
+        (self._centre,) = axes.plot(
+            [], [], "o", markersize=4.5, color=colour_of(0), markeredgecolor="white"
+        )
         self._arrow = FancyArrowPatch(
             (0, 0), (0, 0), mutation_scale=11, linewidth=2.0, color=FORCE, shrinkA=0, shrinkB=0
         )
         axes.add_patch(self._arrow)
-        self._words = axes.text(-1.22, 1.44, "", fontsize=8.5, va="center", ha="left")
+        self._words = axes.text(-1.22, 1.44, "", fontsize=points(8.5), va="center", ha="left")
         extra: list[Any] = []
         self._zoom: tuple[Line2D, Line2D] | None = None
         if reach < SMALL_PATH:
@@ -116,11 +119,10 @@ class JointPanel:
         zoom.axhline(0.0, color="#D0D0D0", linewidth=0.6)
         zoom.axvline(0.0, color="#D0D0D0", linewidth=0.6)
         width = 2e6 * half * self._clearance
-        zoom.set_title(
-            f"path,\n{significant(width, 2)} µm wide", fontsize=7, fontweight="normal", pad=2.5
-        )
-        (path,) = zoom.plot([], [], color=RUN, linewidth=0.8)
-        (centre,) = zoom.plot([], [], "o", markersize=3.5, color=RUN)
+        title = f"path,\n{significant(width, 2)} µm wide"
+        zoom.set_title(title, fontsize=points(7), fontweight="normal", pad=2.5)
+        (path,) = zoom.plot([], [], color=colour_of(0), linewidth=0.8)
+        (centre,) = zoom.plot([], [], "o", markersize=3.5, color=colour_of(0))
         self._zoom = path, centre
         return [path, centre]
 

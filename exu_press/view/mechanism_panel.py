@@ -17,6 +17,7 @@ from exu_press.mechanism.spring_motion import spring_ends
 from exu_press.numerics.arrays import Array
 from exu_press.plots.palette import COLOURS, GREY
 from exu_press.plots.scales import spread
+from exu_press.plots.style import points
 from exu_press.plots.typesetting import shorten
 from exu_press.plots.words import joint_in_words
 from exu_press.result import Result
@@ -178,7 +179,7 @@ def _draw_dead_centres(axes: Axes, ends: Sequence[Mark], unit: float) -> list[Ar
         artists += axes.plot(*line.T, color=GREY, linewidth=0.9)
         x, y = line[1] + 0.006 * unit * mark.direction
         side = "bottom" if mark.is_above else "top"
-        label = axes.text(x, y, mark.label, fontsize=7.5, color=GREY, va=side, ha="right")
+        label = axes.text(x, y, mark.label, fontsize=points(7.5), color=GREY, va=side, ha="right")
         label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.5})
         artists.append(label)
     return artists
@@ -204,7 +205,7 @@ def _draw_labels(
     heights = spread(np.clip(means, min(edges), max(edges)), sizes)
     leaders: dict[str, tuple[Line2D, Point]] = {}
     for (name, words), y in zip(named.items(), heights, strict=True):
-        axes.text(right + 0.12 * unit, y, words, fontsize=8.5, va="center")
+        axes.text(right + 0.12 * unit, y, words, fontsize=points(8.5), va="center")
         (line,) = axes.plot([], [], color="#9A9A9A", linewidth=0.6)
         leaders[name] = line, (right + 0.11 * unit, y)
     return leaders

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.decimate import decimate
-from exu_press.plots.palette import RUN
+from exu_press.plots.palette import colour_of
 from exu_press.result import Result
 from exu_press.view.instants import Instants
 
@@ -46,8 +46,10 @@ class CurvePanel:
         decimated = steps_in_view.start + decimate(degrees[steps_in_view], values[steps_in_view])
         self._x, self._y = degrees[decimated], values[decimated]
         axes.plot(self._x, self._y, color=PALE, linewidth=0.9)
-        (self._line,) = axes.plot([], [], color=RUN, linewidth=1.2)
-        (self._dot,) = axes.plot([], [], "o", markersize=5, color=RUN, markeredgecolor="white")
+        (self._line,) = axes.plot([], [], color=colour_of(0), linewidth=1.2)
+        (self._dot,) = axes.plot(
+            [], [], "o", markersize=5, color=colour_of(0), markeredgecolor="white"
+        )
         self._cursor = axes.axvline(degrees[steps_in_view.start], color="black", linewidth=0.8)
         self.artists = mark_animated(self._cursor, self._line, self._dot)
 

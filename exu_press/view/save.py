@@ -16,9 +16,9 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from exu_press.errors import DiskFullError, InputError
-from exu_press.files.output_directory import check_writable, replacing
+from exu_press.files.output_directory import FORMATS, check_writable, replacing
 from exu_press.mechanism.shapes import COLOURS as BODIES
-from exu_press.plots.file import png_texts, write_png
+from exu_press.plots.file import png_texts, save_figure, write_png
 from exu_press.plots.palette import COLOURS
 from exu_press.plots.save import sources_of
 from exu_press.view.animation import Animation, Painter
@@ -41,17 +41,17 @@ NUMBER = re.compile(r"%0?\d*d")
 MOST_DIGITS = 9
 """Most digits of a frame's number."""
 
-ALLOWED = ".mp4, .gif, .png, or .png with the frame's number, as in frame_%04d.png"
+ALLOWED = ".mp4, .gif, .png with the frame's number, as in frame_%04d.png, or .png, .svg, .pdf"
 
 
 def is_animation(path: Path) -> bool:
     """Return whether a name asks for all frames, not for one picture."""
-    return path.suffix.lower() != ".png" or NUMBER.search(path.name) is not None
+    return path.suffix.lower() not in FORMATS or NUMBER.search(path.name) is not None
 
 
 def check_target(path: Path) -> None:
     """Raise InputError if nothing can be written under this name, before anything is drawn."""
-    if path.suffix.lower() not in DPI:
+    if path.suffix.lower() not in (DPI if is_animation(path) else FORMATS):
         raise InputError(f"--save {path}: allowed is a name ending in {ALLOWED}")
     if path.suffix.lower() == ".mp4":
         _ffmpeg(path)
@@ -61,15 +61,11 @@ def check_target(path: Path) -> None:
 
 
 def save_picture(animation: Animation, frame: int, path: Path) -> Path:
-    """Write one frame as .png."""
+    """Write one frame as .png, .svg or .pdf."""
     check_target(path)
-    image = Painter(animation, DPI[".png"]).paint(frame)
-    return _write_png(path, frame, image, _texts(animation))
-
-
-def _texts(animation: Animation) -> PngInfo:
-    """Return the metadata of a picture of a run."""
-    return png_texts(sources_of({"": animation.result}))
+    animation.show(frame)
+    animation.freeze()
+    return save_figure(animation.figure, path, sources_of({"": animation.result}))
 
 
 def save_animation(
@@ -96,7 +92,7 @@ def save_animation(
                 report(frame + 1)
 
     if kind == ".png":
-        texts = _texts(animation)
+        texts = png_texts(sources_of({"": animation.result}))
         return [_write_png(path, number, image, texts) for number, image in enumerate(frames())]
     with replacing(path) as partial:
         if kind == ".gif":

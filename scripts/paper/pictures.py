@@ -12,7 +12,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from exu_press.plots import orbit_figure, slider_figure
 from exu_press.plots.file import save_figures
-from exu_press.plots.palette import COLOURS, RUN
+from exu_press.plots.palette import COLOURS
 from exu_press.plots.style import with_style
 from exu_press.result import Result
 from exu_press.scene import Scene
@@ -29,7 +29,7 @@ __all__ = ["save_paper"]
 PEAK = f"peak_acceleration.{OBSERVED}"
 LOOKS: dict[str, dict[str, Any]] = {
     "2.5545e8": {"color": COLOURS["vermilion"], "marker": "o"},
-    "0.01": {"color": RUN, "marker": "D"},
+    "0.01": {"color": COLOURS["blue"], "marker": "D"},
 }
 PAPER: dict[str, Any] = {"color": COLOURS["green"], "marker": "*", "markersize": 11, "zorder": 5}
 SWEPT = {

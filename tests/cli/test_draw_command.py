@@ -16,10 +16,12 @@ def drawn(tmp_path):
     return path
 
 
-def test_a_picture_is_written(drawn):
-    target = drawn.with_suffix(".pdf")
-    assert main(["draw", str(drawn), "--save", str(target)]) == 0
+def test_a_picture_is_written(drawn, capsys):
+    target, width = drawn.with_suffix(".pdf"), ["--width", "84mm"]
+    assert main(["draw", str(drawn), "--save", str(target), *width]) == 0
     assert target.read_bytes().startswith(b"%PDF")
+    assert main(["draw", str(drawn), *width]) == 2
+    assert "--width 84mm: allowed with --save" in capsys.readouterr().err
 
 
 def test_single_keys_are_changed(drawn, tmp_path, capsys):

@@ -1,3 +1,5 @@
+import re
+
 import pytest
 
 from exu_press import Scene, simulate
@@ -12,11 +14,16 @@ def run(tmp_path_factory):
 
 
 def test_an_animation_and_a_picture_from_the_file_alone(run, tmp_path, capsys):
-    animation, picture = tmp_path / "animation.gif", tmp_path / "picture.png"
+    animation, picture = tmp_path / "animation.gif", tmp_path / "picture.svg"
+    style = tmp_path / "journal.mplstyle"
+    style.write_text("font.size: 19\n")
     assert main(["view", str(run), "--save", str(animation), "--frames", "3"]) == 0
     directory = str(run.parent)  # as good as the file in it
-    assert main(["view", directory, "--save", str(picture), "--at", "0.005", "--quiet"]) == 0
-    assert animation.stat().st_size > 10_000 and picture.stat().st_size > 10_000
+    words = ["--save", str(picture), "--at", "0.005", "--style", str(style), "--quiet"]
+    assert main(["view", directory, *words]) == 0
+    assert animation.stat().st_size > 10_000
+    text = picture.read_text(encoding="utf-8")
+    assert re.search(r"\b22px[^>]*>t =    5.00 ms", text), "twice the size"
     assert capsys.readouterr().out == f"written: {animation}\n"
 
 
@@ -24,9 +31,10 @@ def test_an_animation_and_a_picture_from_the_file_alone(run, tmp_path, capsys):
     ("arguments", "message"),
     [
         (["--slow", "5"], "--slow 5.0: allowed with --save"),
+        (["--save", "x%d.svg"], "--save x%d.svg: allowed is a name ending in .mp4"),
         (["--save", "x.avi"], "--save x.avi: allowed is a name ending in .mp4"),
         (["--save", "x.gif", "--from", "7"], "--from 7: the record goes from 0"),
-        (["--save", "x.gif", "--at", "0.01"], "--at 0.01: allowed with --save FILE.png alone"),
+        (["--save", "x.gif", "--at", "0.01"], "--at 0.01: allowed with --save of one picture"),
         (["--save", "x.png", "--slow", "3"], "--slow 3: allowed for animations"),
         (["--save", "x.gif", "--colour", "stress"], "--colour stress: allowed for runs with flex"),
         (["--save", "x.gif", "--exaggerate", "9"], "--exaggerate 9.0: allowed for runs with flex"),

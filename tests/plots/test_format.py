@@ -6,10 +6,11 @@ import re
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.text import Text
 from PIL import Image
 
 from exu_press.cli import main
-from exu_press.plots import force_figure, orbit_figure, slider_figure
+from exu_press.plots import energy_figure, force_figure, orbit_figure, slider_figure
 from exu_press.plots.file import save_figure
 from exu_press.plots.format import PictureFormat, drawn_as
 from exu_press.plots.palette import COLOURS, line_of
@@ -64,8 +65,9 @@ def test_a_width_is_that_of_the_file_and_letters_are_those_of_a_paper(width, res
 
 
 def overlapping_headings(figure):
-    """Return the titles of panels that a note or a legend lies on."""
+    """Return the titles of panels that a note or a legend lies on, or nearly touches."""
     figure.draw_without_rendering()
+    near = 12.0 * figure.dpi / 72.0
     overlapping = []
     for axes in figure.axes:
         title = axes._left_title
@@ -75,28 +77,70 @@ def overlapping_headings(figure):
             for item in others
             if not hasattr(item, "get_text") or item.get_text()
         ]
-        if title.get_text() and any(title.get_window_extent().overlaps(box) for box in boxes):
+        around = title.get_window_extent().padded(near, 0.0)
+        if title.get_text() and any(around.overlaps(box) for box in boxes):
             overlapping.append(title.get_text())
     return overlapping
 
 
-@pytest.mark.parametrize("width", [pytest.param(None, marks=pytest.mark.long), "84mm"])
+@pytest.mark.parametrize("width", [pytest.param(None, marks=pytest.mark.long), "84mm", "140mm"])
 def test_no_heading_lies_on_another_one(width, results):
     with drawn_as(PictureFormat.from_texts("png", width, None, "default")):
         for figure in (
             slider_figure({"": results["dry"]}),
             force_figure({"": results["dry"]}),
             orbit_figure(results["dry"]),
+            energy_figure(results["dry"]),
         ):
             assert overlapping_headings(figure) == []
 
 
+LONG = "a_rather_long_variant_name_for_scene"
+
+
+@pytest.mark.parametrize(
+    ("width", "name", "columns"), [("84mm", "variant", 3), (None, LONG, 3), ("84mm", 3 * LONG, 1)]
+)
+def test_a_legend_outside_has_the_columns_that_fit(width, name, columns, results):
+    labels = [f"{name}_{number}" for number in range(5)]
+    with drawn_as(PictureFormat.from_texts("png", width, None, "default")):
+        figure = force_figure(dict.fromkeys(labels, results["ideal"]))
+    figure.draw_without_rendering()
+    (legend,) = figure.legends
+    box, texts = legend.get_window_extent(), legend.get_texts()
+    assert box.x0 >= 0.0 and box.x1 <= figure.bbox.width
+    assert len({text.get_window_extent().x0 for text in texts}) == columns
+    assert ["".join(text.get_text().split()) for text in texts] == labels
+
+
+@pytest.mark.parametrize("width", ["84mm", "140mm"])
+def test_words_in_a_circle_stay_inside_it(width, results):
+    with drawn_as(PictureFormat.from_texts("png", width, None, "default")):
+        figure = orbit_figure(results["lubricated"])
+    figure.draw_without_rendering()
+    (inset,) = (axes for panel in figure.axes for axes in panel.child_axes)
+    (panel,) = (axes for axes in figure.axes if inset in axes.child_axes)
+    titles = (inset.title, inset._left_title, inset._right_title)
+    (title,) = (text.get_window_extent() for text in titles if text.get_text())
+    assert panel.bbox.x0 < title.x0 and title.x1 < panel.bbox.x1
+    assert title.y1 < panel.bbox.y1
+    ball = next(axes for axes in figure.axes if len(axes.texts) == 2)
+    for text in ball.texts:
+        corners = ball.transData.inverted().transform(text.get_window_extent().corners())
+        assert np.linalg.norm(corners, axis=1).max() < 100.0, "um, of the clearance"
+
+
 def test_svg_has_text_and_a_style_file_goes_before_our_settings(results, tmp_path):
     style = tmp_path / "journal.mplstyle"
-    style.write_text("axes.titlesize: 6.25\naxes.grid: False\n")
+    cycle = "cycler('color', ['tab:red', 'gray']) + cycler('linestyle', [':', '-.'])"
+    style.write_text(f"axes.titlesize: 6.25\nfont.size: 12\naxes.prop_cycle: {cycle}\n")
     with drawn_as(PictureFormat.from_texts("svg", "84mm", str(style), "default")):
-        figure = force_figure({"": results["ideal"]})
+        figure = force_figure({"first": results["ideal"], "second": results["ideal"]})
         assert {axes._left_title.get_fontsize() for axes in figure.axes} == {6.25}
+        sizes = [text.get_fontsize() for text in figure.findobj(Text)]
+        assert min(size for size in sizes if size != 6.25) == pytest.approx(8.5 / 9.5 * 12)
+        drawn = [(line.get_color(), line.get_linestyle()) for line in figure.axes[0].lines]
+        assert drawn == [("tab:red", ":"), ("gray", "-.")]
         text = save_figure(figure, tmp_path / "force.svg").read_text()
     assert re.search(r"<text[^>]*>Drive torque</text>", text)
 

@@ -1,13 +1,17 @@
 """Spectra of a run: the command, its marks, and the names that it refuses."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from exu_press import InputError, Result, Scene, simulate
 from exu_press.cli import main
 from exu_press.result.column import column_of
 from exu_press.result.windows import window
 from exu_press.studies.spectrum import marks_of, spectra
+from exu_press.studies.spectrum_figure import draw_spectrum
 
 PIN = {"clearance": 1e-4, "radius": 0.03}
 DRY = Scene(
@@ -55,6 +59,15 @@ def test_a_single_revolution_tells_its_largest_orders(ideal):
     told = [line.split() for line in one.lines() if "orders  " in line]
     assert [words[0] for words in told[:2]] == ["1", "2"]
     assert float(told[1][2]) == pytest.approx(one.over_angle.amplitude[1], rel=1e-3)
+
+
+@pytest.mark.parametrize(("error", "label"), [(1e-2, "sampling"), (1e-9, "below the panel")])
+def test_an_error_below_the_panel_is_a_number_without_a_line(ideal, error, label):
+    axes = Figure().add_subplot()
+    draw_spectrum(axes, replace(spectra(ideal)[0].over_time, error=error), "m/s^2")
+    *_, line = axes.lines
+    assert line.get_label().endswith(label)
+    assert np.all(np.asarray(line.get_ydata()) > axes.get_ylim()[0])
 
 
 def test_a_journal_on_a_linear_contact_has_its_frequency():

@@ -6,7 +6,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.palette import COLOURS, GREY, RUN
+from exu_press.plots.legends import legend_above
+from exu_press.plots.palette import COLOURS, GREY, colour_of
 from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import PATH_COLOURS, with_style
 from exu_press.plots.sweep_words import words as in_words
@@ -80,16 +81,19 @@ def _section(panel: Axes, motion: Attractor, up: int, title: str, label: str) ->
 
 def _portrait(panel: Axes, motion: Attractor) -> None:
     for run in motion.last:
-        panel.plot(run["slider_acceleration"], run["slider_velocity"], color=RUN, lw=0.5)
+        panel.plot(run["slider_acceleration"], run["slider_velocity"], color=colour_of(0), lw=0.5)
     ends = [(run["slider_acceleration"][-1], run["slider_velocity"][-1]) for run in motion.last]
     panel.plot(*zip(*ends, strict=True), "o", color=COLOURS["vermilion"], ms=5, label="section")
+    panel.margins(x=0.05)
     panel.set_title(f"phase portrait, last {len(motion.last)} revolutions")
     panel.set(xlabel=typeset("acceleration, m/s^2"), ylabel="velocity, m/s")
     panel.legend(loc="best")
 
 
 def _transient(panel: Axes, motion: Attractor) -> None:
-    panel.semilogy(np.arange(1, len(motion.transient) + 1), motion.transient, "o-", color=RUN, ms=3)
+    panel.semilogy(
+        np.arange(1, len(motion.transient) + 1), motion.transient, "o-", color=colour_of(0), ms=3
+    )
     panel.axhline(motion.error, color=GREY, ls="--", lw=1.0, label="error")
     panel.set_title("transient: distance from the last point")
     panel.set(xlabel="revolution", ylabel="clearances")
@@ -102,7 +106,7 @@ def _frequencies(panel: Axes, slider: Spectra) -> None:
     draw_spectrum(panel, slider.over_time, slider.unit)
     panel.set_xscale("log")
     panel.set_xlim(slider.over_time.frequency[0], slider.over_time.frequency[-1])
-    panel.legend(loc="lower left")
+    legend_above(panel)
     panel.set_title("spectrum of the slider's acceleration")
     panel.set_xlabel("frequency, Hz")
 
@@ -119,7 +123,9 @@ def _orders(panel: Axes, slider: Spectra) -> None:
 
 
 def _histogram(panel: Axes, label: str, values: Array) -> None:
-    panel.hist(values[np.isfinite(values)], bins=[*np.linspace(*_span_of(values), 31)], color=RUN)
+    panel.hist(
+        values[np.isfinite(values)], bins=[*np.linspace(*_span_of(values), 31)], color=colour_of(0)
+    )
     panel.set_title("values of a revolution")
     panel.set(xlabel=label, ylabel="revolutions")
     panel.set_xlim(_span_of(values))
@@ -137,7 +143,9 @@ def _span_of(values: Array) -> tuple[float, float]:
 
 
 def _by_revolution(panel: Axes, label: str, values: Array, skip: int) -> None:
-    panel.plot(np.arange(skip + 1, skip + len(values) + 1), values, "o-", color=RUN, ms=3, lw=0.6)
+    panel.plot(
+        np.arange(skip + 1, skip + len(values) + 1), values, "o-", color=colour_of(0), ms=3, lw=0.6
+    )
     panel.set_title("value of each revolution")
     panel.set(xlabel="revolution", ylabel=label, ylim=_span_of(values))
     panel.set_xlim(skip + 0.5, skip + len(values) + 0.5)

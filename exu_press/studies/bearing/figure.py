@@ -13,8 +13,9 @@ from exu_press.laws.film.grooves import GroovedFilmState
 from exu_press.laws.film.reynolds import solve_reynolds
 from exu_press.laws.film.tilted import TiltedFilm
 from exu_press.numerics.arrays import Array
-from exu_press.plots.palette import COLOURS, GREY, RUN, colour_of
-from exu_press.plots.panels import figure_with_panels, grid_rows, legend_above
+from exu_press.plots.legends import legend_above
+from exu_press.plots.palette import COLOURS, GREY, colour_of
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import with_style
 from exu_press.studies.bearing.coefficients import (
     BearingCoefficients,
@@ -103,7 +104,7 @@ def _locus(panel: Axes, report: BearingReport) -> None:
                 break
         else:
             path.append(bearing.eccentricity)
-    panel.plot(*np.reshape(path, (-1, 2)).T / clearance, color=RUN)
+    panel.plot(*np.reshape(path, (-1, 2)).T / clearance, color=colour_of(0))
     for row in report.rows:
         panel.plot(*(e / clearance for e in row.eccentricity), "o", color=COLOURS["vermilion"])
     turn = np.linspace(0.0, math.tau, 181)

@@ -9,8 +9,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from exu_press.numerics.arrays import Array
+from exu_press.plots.legends import legend_above
 from exu_press.plots.palette import COLOURS, GREY, SHADE, colour_of
-from exu_press.plots.panels import figure_with_panels, grid_rows, legend_above
+from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import PATH_COLOURS, with_style
 from exu_press.plots.sweep_words import in_unit, label_with_unit

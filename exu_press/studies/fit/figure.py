@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 from scipy.stats import chi2
 
 from exu_press.plots.format import picture_format
-from exu_press.plots.palette import COLOURS, GREY, SHADE
+from exu_press.plots.palette import GREY, SHADE, colour_of
 from exu_press.plots.panels import figure_with_panels, grid_rows, name_rows
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import with_style
@@ -47,7 +47,7 @@ def fit_figure(report: FitReport) -> Figure:
         first.axvspan(-2.0, 2.0, color=SHADE, zorder=0)
         first.axvline(0.0, color="black", linewidth=0.8)
         first.errorbar(
-            report.residuals, rows, xerr=report.errors[:number], fmt="o", color=COLOURS["blue"],
+            report.residuals, rows, xerr=report.errors[:number], fmt="o", color=colour_of(0),
             markersize=5, elinewidth=1.2,
         )  # fmt: skip
         name_rows(first, rows.tolist(), [entry.name for entry in study.measured])
@@ -83,8 +83,8 @@ def profiles_figure(report: FitReport) -> Figure:
         best = report.values[name] * scale
         dense, rises = interpolate_rise(points, report.values[name], 2.2 * rise)
         dense = dense * scale
-        panel.plot(dense, rises, color=COLOURS["blue"])
-        panel.plot(values, points[:, 1], "o", color=COLOURS["blue"], markersize=4)
+        panel.plot(dense, rises, color=colour_of(0))
+        panel.plot(values, points[:, 1], "o", color=colour_of(0), markersize=4)
         panel.axhline(rise, color=GREY, linewidth=1.0)
         for end in (report.low[name], report.high[name]):
             panel.axvline(end * scale, color=GREY, linewidth=1.0, linestyle="--")

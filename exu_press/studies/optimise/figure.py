@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exu_press.numerics.arrays import Array
-from exu_press.plots.palette import COLOURS, GREY
+from exu_press.plots.legends import legend_outside
+from exu_press.plots.palette import COLOURS, GREY, colour_of
 from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.scales import log_axis
 from exu_press.plots.style import with_style
@@ -53,8 +54,7 @@ def front_figure(report: OptimiseReport) -> Figure:
         study_key = study.keys[name]
         if isinstance(study_key, Range) and study_key.log:
             log_axis(panel, "x", values_in_unit)
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper right", ncols=3)
+    legend_outside(figure, panels[0].get_legend_handles_labels()[0], "upper right")
     return figure
 
 
@@ -75,7 +75,7 @@ def _points(
             bars[side] = np.nan_to_num(report.errors[name]) * scale
     several = len(report.study.objective) > 1
     panel.errorbar(
-        across[report.places], up[report.places], **bars, fmt="o", color=COLOURS["blue"],
+        across[report.places], up[report.places], **bars, fmt="o", color=colour_of(0),
         markersize=4.5, ecolor=GREY, elinewidth=1.0,
         label="not worse in everything" if several else "best",
     )  # fmt: skip

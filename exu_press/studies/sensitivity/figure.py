@@ -7,6 +7,7 @@ from matplotlib.patches import Patch
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.format import picture_format
+from exu_press.plots.legends import legend_outside
 from exu_press.plots.palette import COLOURS, GREY
 from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import with_style
@@ -61,8 +62,7 @@ def sensitivity_figure(report: SensitivityReport) -> Figure:
         for end, colour in zip((5, 95), BARS, strict=True)
     ]
     handles = [*ends, *(line for line in panels[2].lines if line.get_marker() == "o")]
-    columns = 2 if picture_format().stacks else 4
-    figure.legend(handles=handles, loc="outside upper right", ncols=columns)
+    legend_outside(figure, handles, "upper right")
     return figure
 
 

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from exu_press.plots.format import picture_format
+from exu_press.plots.legends import legend_outside
 from exu_press.plots.palette import COLOURS, GREY
 from exu_press.plots.panels import figure_with_panels, grid_rows
 from exu_press.plots.style import PATH_COLOURS, points, with_style
@@ -69,9 +70,7 @@ def stability_figure(report: StabilityReport) -> Figure:
         )
         for verdict, style in MARKERS.items()
     ]  # fmt: skip
-    figure.legend(
-        handles=handles, loc="outside upper right", ncols=1 if picture_format().stacks else 3
-    )
+    legend_outside(figure, handles, "upper right")
     return figure
 
 

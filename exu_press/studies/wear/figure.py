@@ -42,7 +42,7 @@ def wear_figure(report: WearReport) -> Figure:
         if name:
             quantity = quantity_of(study.scene, name).quantity
             values = [np.nan if v is None else v * quantity.scale for v in report.values(name)]
-            axes.plot(strokes, values, "o-", markersize=3)
+            axes.plot(strokes, values, "o-", markersize=3, color=colour_of(0))
             axes.set_ylabel(wrap_text(axis_label(name), LETTERS))
         else:
             for number, joint in enumerate(joints):

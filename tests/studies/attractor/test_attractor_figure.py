@@ -37,7 +37,9 @@ def test_what_each_panel_shows(run):
     assert speeds.collections[0].get_offsets().tolist() == points[:, [0, 2]].tolist()
     assert portrait.lines[0].get_xdata() == pytest.approx(run["slider_acceleration"])
     assert transient.lines[0].get_ydata().tolist() == [0.1, 0.01]
+    assert np.ptp(portrait.get_xlim()) > 1.05 * np.ptp(run["slider_acceleration"])
     assert spectrum.get_yscale() == "log"
+    assert spectrum.get_legend().get_window_extent().y0 >= spectrum.bbox.y1
     assert orders.get_xlim()[0] < 1.0
     assert sum(bar.get_height() for bar in values.patches) == 5  # revolutions that have the figure
     assert by_revolution.lines[0].get_xdata().tolist() == [3, 4, 5, 6, 7, 8]

@@ -46,13 +46,13 @@ def simulate_equal_windows(
     added = {label: run.info.get("added_revolutions", 0) for label, run in warm.items()}
     most = max(added.values(), default=0)
     yield from ((label, run) for label, run in warm.items() if added[label] == most)
-    others = {
+    remaining = {
         label: _with_added(scene, most)
         for label, scene in scenes.items()
         if added.get(label) != most
     }
-    for label, run in simulate_side_by_side(others, errors=errors, quiet=quiet):
-        if others[label] is not scenes[label]:
+    for label, run in simulate_side_by_side(remaining, errors=errors, quiet=quiet):
+        if remaining[label] is not scenes[label]:
             further = most + run.info.get("added_revolutions", 0)
             run = replace(run, info={**run.info, "added_revolutions": further})
         yield label, run

@@ -94,7 +94,7 @@ def _losses(axes: Axes, result: Result) -> None:
             curve(axes, result, lost, color=GREY, linewidth=1.4, linestyle=style, label=label)
     axes.set(title="Dissipated in", ylabel="energy, J")
     if rest:
-        note(axes, f"{rest} joints that dissipate less are not drawn")
+        note(axes, f"not drawn, as they dissipate less: {rest}")
     legend = axes.legend(loc="upper left", ncols=2, columnspacing=1.3)
     taken = LEGEND_ROW * math.ceil(len(legend.get_texts()) / 2)
     low, high = axes.get_ylim()

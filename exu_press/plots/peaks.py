@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 
 from exu_press.numerics.arrays import Array
 from exu_press.plots.canvas import crank_degrees
+from exu_press.plots.format import picture_format
 from exu_press.plots.palette import colour_of
 from exu_press.plots.scales import draw_bar
 from exu_press.quantities.catalogue import ECCENTRICITY_RATIO, JOINT_FORCE
@@ -117,13 +118,16 @@ def draw_rest(axes: Axes, result: Result, rest: Mapping[str, str], size: float) 
     assert figure is not None
     room = 72.0 * axes.get_position().width * figure.get_figwidth()
     size = min(size, max(SMALLEST, room / (LETTER * max(map(len, lines)))))
+    narrow = picture_format().stacks  # then it goes on to the left, below the names of the axes
     text = axes.text(
-        0.0,
+        1.0 if narrow else 0.0,
         1.0,
         "\n".join(lines),
         transform=axes.transAxes,
+        ha="right" if narrow else "left",
+        multialignment="left",
         va="top",
         fontsize=size,
         family="monospace",
     )
-    text.set_in_layout(False)  # its length is no reason to move the panels above it
+    text.set_in_layout(picture_format().width is not None)  # on a screen it is long, and has room

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from exu_press import Scene, simulate
 from exu_press.plots import force_figure, orbit_figure, slider_figure
 from exu_press.plots.busiest import busiest
+from exu_press.plots.format import PictureFormat, drawn_as
 from exu_press.plots.peaks import rest_lines
 from exu_press.plots.press import press_figure
 from exu_press.plots.scales import BAR
@@ -94,6 +95,16 @@ def test_the_largest_forces_are_drawn_and_every_other_joint_is_in_the_table(twel
     head, *lines = rest_lines(twelve, rest)
     assert head.split()[0] == "also"
     assert len(lines) == len(rest)
+
+
+@pytest.mark.parametrize("width", ["84mm", "174mm", None])
+def test_the_table_of_the_rest_is_in_the_picture(twelve, width):
+    with drawn_as(PictureFormat.from_texts("png", width, None, "default")):
+        figure = orbit_figure(twelve)
+    figure.draw_without_rendering()
+    table = figure.axes[8].texts[0].get_window_extent()
+    assert table.x0 >= 0.0 and table.y0 >= 0.0
+    assert table.x1 <= figure.bbox.x1
 
 
 def _titles(figure):

@@ -39,11 +39,10 @@ def why_not_converged(refinement: Refinement) -> str:
     levels, failures = refinement.levels, refinement.newton_failures()
     if refinement.solver_gives_up() or (len(levels) < 2 and failures == refinement.failures):
         latest = max(failures, key=lambda level: level.end)
-        numbers = ", ".join(str(level.steps) for level in failures)
-        return (
-            f"Newton's method fails at every level{' but coarser ones' * bool(levels)} ({numbers} "
-            f"steps), at the latest at {latest.end:.4g} s: {latest.failure}"
-        )
+        where = f"every level{' but coarser ones' * bool(levels)}"
+        steps = ", ".join(str(level.steps) for level in failures)
+        last = f"at the latest at {latest.end:.4g} s: {latest.failure}"
+        return f"Newton's method fails at {where} ({steps} steps), {last}"
     if len(levels) < 2:
         return _small_budget(refinement, LEVELS, 4 * refinement.failures[-1].steps)
     worst = int(refinement.differences(*levels[-2:]).max(axis=0).argmax())
@@ -61,10 +60,9 @@ def _cause(refinement: Refinement) -> str:
     finest, judgement = refinement.levels[-1], refinement.judgement
     orders = refinement.orders[-2:]  # of levels between which one alone may be low by chance
     if refinement.remembers:
-        return (
-            "a user function gives other results in each run, as it remembers earlier ones or "
-            "draws numbers; pass a function that builds the system"
-        )
+        why = "as it remembers earlier ones or draws numbers"
+        cure = "pass a function that builds the system"
+        return f"a user function gives other results in each run, {why}; {cure}"
     if judgement is not None and not judgement.decided and max(orders) < PLAUSIBLE[0]:
         times, apart = _distance(refinement)
         rate = growth(times, apart, APART).rate or 0.0
@@ -89,9 +87,7 @@ def _cause(refinement: Refinement) -> str:
     elif judgement is not None and judgement.decided:
         order = np.clip(judgement.order, PLAUSIBLE[0], ORDER)
         budget = math.ceil(finest.steps * (judgement.error / refinement.tolerance) ** (1.0 / order))
-        need = (
-            f"the tolerance: the error is {judgement.error:.2g}, and about {budget} steps have it"
-        )
+        need = f"the tolerance: the error is {judgement.error:.2g}; some {budget} steps have it"
     return _small_budget(refinement, need, budget)
 
 
@@ -100,12 +96,9 @@ def _small_budget(refinement: Refinement, need: str, steps: int) -> str:
     by_steps, by_time = refinement.budget_left()
     used = sum(steps for steps, _ in refinement.cost)
     seconds = refinement.runs.elapsed_time() * (1.0 + 4 * steps / used)
-    enough = f"max_steps = {used + 4 * steps} would do"
+    cure = f"max_steps = {used + 4 * steps} would do"
     if seconds > A_DAY:
-        enough = (
-            f"one that would do takes about {seconds / A_DAY:.2g} days; try a larger tolerance, or "
-            "an earlier end time"
-        )
+        cure = f"one that would do takes about {seconds / A_DAY:.2g} days; try a larger tolerance"
     elif by_time < by_steps:
-        enough = f"max_time = {seconds:.3g} would do"
-    return f"the budget was too small for {need}; {enough}"
+        cure = f"max_time = {seconds:.3g} would do"
+    return f"the budget was too small for {need}; {cure}"

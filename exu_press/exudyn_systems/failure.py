@@ -41,8 +41,8 @@ def why_not_converged(refinement: Refinement) -> str:
         latest = max(failures, key=lambda level: level.end)
         where = f"every level{' but coarser ones' * bool(levels)}"
         steps = ", ".join(str(level.steps) for level in failures)
-        last = f"at the latest at {latest.end:.4g} s: {latest.failure}"
-        return f"Newton's method fails at {where} ({steps} steps), {last}"
+        when = f"at the latest at {latest.end:.4g} s: {latest.failure}"
+        return f"Newton's method fails at {where} ({steps} steps), {when}"
     if len(levels) < 2:
         return _small_budget(refinement, LEVELS, 4 * refinement.failures[-1].steps)
     worst = int(refinement.differences(*levels[-2:]).max(axis=0).argmax())

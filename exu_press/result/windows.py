@@ -77,9 +77,11 @@ def settled_part(run: Result) -> Result:
     begin, end = np.interp(
         start + 2.0 * np.pi * np.array([settle_revolutions, last]), angle, run.time
     )
-    part = interpolated_window(run, float(begin), float(end))
+    settled = interpolated_window(run, float(begin), float(end))
     energies = [name for name, unit in run.units.items() if unit == "J"]
-    return part.map_values(lambda name, values: values - values[0] if name in energies else values)
+    return settled.map_values(
+        lambda name, values: values - values[0] if name in energies else values
+    )
 
 
 def interpolated_window(run: Result, begin: float, end: float) -> Result:

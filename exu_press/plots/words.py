@@ -29,9 +29,9 @@ def describe(scenes: Iterable[Scene], width: float = 130) -> str:
     scenes = list(scenes)
     kinds = [_kinds_of_joints(scene) for scene in scenes]
     joints = kinds[0] if all(kind == kinds[0] for kind in kinds) else _common_of_joints(scenes)
-    first, *remaining = (dict.fromkeys(_phrases(scene, joints)) for scene in scenes)
-    common = (text for text in first if all(text in phrases for phrases in remaining))
-    return _join_wrapped(common, width)
+    first, *further = (list(_phrases(scene, joints)) for scene in scenes)
+    shared = [text for text in first if all(text in phrases for phrases in further)]
+    return _join_wrapped(shared, width)
 
 
 def early_stops(results: Mapping[str, Result], width: int = 130) -> str:
@@ -137,8 +137,8 @@ def _common_of_joints(scenes: Sequence[Scene]) -> list[str]:
         if len(clearances) == 1:
             text = f"radial clearance {clearances.pop() * 1e3:g} mm"
             is_group = any(name in scene.joints.groups for scene in scenes)
-            words = words.removesuffix("s") if is_group and len(names) <= FEW else words
-            common.append((words, text))
+            singular = words.removesuffix("s") if is_group and len(names) <= FEW else words
+            common.append((singular, text))
     if len(names) <= FEW:
         return [f"{joint} {text}" for joint, text in common]
     alike: dict[str, list[str]] = {}

@@ -104,8 +104,7 @@ class Info(TypedDict):
         law_evaluations: how often the clearance joints' forces were asked for.
         stress: of the flexible bodies with modes, by name.
         solids: of the flexible bodies, by name.
-        added_revolutions: how many more than asked for were run until films had settled, its own
-            or those of a run that it is compared with.
+        added_revolutions: how many more than asked for were run until films had settled.
         coordinates: of the model.
         bodies: of the model.
         connectors: of the model.

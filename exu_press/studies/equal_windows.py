@@ -1,5 +1,6 @@
 """Runs that are read from the same revolutions."""
 
+import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
@@ -39,32 +40,34 @@ def simulate_equal_windows(
     """Yield label and result of each scene, as `simulate_side_by_side` does.
 
     Scenes whose oil warms are first: where revolutions are added until films have settled, all
-    other scenes with a `settle` get as many, so that all are read from the same ones.
+    other scenes with a `settle` get as many, with a warning, so that all are read from the same.
+    A scene whose films have settled in fewer comes again.
     """
     warming = {label: scene for label, scene in scenes.items() if scene.warms}
-    warm = dict(simulate_side_by_side(warming, errors=errors, quiet=quiet))
-    added = {label: run.info.get("added_revolutions", 0) for label, run in warm.items()}
-    most = max(added.values(), default=0)
-    yield from ((label, run) for label, run in warm.items() if added[label] == most)
-    remaining = {
-        label: _with_added(scene, most)
-        for label, scene in scenes.items()
-        if added.get(label) != most
-    }
-    for label, run in simulate_side_by_side(remaining, errors=errors, quiet=quiet):
-        if remaining[label] is not scenes[label]:
-            further = most + run.info.get("added_revolutions", 0)
-            run = replace(run, info={**run.info, "added_revolutions": further})
+    added: dict[str, int] = {}
+    for label, run in simulate_side_by_side(warming, errors=errors, quiet=quiet):
+        added[label] = run.info.get("added_revolutions", 0)
         yield label, run
+    most = max(added.values(), default=0)
+    remaining = {label: scene for label, scene in scenes.items() if added.get(label) != most}
+    longer = {
+        label: _with_added(scene, most)
+        for label, scene in remaining.items()
+        if most and scene.settle_revolutions
+    }
+    if longer:
+        warnings.warn(
+            f"{', '.join(longer)}: {most} revolution{'s' * (most > 1)} more than asked for, as "
+            "films of the runs beside them settle in as many",
+            stacklevel=2,
+        )
+    yield from simulate_side_by_side(remaining | longer, errors=errors, quiet=quiet)
 
 
 def _with_added(scene: Scene, revolutions: int) -> Scene:
-    """Return a scene that is read from so many revolutions later, if it has a `settle`."""
-    settle = scene.settle_revolutions
-    if not revolutions or not settle:
-        return scene
-    change = {"settle": settle + revolutions, "revolutions": scene.revolutions + revolutions}
-    return scene.replace(change)
+    """Return a scene that is read from so many revolutions later."""
+    settle = scene.settle_revolutions + revolutions
+    return scene.replace({"settle": settle, "revolutions": scene.revolutions + revolutions})
 
 
 def with_equal_windows(results: Mapping[str, Result]) -> tuple[Mapping[str, Result], str]:

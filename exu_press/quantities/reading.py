@@ -12,7 +12,7 @@ from exu_press.numerics.piecewise import integral
 from exu_press.quantities.alternating import Peaks, peaks
 from exu_press.quantities.dead_centre import DeadCentre, bottom_dead_centres
 from exu_press.result import Result
-from exu_press.result.windows import settled_part, whole_revolutions
+from exu_press.result.windows import NEARLY, settled_part, whole_revolutions
 from exu_press.scene import mechanism_of
 
 __all__ = ["Reading"]
@@ -120,7 +120,10 @@ class Reading:
         if not self.revolutions:
             return None
         angle = self["crank_angle"]
-        return float(np.interp(angle[-1] - 2.0 * np.pi * self.revolutions, angle, self.time))
+        begin = angle[-1] - 2.0 * np.pi * self.revolutions
+        if begin - angle[0] <= 2.0 * np.pi * NEARLY:
+            return float(self.time[0])
+        return float(np.interp(begin, angle, self.time))
 
     @cached_property
     def speed_from(self) -> float | None:

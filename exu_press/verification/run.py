@@ -286,8 +286,7 @@ def _late_values(
     parts = {ratio: settled_part(run) for ratio, run in runs.items()}
     begin, end = parts[1.0].time[0], min(parts[1.0].time[-1], horizon)
     whole = Reading(runs[1.0]).whole
-    ends_whole = whole is not None and whole - begin <= SAME * (end - begin)
-    if end <= begin or ends_whole or min(len(run.time) for run in parts.values()) < 4:
+    if end <= begin or whole == begin or min(len(run.time) for run in parts.values()) < 4:
         return []
     instants = np.linspace(begin + LATE * (end - begin), end, INSTANTS, endpoint=False)
     return [

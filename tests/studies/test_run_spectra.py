@@ -50,6 +50,10 @@ def test_at_constant_speed_lines_over_frequency_are_those_over_orders(ideal):
     listed = [float(line.split()[2]) for line in lines if line.startswith("    ")]
     assert min(listed) > one.over_time.error
     assert "lies below the resolution" not in lines[-1]
+    twisted = ideal.with_values({"crank_angle": ideal["crank_angle"] * (1.0 - 5e-6)})
+    order = spectra(twisted)[0].over_angle
+    assert order.frequency.tolist() == one.over_angle.frequency.tolist()
+    assert order.amplitude[1] == pytest.approx(one.over_angle.amplitude[1], rel=1e-4)
 
 
 def test_a_single_revolution_tells_its_largest_orders(ideal):

@@ -8,7 +8,7 @@ from docutils.parsers.rst import Directive
 
 from exu_press import Scene, simulate
 from exu_press.cli.options import scene_path
-from exu_press.report.run import run_report
+from exu_press.report.run_report import run_report
 
 __all__ = ["setup"]
 

@@ -5,11 +5,13 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
+from exu_press.errors import InputError
 from exu_press.files.output_directory import remove_partial
 from exu_press.plots.format import picture_format
 from exu_press.result import Result
 from exu_press.result.channels import is_on_disk
 from exu_press.scene import Scene, mechanism_of
+from exu_press.terminal.interrupt import postponed_interrupt
 from fe_models.processes import performed_beside
 from fe_models.temporary import TemporaryFolder
 
@@ -41,8 +43,9 @@ class PicturesBeside:
     def draw_early(self, run: Result) -> None:
         """Draw the pictures of a run that show no errors, which are not known yet."""
         if run.completed and not is_on_disk(run.channels):
-            self._begun.append(self._begin(_draw_early, run, self._folder))
-            self._drawn_early = run.scene
+            with postponed_interrupt():  # half a request would spoil the next one
+                self._begun.append(self._begin(_draw_early, run, self._folder))
+                self._drawn_early = run.scene
 
     def draw(self, run: Result, directory: Path) -> Callable[[], list[Path]]:
         """Draw all pictures of a run; return what returns their files."""
@@ -85,7 +88,10 @@ def _prepare(scene: Scene) -> list[Path]:
 def _draw_early(run: Result, folder: Path) -> list[Path]:
     from exu_press.plots.save import save_early_pictures
 
-    return save_early_pictures(run, folder)
+    try:
+        return save_early_pictures(run, folder)
+    except InputError:  # no room; it is drawn later
+        return []
 
 
 def _draw(run: Result, directory: Path, early: Path | None = None) -> list[Path]:

@@ -43,6 +43,8 @@ from exu_press.verification.refinement import RefinementRuns, plan
 
 __all__ = ["errors_of", "largest_values", "simulate_with_errors", "with_errors"]
 
+Finished = Callable[[Result], object]
+
 Numbers = Mapping[float, Mapping[str, float]]
 """Quantities of the run and its refinements, by the ratio of their errors to the run's."""
 
@@ -85,7 +87,7 @@ def simulate_with_errors(
     quiet: bool = True,
     beside: bool = True,
     interruptible: bool = False,
-    finished: Callable[[Result], object] = lambda run: None,
+    finished: Finished = lambda run: None,
 ) -> Result:
     """Simulate, with refinement runs.
 
@@ -96,7 +98,7 @@ def simulate_with_errors(
             where all cores have their runs already.
         interruptible: Ctrl-C raises KeyboardInterrupt; else it ends the run early, or leaves it
             without errors.
-        finished: called with the run before its errors are known.
+        finished: called with the run before its errors are known, where these come beside it.
 
     Returns:
         The result; `info` and summary have `errors`, quantity by quantity, `horizon` and
@@ -107,15 +109,16 @@ def simulate_with_errors(
         run = run_once(scene, start=start, unfinished=unfinished, quiet=quiet, settling=settling)
         if interruptible and run.info["status"] == SolverStatus.INTERRUPTED.value:
             raise KeyboardInterrupt
-        finished(run)
         return run
 
     if scene.warms or not beside:  # refinements of films have as many revolutions as they settle in
         run = first_run(settling=True)
-        return with_errors(run, start=start, beside=beside, interruptible=interruptible)
+        return with_errors(
+            run, start=start, beside=beside, interruptible=interruptible, finished=finished
+        )
     with RefinementRuns(scene, start) as refinements:
         run = first_run(settling=False)
-        return _with_refinements(run, refinements, interruptible=interruptible)
+        return _with_refinements(run, refinements, finished, interruptible=interruptible)
 
 
 def with_errors(
@@ -124,6 +127,7 @@ def with_errors(
     start: State | None = None,
     beside: bool = True,
     interruptible: bool = False,
+    finished: Finished = lambda run: None,
 ) -> Result:
     """Return a result with the errors of its figures, by refinement runs of its scene."""
     if not result.completed:
@@ -132,17 +136,18 @@ def with_errors(
         runs = ((r, run_once(scene, start=start)) for r, scene in plan(result.scene).items())
         return _with_errors_of(result, runs)
     with RefinementRuns(result.scene, start) as refinements:
-        return _with_refinements(result, refinements, interruptible=interruptible)
+        return _with_refinements(result, refinements, finished, interruptible=interruptible)
 
 
 def _with_refinements(
-    result: Result, refinements: RefinementRuns, *, interruptible: bool = False
+    result: Result, refinements: RefinementRuns, finished: Finished, *, interruptible: bool
 ) -> Result:
     """Return a result with its errors, or without any if refinements failed.
 
     A warning says why, or the result's reason where a disk is full.
     """
     try:
+        finished(result)
         return _with_errors_of(result, refinements.results() if result.completed else ())
     except DiskFullError as error:
         without = _with_errors_of(result, ())

@@ -122,6 +122,21 @@ def test_ctrl_c_while_a_finished_run_is_stored_loses_nothing(tmp_path, capsys, m
     assert {path.name for path in tmp_path.iterdir()} == {"run.nc", "summary.json", ".lock"}
 
 
+def test_ctrl_c_before_its_errors_are_known_leaves_a_run_without_them(
+    tmp_path, capsys, monkeypatch
+):
+    def draw_early(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("exu_press.cli.pictures_beside.PicturesBeside.draw_early", draw_early)
+    monkeypatch.setattr("exu_press.plots.save_pictures", lambda *_: [])
+    monkeypatch.setattr("fe_models.processes.may_copy", lambda: False)
+    arguments = ["run", "slider_crank", "--set", "revolutions=0.01", "--quiet"]
+    with pytest.warns(UserWarning, match="no errors of the quantities are known: interrupted"):
+        assert main([*arguments, "--out", str(tmp_path)]) == 0
+    assert not Result.load(tmp_path / "run.nc").info["errors"]
+
+
 @pytest.mark.parametrize("size", [100, 200_000_000])
 def test_a_result_is_no_scene(size, tmp_path, capsys):
     with (tmp_path / "run.nc").open("wb") as file:

@@ -19,6 +19,8 @@ from exu_press.errors import InputError, error_prefix
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import (
     COMPARED,
+    COMPARISON_FILE,
+    RUN_FILE,
     folder_name,
     output_directory,
     remove_pictures,
@@ -51,10 +53,6 @@ __all__ = ["EXAMPLE", "add_arguments", "execute"]
 
 EXAMPLE = "exu-press compare press my_press.toml out/first/run.nc --out out/compare"
 
-RESULT = "run.nc"
-
-COMPARISON = "comparison.json"
-
 CURVES = ".csv"
 """Ending of the files of measured curves, and of a table of all quantities."""
 
@@ -69,7 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         metavar="A",
         help="a scene file, the name of a shipped scene ("
-        f"{', '.join(shipped_names())}), a {RESULT} or the directory of one, or a CSV file of a "
+        f"{', '.join(shipped_names())}), a {RUN_FILE} or the directory of one, or a CSV file of a "
         "measurement with a head as time (s),slider_acceleration (m/s^2); one scene alone is "
         "compared with ideal, dry and lubricated joints, with rigid and with flexible bodies",
     )
@@ -112,7 +110,7 @@ def execute(options: argparse.Namespace) -> int:
     target = directory_of(options, options.given[0] if len(options.given) == 1 else "compare")
     sources = {file.resolve() for file in (*files, *map(_file_of, runs))}
     for label in compared:
-        _check_replaceable(target / folder_name(label) / RESULT, sources)
+        _check_replaceable(target / folder_name(label) / RUN_FILE, sources)
     if options.csv is not None:
         _check_table(options.csv, target, sources)
     with lock_directory(output_directory(target)) as directory:
@@ -142,7 +140,7 @@ def execute(options: argparse.Namespace) -> int:
             for warning in summary["warnings"]:
                 labels.setdefault(warning, []).append(label)
         texts = (f"{', '.join(names)}: {warning}" for warning, names in labels.items())
-        show_warnings(texts, directory / COMPARISON)
+        show_warnings(texts, directory / COMPARISON_FILE)
         print(f"written to {directory}")
     stopped = {label: s["reason"] for label, s in summaries.items() if s["reason"]}
     for label, reason in stopped.items():
@@ -199,10 +197,10 @@ def _run_all(
         remove_pictures(folders[label], "run")
         with replacing(folders[label] / COMPARED):
             pass
-        result.save(folders[label] / RESULT)
+        result.save(folders[label] / RUN_FILE)
         write_json(folders[label] / "summary.json", summaries[label])
         in_order = {name: summaries[name] for name in compared if name in summaries}
-        write_json(directory / COMPARISON, in_order)
+        write_json(directory / COMPARISON_FILE, in_order)
     return {label: results[label] for label in compared}, in_order
 
 
@@ -211,7 +209,7 @@ def _label(name: str, labels: Iterable[str]) -> str:
 
     Folders differ on systems, too, that do not tell large letters from small ones.
     """
-    taken = {folder_name(label).casefold() for label in (*labels, COMPARISON, MEASURED)}
+    taken = {folder_name(label).casefold() for label in (*labels, COMPARISON_FILE, MEASURED)}
     numbered = (f"{name} {number}" for number in itertools.count(2))
     return next(
         label
@@ -251,12 +249,12 @@ def _load_items(
             item: Scene | Result = Result.load(file)
         elif Path(name).is_file() and Path(name).suffix not in SCENES:
             raise InputError(
-                f"{name}: allowed is a scene (.toml), a {RESULT} or the directory of one, or a "
+                f"{name}: allowed is a scene (.toml), a {RUN_FILE} or the directory of one, or a "
                 f"measurement ({CURVES})"
             )
         else:
             item = Scene.load(scene_path(name), assignments, allow_code=allow_code)
-        label = file.resolve().parent.name if file.name == RESULT else Path(name).stem
+        label = file.resolve().parent.name if file.name == RUN_FILE else Path(name).stem
         items[_label(label, items)] = item
     scenes = [item for item in items.values() if isinstance(item, Scene)]
     if assignments and not scenes:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from exu_press.errors import InputError
 from exu_press.files.digests import file_digest
-from exu_press.files.output_directory import checkpoint_directory
+from exu_press.files.output_directory import RUN_FILE, checkpoint_directory
 from exu_press.mechanism import Mechanism
 from exu_press.model.state import State
 from exu_press.result import Result
@@ -15,9 +15,7 @@ from exu_press.result.checkpoint import has_blocks
 from exu_press.scene import Scene, mechanism_of
 from exu_press.scene.bodies import OF_FILES, Flexible
 
-__all__ = ["RESULT", "start_path", "start_state", "with_start"]
-
-RESULT = "run.nc"
+__all__ = ["start_path", "start_state", "with_start"]
 
 OF_THE_START = "start", "start_angle_deg"
 """Keys that do nothing where a run goes on from another one."""
@@ -40,7 +38,7 @@ def start_path(name: str) -> Path:
     In the directory of a run, what a killed one has left is newer than the result beside it.
     """
     path = Path(name)
-    file = path / RESULT if path.is_dir() else path
+    file = path / RUN_FILE if path.is_dir() else path
     blocks = path if has_blocks(path) else checkpoint_directory(file)
     return blocks if has_blocks(blocks) and (path.is_dir() or not path.exists()) else file
 

@@ -9,7 +9,7 @@ from contextlib import ExitStack, nullcontext
 from itertools import chain
 from pathlib import Path
 
-from exu_press.cli.continuation import RESULT, start_path, start_state, with_start
+from exu_press.cli.continuation import start_path, start_state, with_start
 from exu_press.cli.options import (
     add_error_argument,
     add_scene_arguments,
@@ -22,6 +22,7 @@ from exu_press.errors import InputError
 from exu_press.files.lock import lock_directory
 from exu_press.files.output_directory import (
     COMPARED,
+    RUN_FILE,
     checkpoint_directory,
     output_directory,
     remove_pictures,
@@ -129,10 +130,10 @@ def _make_room(directory: Path, start: Path | None, options: argparse.Namespace)
     Raises:
         InputError: it would be deleted, or blocks of another run would.
     """
-    unfinished = checkpoint_directory(directory / RESULT)
+    unfinished = checkpoint_directory(directory / RUN_FILE)
     resolved = None if start is None else start.resolve()
     goes_on = resolved == unfinished.resolve()
-    if resolved == (directory / RESULT).resolve() or (goes_on and options.overwrite):
+    if resolved == (directory / RUN_FILE).resolve() or (goes_on and options.overwrite):
         raise InputError(
             f"--from {start}: this run would delete the one that it goes on from; allowed is "
             "another directory: choose it with --out"
@@ -205,7 +206,7 @@ def _run(
     doubts = scene_warnings(scene)
     if not options.quiet:  # a drawing in mm may run for long
         show_warnings(doubts, directory / "summary.json")
-    unfinished = checkpoint_directory(directory / RESULT)
+    unfinished = checkpoint_directory(directory / RUN_FILE)
     start = _make_room(directory, start, options)
     if options.within is not None:
         delivered = find_tolerance(scene, options.within, options.figure, quiet=options.quiet)
@@ -222,7 +223,7 @@ def _run(
         remarks = [remark] if remark else []
     if start is not None:
         result = with_start(result, start)
-    written = [directory / RESULT, directory / "summary.json"]
+    written = [directory / RUN_FILE, directory / "summary.json"]
     with ExitStack() as stack:
         with postponed_interrupt():
             summary = result.summary()

@@ -14,9 +14,11 @@ from fe_models.errors import disk_full
 
 __all__ = [
     "COMPARED",
+    "COMPARISON_FILE",
     "FORMATS",
     "PICTURES",
     "REPORT_FILE",
+    "RUN_FILE",
     "check_writable",
     "checkpoint_directory",
     "folder_name",
@@ -43,8 +45,8 @@ PICTURES = {
 COMPARED = ".compared"
 """File in the directory of a run that a comparison wrote, and the next one may replace."""
 
-REPORT_FILE = "report.json"
-"""File of a report in the directory of its study; a page is made of it."""
+RUN_FILE, COMPARISON_FILE, REPORT_FILE = "run.nc", "comparison.json", "report.json"
+"""File of a run, of a comparison and of a study in its directory, of which a page is made."""
 
 
 def output_directory(path: str | Path) -> Path:

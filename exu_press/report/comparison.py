@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import folder_name
+from exu_press.files.output_directory import RUN_FILE, folder_name
 from exu_press.plots import save_comparison
 from exu_press.plots.words import ONE_LINE, describe
 from exu_press.quantities.table import with_headings
@@ -108,4 +108,4 @@ def _runs(file: Path) -> dict[str, Path]:
     for label, name in names.items():
         if Path(name).name != name or not name.isprintable():
             raise InputError(f"{file}: {short_text(label)}: allowed is the name of a variant")
-    return {label: file.parent / name / "run.nc" for label, name in names.items()}
+    return {label: file.parent / name / RUN_FILE for label, name in names.items()}

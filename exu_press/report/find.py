@@ -4,7 +4,12 @@ from enum import Enum
 from pathlib import Path
 
 from exu_press.errors import InputError
-from exu_press.files.output_directory import REPORT_FILE, checkpoint_directory
+from exu_press.files.output_directory import (
+    COMPARISON_FILE,
+    REPORT_FILE,
+    RUN_FILE,
+    checkpoint_directory,
+)
 from exu_press.report.page_file import ALL, Span
 
 __all__ = ["Kind", "find_output", "find_run", "report_of"]
@@ -13,8 +18,8 @@ __all__ = ["Kind", "find_output", "find_run", "report_of"]
 class Kind(Enum):
     """Kinds of output with a page, by the name of a file."""
 
-    RUN = "run.nc"
-    COMPARISON = "comparison.json"
+    RUN = RUN_FILE
+    COMPARISON = COMPARISON_FILE
     STUDY = REPORT_FILE
 
 

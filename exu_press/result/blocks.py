@@ -76,11 +76,7 @@ def block_by_block(
             may_add = settling and added < MOST_ADDED and block.completed
             if may_add and _needs_revolution(model, scene, remaining):
                 remaining, added = remaining + 1.0, added + 1
-                later = {
-                    "revolutions": scene.revolutions + 1.0,
-                    "settle": scene.settle_revolutions + 1.0,
-                }
-                scene = scene.replace(later)
+                scene = scene.read_later(1.0)
             ended = remaining < _negligible_rest(scene) or model.has_stood(block.info["end_time"])
             if ended or not block.completed or steps < 1:
                 break

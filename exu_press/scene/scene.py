@@ -635,6 +635,11 @@ class Scene(Table):
         """Whether the oil of a film warms."""
         return any(oil_of(joint) is not None for joint in self.joints.values())
 
+    def read_later(self, revolutions: float) -> "Scene":
+        """Return a scene that settles, and ends, so many revolutions later."""
+        changes = {"settle": self.settle_revolutions, "revolutions": self.revolutions}
+        return self.replace({name: value + revolutions for name, value in changes.items()})
+
     @property
     def duration(self) -> float:
         """Length of the run, s."""

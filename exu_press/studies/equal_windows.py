@@ -51,7 +51,7 @@ def simulate_equal_windows(
     most = max(added.values(), default=0)
     remaining = {label: scene for label, scene in scenes.items() if added.get(label) != most}
     longer = {
-        label: _with_added(scene, most)
+        label: scene.read_later(most)
         for label, scene in remaining.items()
         if most and scene.settle_revolutions
     }
@@ -62,12 +62,6 @@ def simulate_equal_windows(
             stacklevel=2,
         )
     yield from simulate_side_by_side(remaining | longer, errors=errors, quiet=quiet)
-
-
-def _with_added(scene: Scene, revolutions: int) -> Scene:
-    """Return a scene that is read from so many revolutions later."""
-    settle = scene.settle_revolutions + revolutions
-    return scene.replace({"settle": settle, "revolutions": scene.revolutions + revolutions})
 
 
 def with_equal_windows(results: Mapping[str, Result]) -> tuple[Mapping[str, Result], str]:

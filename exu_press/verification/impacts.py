@@ -6,21 +6,21 @@ import numpy as np
 
 from exu_press.quantities.joints import contact_onsets
 from exu_press.result import Result
-from exu_press.result.windows import settled_part
 
 __all__ = ["are_doubtful"]
 
 
-def are_doubtful(joint: str, result: Result, refinements: Mapping[float, Result]) -> bool:
+def are_doubtful(joint: str, run: Result, refinements: Mapping[float, Result]) -> bool:
     """Return whether surfaces touch more or less often if the gap is off by its error.
 
     Runs agree on a count by chance where a touch, or the flight between two, is no higher than
     their errors.
 
     Args:
+        joint: its name.
+        run: the part of it from which quantities are read.
         refinements: ratio of errors to the run's, see `error_ratio` -> run.
     """
-    run = settled_part(result)
     onset, gap = run.scene.joints[joint].onset, run.joints[joint].gap
     assert onset is not None
     errors = [

@@ -142,9 +142,8 @@ def read_a_revolution_earlier(run: Result) -> Result:
     ):
         return run
     last = float(np.interp(angle[-1] - 2.0 * np.pi, angle, run.time))
-    changes = {"revolutions": scene.revolutions - 1.0, "settle": scene.settle_revolutions - 1.0}
     shortened = up_to(run, last)
-    object.__setattr__(shortened, "scene", scene.replace(changes))  # a copy that nobody else has
+    object.__setattr__(shortened, "scene", scene.read_later(-1.0))  # a copy that nobody else has
     return shortened
 
 

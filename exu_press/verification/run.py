@@ -204,6 +204,7 @@ def errors_of(
     late = _late_values(runs, horizon, oscillating) if diverging.distances else []
     sizes, arm = largest_values(whole[1.0], declared), mechanism_of(result.scene).size
     errors: dict[str, Error] = {}
+    settled = settled_part(result)
     for name, value in whole[1.0].items():
         quantity = declared[name].quantity
         of_all_runs = [values[name] for values in whole.values() if name in values]
@@ -214,7 +215,7 @@ def errors_of(
         error = _error(name, quantity, whole, begin, beyond_horizon, least + reading, diverging)
         if quantity.kind is COUNT:
             is_impacts = quantity.name == IMPACTS.name
-            doubtful = is_impacts and are_doubtful(declared[name].owner, result, complete)
+            doubtful = is_impacts and are_doubtful(declared[name].owner, settled, complete)
             error = whole_error(value, error, doubtful)
         if value >= 0.0 and not quantity.signed:
             error["low"] = max(error["low"], 0.0)
